@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// Cost is counted while running, never typed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// A system that counts its force evaluations; everything else is the wrapped system's.
+/// Not for several threads at once: each thread counts with its own copy.
+template <System S>
+struct counted : S {
+  explicit counted(const S& system) : S(system) {}
+
+  template <class T>
+    requires SystemOver<S, T>
+  void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
+    ++evaluations;
+    nysalt::force<T>(static_cast<const S&>(*this), q, f);
+  }
+
+  std::string description() const { return describe(static_cast<const S&>(*this)); }
+
+  mutable std::int64_t evaluations = 0;
+};
+
+}  // namespace nysalt

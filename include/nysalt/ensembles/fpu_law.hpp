@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "nysalt/ensemble.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+
+namespace nysalt {
+
+/// Nearly harmonic states of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 = y_0 = 1 and
+/// x_1 = 1/omega + zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation 1/omega.
+template <int Pairs>
+class fpu_law {
+ public:
+  explicit fpu_law(const fpu_chain<Pairs>& chain) : pairs_(chain.pairs()), omega_(chain.omega()) {}
+
+  phase_point<double, fpu_chain<Pairs>::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
+    using state = vector<double, fpu_chain<Pairs>::dimension>;
+    phase_point<double, fpu_chain<Pairs>::dimension> start{state(2 * pairs_), state(2 * pairs_)};
+    const double half = std::sqrt(0.5);
+    for (Eigen::Index i = 0; i < pairs_; ++i) {
+      const auto [zeta, eta] =
+          standard_normals(seed, n, static_cast<std::uint32_t>(i), noise_purpose::initial_state);
+      const double x1 = (1.0 + zeta) / omega_;
+      const double y1 = 1.0 + eta / omega_;
+      start.q[2 * i] = (1.0 - x1) * half;
+      start.q[2 * i + 1] = (1.0 + x1) * half;
+      start.p[2 * i] = (1.0 - y1) * half;
+      start.p[2 * i + 1] = (1.0 + y1) * half;
+    }
+    return start;
+  }
+  std::string description() const { return fmt::format("fpu_law(omega={})", omega_); }
+
+ private:
+  Eigen::Index pairs_;
+  double omega_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/ensemble.hpp"
+
+namespace nysalt {
+
+/// Given states, in their order; the seed is of no account.
+template <int N>
+class listed {
+ public:
+  explicit listed(std::vector<phase_point<double, N>> states) : states_(std::move(states)) {}
+
+  /// Throws std::out_of_range beyond the last state.
+  phase_point<double, N> operator()(std::uint64_t, std::uint64_t n) const {
+    if (n >= states_.size()) {
+      throw std::out_of_range(fmt::format("listed: start {} was asked for, {} are given", n + 1, states_.size()));
+    }
+    return states_[n];
+  }
+  std::string description() const { return fmt::format("listed({} states)", states_.size()); }
+
+ private:
+  std::vector<phase_point<double, N>> states_;
+};
+
+}  // namespace nysalt

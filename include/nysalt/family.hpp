@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+// A family of methods: one word, whose coefficients are functions of a few parameters.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <concepts>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "nysalt/word.hpp"
+
+namespace nysalt {
+
+/// Where a parameter may lie. Open: the coefficients are not defined at the ends. Closed: the ends may be
+/// attained.
+struct parameter_range {
+  double low;
+  double high;
+  bool open;
+
+  bool contains(double x) const { return open ? low < x && x < high : low <= x && x <= high; }
+};
+
+template <class F>
+using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
+
+/// theta -> coefficients of a fixed word, over double and over derivatives with respect to theta:
+///   word, name, parameters, parameter_names
+///   order, symmetric, requires_quadratic_kinetic   what holds for every theta
+///   ranges(), start()                              where theta may lie, and where a search begins
+///   coefficients(theta)                            over any scalar
+template <class F>
+concept Family =
+    Word<typename F::word> && requires(const parameters_of<F>& theta) {
+      { F::name } -> std::convertible_to<std::string_view>;
+      { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
+      { F::order } -> std::convertible_to<int>;
+      { F::symmetric } -> std::convertible_to<bool>;
+      { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
+      { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
+      { F::start() } -> std::same_as<parameters_of<F>>;
+      { F::coefficients(theta) } -> std::same_as<std::array<double, F::word::length>>;
+    };
+
+/// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
+template <Family F>
+void require_in_range(const parameters_of<F>& theta) {
+  const auto ranges = F::ranges();
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    if (ranges[k].contains(theta[k])) continue;
+    const auto [low, high, open] = ranges[k];
+    throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", F::name,
+                                            F::parameter_names[k], open ? '(' : '[', low, high, open ? ')' : ']',
+                                            theta[k]));
+  }
+}
+
+}  // namespace nysalt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+// An elementary flow: one letter of a method.
+#pragma once
+
+#include <concepts>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// What a letter acts on: q and p, and f, which holds force(q) where the word knows it.
+template <Scalar T, int N>
+struct flow_state {
+  vector<T, N> q;
+  vector<T, N> p;
+  vector<T, N> f;
+};
+
+/// The flow of an exactly solvable part of the Hamiltonian over the time c h:
+///   letter         its name in words, see docs/notation.md
+///   reads_force    f = force(q) must hold when it is applied
+///   moves_q        f is stale afterwards
+///   additive       the flows over c h and d h compose to that over (c + d) h, so equal neighbours merge
+///   prepare(c, h)  folds the step into the coefficient, once per run
+///   apply(system, prepared, state)
+template <class L>
+concept Flow = requires {
+  { L::letter } -> std::convertible_to<char>;
+  { L::reads_force } -> std::convertible_to<bool>;
+  { L::moves_q } -> std::convertible_to<bool>;
+  { L::additive } -> std::convertible_to<bool>;
+  L::prepare(1.0, 1.0);
+};
+
+}  // namespace nysalt

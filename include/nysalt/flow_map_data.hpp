@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSL-1.0
+// The flow map at one step, in pairs of states: what is learned from.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/counted.hpp"
+#include "nysalt/ensemble.hpp"
+#include "nysalt/reference.hpp"
+
+namespace nysalt {
+
+/// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory.
+template <int N>
+struct flow_map_data {
+  std::vector<phase_point<double, N>> start;
+  std::vector<phase_point<double, N>> finish;
+  std::vector<std::size_t> first_of;  // trajectory m holds the pairs first_of[m] .. first_of[m + 1] - 1
+
+  double step = 0.0;
+  // A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
+  std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
+
+  // Provenance.
+  std::string system;
+  std::string ensemble;
+  std::string reference;
+  std::uint64_t seed = 0;
+  std::int64_t evaluations = 0;  // force evaluations that it took, checks included
+  double seconds = 0.0;
+
+  std::size_t pairs() const { return start.size(); }
+  std::size_t trajectories() const { return first_of.size() - 1; }
+};
+
+struct data_options {
+  double step;                      // the step to learn for
+  double horizon = 0.5;             // length of each trajectory
+  std::int64_t trajectories = 100;  // independent starts
+  std::uint64_t seed = 1;
+};
+
+/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each.
+/// Throws std::invalid_argument if there is not one step or trajectory, std::runtime_error if a state is
+/// not finite. Memory: two states a pair.
+template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
+flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
+                                               const data_options& options) {
+  constexpr std::int64_t checks = 16;  // enough for the size of an error
+  const auto began = std::chrono::steady_clock::now();
+  if (!(options.step > 0.0) || !std::isfinite(options.step)) {
+    throw std::invalid_argument(fmt::format("flow_map_data: the step must be positive, got {}", options.step));
+  }
+  const auto steps = static_cast<std::int64_t>(std::floor(options.horizon / options.step + 1e-9));
+  if (steps < 1 || options.trajectories < 1) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
+                    options.trajectories, options.horizon, options.step));
+  }
+  const counted<S> watched(system);
+  const auto total = static_cast<std::size_t>(options.trajectories * steps);
+  const std::size_t check_every = total / static_cast<std::size_t>(checks) + 1;
+  const R finer = reference.finer();
+
+  flow_map_data<S::dimension> data;
+  data.start.reserve(total);
+  data.finish.reserve(total);
+  for (std::int64_t m = 0; m < options.trajectories; ++m) {
+    data.first_of.push_back(data.pairs());
+    auto x = ensemble(options.seed, static_cast<std::uint64_t>(m));
+    for (std::int64_t n = 0; n < steps; ++n) {
+      if (data.pairs() % check_every == 0) {
+        data.finer.emplace_back(data.pairs(), x);
+        finer.advance(watched, data.finer.back().second, options.step);
+      }
+      data.start.push_back(x);
+      reference.advance(watched, x, options.step);
+      if (!is_finite(x)) {
+        throw std::runtime_error(
+            fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged", m,
+                        n + 1, reference.description()));
+      }
+      data.finish.push_back(x);
+    }
+  }
+  data.first_of.push_back(data.pairs());
+  data.step = options.step;
+  data.system = describe(system);
+  data.ensemble = ensemble.description();
+  data.reference = reference.description();
+  data.seed = options.seed;
+  data.evaluations = watched.evaluations;
+  data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return data;
+}
+
+}  // namespace nysalt

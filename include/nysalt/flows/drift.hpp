@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "nysalt/flow.hpp"
+
+namespace nysalt {
+
+/// A: the flow of K(p), q += c h grad K(p); with masses q_i += c h p_i / m_i.
+struct drift {
+  static constexpr char letter = 'A';
+  static constexpr bool reads_force = false;
+  static constexpr bool moves_q = true;
+  static constexpr bool additive = true;
+
+  template <Scalar C>
+  static C prepare(const C& c, double h) {
+    return c * h;
+  }
+
+  template <System S, Scalar T, CoefficientOf<T> C>
+  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x) {
+    const Eigen::Index n = size(system);
+    if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
+      auto v = make_vector<T>(system);
+      velocity<T>(system, x.p, v);
+      for (Eigen::Index i = 0; i < n; ++i) x.q[i] += v[i] * c;
+    } else if constexpr (HasInverseMass<S>) {
+      for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * (c * system.inverse_mass(i));
+    } else {
+      for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * c;
+    }
+  }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSL-1.0
+// A method: a word with its coefficients, and what it promises.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/family.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+///   word, coefficients(), name()
+///   order, symmetric                 as declared; measured in the tests
+///   requires_quadratic_kinetic       the order holds for K = p M^-1 p / 2 only
+template <class M>
+concept Method = Word<typename M::word> && requires(const M& method) {
+  { method.coefficients() } -> std::same_as<std::array<double, M::word::length>>;
+  { method.name() } -> std::convertible_to<std::string>;
+  { M::order } -> std::convertible_to<int>;
+  { M::symmetric } -> std::convertible_to<bool>;
+  { M::requires_quadratic_kinetic } -> std::convertible_to<bool>;
+};
+
+/// A family at a theta, usable at any step.
+template <Family F>
+class member {
+ public:
+  using family = F;
+  using word = typename F::word;
+  static constexpr int order = F::order;
+  static constexpr bool symmetric = F::symmetric;
+  static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
+
+  /// Throws std::invalid_argument if a parameter is out of its range.
+  explicit member(const parameters_of<F>& theta) : theta_(theta) { require_in_range<F>(theta); }
+
+  const parameters_of<F>& parameters() const { return theta_; }
+  std::array<double, word::length> coefficients() const { return F::coefficients(theta_); }
+  std::string name() const { return std::string(F::name); }
+
+ private:
+  parameters_of<F> theta_;
+};
+
+/// A member with the step and the system that it was learned for; it refuses any other.
+/// `anywhere()` gives the plain member to those who ask for it.
+template <Family F>
+class tuned_method {
+ public:
+  using family = F;
+  using word = typename F::word;
+  static constexpr int order = F::order;
+  static constexpr bool symmetric = F::symmetric;
+  static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
+
+  tuned_method(const member<F>& plain, double step, std::string system)
+      : member_(plain), step_(step), system_(std::move(system)) {}
+
+  const parameters_of<F>& parameters() const { return member_.parameters(); }
+  std::array<double, word::length> coefficients() const { return member_.coefficients(); }
+  std::string name() const { return "learned:" + member_.name(); }
+  double step() const { return step_; }
+  const std::string& system() const { return system_; }
+  const member<F>& anywhere() const { return member_; }
+
+  /// Throws std::invalid_argument at a step other than the learned one (to 1e-9 relative, as steps are
+  /// typed in decimals) or for another system.
+  void require_validity(const std::string& system, double step) const {
+    if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
+      throw std::invalid_argument(
+          fmt::format("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
+                      name(), step_, step));
+    }
+    if (system != system_) {
+      throw std::invalid_argument(fmt::format(
+          "{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(), system_, system));
+    }
+  }
+
+ private:
+  member<F> member_;
+  double step_;
+  std::string system_;
+};
+
+/// The stepper of a method on a system. Throws what the method's validity or the stepper refuses.
+template <System S, Method M>
+stepper<S, typename M::word> make_stepper(const S& system, const M& method, double step) {
+  static_assert(SeparableSystem<S>,
+                "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
+                "template or over double; see nysalt/system.hpp");
+  static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
+                "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
+                "kinetic energy of its own");
+  if constexpr (requires { method.require_validity(std::string(), step); }) {
+    method.require_validity(describe(system), step);
+  }
+  return stepper<S, typename M::word>(system, method.coefficients(), step);
+}
+
+}  // namespace nysalt

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/kick.hpp"
+#include "nysalt/palindrome.hpp"
+
+namespace nysalt {
+
+/// What all symmetric compositions of drifts and kicks have in common; a named method adds its name,
+/// order and cited coefficients.
+template <Flow Outer, Flow Inner, std::size_t Length>
+struct palindromic {
+  using word = alternating_word<Outer, Inner, Length>;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+};
+
+}  // namespace nysalt

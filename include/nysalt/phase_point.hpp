@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+// A point of phase space.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+#include "nysalt/scalar.hpp"
+
+namespace nysalt {
+
+/// A column of N scalars, N fixed or Eigen::Dynamic.
+template <class T, int N>
+using vector = Eigen::Matrix<T, N, 1>;
+
+/// Positions q and momenta p of one state, each of the system's dimension.
+template <Scalar T, int N>
+struct phase_point {
+  using scalar_type = T;
+  static constexpr int dimension = N;
+
+  vector<T, N> q;
+  vector<T, N> p;
+
+  Eigen::Index size() const { return q.size(); }
+
+  /// The same state in another scalar type (constants of it).
+  template <Scalar U>
+  phase_point<U, N> cast() const {
+    phase_point<U, N> result{vector<U, N>(size()), vector<U, N>(size())};
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      result.q[i] = U(q[i]);
+      result.p[i] = U(p[i]);
+    }
+    return result;
+  }
+};
+
+template <int N>
+bool is_finite(const phase_point<double, N>& x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x.q[i]) || !std::isfinite(x.p[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/method.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+
+namespace nysalt {
+
+/// Any method with a small step. SRKN11b (order 6) is the default: at omega h = 5e-3 its error is
+/// rounding. A second-order method needs a far smaller step, or what is learned is its error.
+template <Method M = srkn11b>
+class fine_steps {
+ public:
+  /// Throws std::invalid_argument unless the step is positive and finite.
+  explicit fine_steps(double step, const M& method = M{}) : step_(step), method_(method) {
+    if (!(step > 0.0) || !std::isfinite(step)) {
+      throw std::invalid_argument(fmt::format("fine_steps: the step must be positive and finite, got {}", step));
+    }
+  }
+
+  /// Throws std::invalid_argument unless t is a multiple of the step, to 1e-9 relative.
+  template <SeparableSystem S>
+  void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
+    const double ratio = t / step_;
+    const double steps = std::round(ratio);
+    if (!(steps >= 1.0) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
+      throw std::invalid_argument(fmt::format("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+    }
+    const auto fine = make_stepper(system, method_, t / steps);
+    auto run = fine.open(x);
+    fine.advance(run, static_cast<std::int64_t>(steps));
+    x = fine.synchronous(run);
+  }
+
+  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }
+  std::string description() const { return fmt::format("{} with step {}", method_.name(), step_); }
+
+ private:
+  double step_;
+  M method_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with step control [ahnert_mulansky_2011]: absolute and relative
+/// error of a step below the stated tolerance. For any kinetic energy, and independent of our own steps.
+class odeint_reference {
+ public:
+  /// Throws std::invalid_argument unless 0 < tolerance < 1.
+  explicit odeint_reference(double tolerance) : tolerance_(tolerance) {
+    if (!(tolerance > 0.0 && tolerance < 1.0)) {
+      throw std::invalid_argument(fmt::format("odeint_reference: the tolerance must lie in (0, 1), got {}", tolerance));
+    }
+  }
+
+  template <SeparableSystem S>
+  void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
+    namespace odeint = boost::numeric::odeint;
+    using state = std::vector<double>;  // q, then p
+    const Eigen::Index n = size(system);
+    auto q = x.q;
+    auto p = x.p;
+    auto rate = x.q;
+    const auto derivative = [&](const state& y, state& dydt, double) {
+      for (Eigen::Index i = 0; i < n; ++i) {
+        q[i] = y[static_cast<std::size_t>(i)];
+        p[i] = y[static_cast<std::size_t>(n + i)];
+      }
+      velocity<double>(system, p, rate);
+      for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(i)] = rate[i];
+      force<double>(system, q, rate);
+      for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(n + i)] = rate[i];
+    };
+    state y(x.q.begin(), x.q.end());
+    y.insert(y.end(), x.p.begin(), x.p.end());
+    using controlled = odeint::controlled_runge_kutta<odeint::runge_kutta_fehlberg78<state>>;
+    const controlled stepper(controlled::error_checker_type(tolerance_, tolerance_));
+    odeint::integrate_adaptive(stepper, derivative, y, 0.0, t, t / 16.0);  // a first guess, then controlled
+    for (Eigen::Index i = 0; i < n; ++i) {
+      x.q[i] = y[static_cast<std::size_t>(i)];
+      x.p[i] = y[static_cast<std::size_t>(n + i)];
+    }
+  }
+
+  double tolerance() const { return tolerance_; }
+  odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
+  std::string description() const {
+    return fmt::format("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);
+  }
+
+ private:
+  double tolerance_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a number must do so that a step can be taken with it.
+#pragma once
+
+#include <concepts>
+
+namespace nysalt {
+
+/// A field with double coefficients: double itself, a dual number, a truncated series, a ceres::Jet.
+/// What T is decides what a step computes; systems, flows and families never ask.
+template <class T>
+concept Scalar = std::copyable<T> && std::constructible_from<T, double> &&
+                 requires(T x, const T& a, const T& b, double c) {
+                   { a + b } -> std::same_as<T>;
+                   { a - b } -> std::same_as<T>;
+                   { a * b } -> std::same_as<T>;
+                   { a / b } -> std::same_as<T>;
+                   { -a } -> std::same_as<T>;
+                   { c * a } -> std::same_as<T>;
+                   { a * c } -> std::same_as<T>;
+                   x += b;
+                   x -= b;
+                 };
+
+/// A coefficient is a double or has the state's scalar type; nothing else compiles, so that
+/// mixed arithmetic cannot creep in.
+template <class C, class T>
+concept CoefficientOf = Scalar<C> && Scalar<T> && (std::same_as<C, double> || std::same_as<C, T>);
+
+}  // namespace nysalt

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSL-1.0
+// Forward derivatives: a value and its N first derivatives, computed together.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cmath>
+#include <compare>
+#include <concepts>
+
+#include "nysalt/scalar.hpp"
+
+namespace nysalt {
+
+/// value + sum_k derivative[k] e_k with e_j e_k = 0. T may itself be a dual (second derivatives).
+/// Cost: an operation on dual<T, N> is N + 1 to 2 N + 1 operations on T.
+template <Scalar T, int N>
+struct dual {
+  using value_type = T;
+  static constexpr int derivatives = N;
+
+  T value{};
+  std::array<T, N> derivative{};
+
+  dual() = default;
+  dual(double constant) : value(constant) { derivative.fill(T(0.0)); }
+  dual(const T& constant)
+    requires(!std::same_as<T, double>)
+      : value(constant) {
+    derivative.fill(T(0.0));
+  }
+
+  /// The k-th independent variable at x: its derivative is e_k.
+  static dual variable(const T& x, int k) {
+    dual result(x);
+    result.derivative[static_cast<std::size_t>(k)] = T(1.0);
+    return result;
+  }
+
+  dual& operator+=(const dual& b) { return *this = *this + b; }
+  dual& operator-=(const dual& b) { return *this = *this - b; }
+  dual& operator*=(const dual& b) { return *this = *this * b; }
+  dual& operator/=(const dual& b) { return *this = *this / b; }
+
+  friend dual operator+(const dual& a, const dual& b) {
+    return combine(a.value + b.value, a, b, [](const T& da, const T& db) -> T { return da + db; });
+  }
+  friend dual operator-(const dual& a, const dual& b) {
+    return combine(a.value - b.value, a, b, [](const T& da, const T& db) -> T { return da - db; });
+  }
+  friend dual operator*(const dual& a, const dual& b) {
+    return combine(a.value * b.value, a, b,
+                   [&](const T& da, const T& db) -> T { return da * b.value + a.value * db; });
+  }
+  friend dual operator/(const dual& a, const dual& b) {
+    const T quotient = a.value / b.value;
+    return combine(quotient, a, b,
+                   [&](const T& da, const T& db) -> T { return (da - quotient * db) / b.value; });
+  }
+  friend dual operator-(const dual& a) { return a.chain(-a.value, T(-1.0)); }
+
+  // With constants, which have no derivatives to carry.
+  friend dual operator+(const dual& a, double c) { return a.chain(a.value + c, T(1.0)); }
+  friend dual operator+(double c, const dual& a) { return a + c; }
+  friend dual operator-(const dual& a, double c) { return a.chain(a.value - c, T(1.0)); }
+  friend dual operator-(double c, const dual& a) { return a.chain(c - a.value, T(-1.0)); }
+  friend dual operator*(const dual& a, double c) {
+    return combine(a.value * c, a, a, [&](const T& da, const T&) -> T { return da * c; });
+  }
+  friend dual operator*(double c, const dual& a) { return a * c; }
+  friend dual operator/(const dual& a, double c) { return a * (1.0 / c); }
+  friend dual operator/(double c, const dual& a) { return dual(c) / a; }
+
+  // Order is that of the values: a branch is taken as it would be without derivatives.
+  friend auto operator<=>(const dual& a, const dual& b) { return a.value <=> b.value; }
+  friend bool operator==(const dual& a, const dual& b) { return a.value == b.value; }
+  friend auto operator<=>(const dual& a, double b) { return a.value <=> b; }
+  friend bool operator==(const dual& a, double b) { return a.value == b; }
+
+  /// f(a) from f(a.value) and f'(a.value).
+  dual chain(const T& f, const T& slope) const {
+    return combine(f, *this, *this, [&](const T& da, const T&) -> T { return slope * da; });
+  }
+
+ private:
+  static dual combine(const T& value, const dual& a, const dual& b, auto&& rule) {
+    dual result;
+    result.value = value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = rule(a.derivative[k], b.derivative[k]);
+    }
+    return result;
+  }
+};
+
+template <class T>
+inline constexpr bool is_dual = false;
+template <class T, int N>
+inline constexpr bool is_dual<dual<T, N>> = true;
+
+// Elementary functions: unqualified calls find libm for double and these for duals.
+template <class T, int N>
+dual<T, N> sqrt(const dual<T, N>& a) {
+  using std::sqrt;
+  const T root = sqrt(a.value);
+  return a.chain(root, T(0.5) / root);
+}
+template <class T, int N>
+dual<T, N> exp(const dual<T, N>& a) {
+  using std::exp;
+  const T value = exp(a.value);
+  return a.chain(value, value);
+}
+template <class T, int N>
+dual<T, N> log(const dual<T, N>& a) {
+  using std::log;
+  return a.chain(log(a.value), T(1.0) / a.value);
+}
+template <class T, int N>
+dual<T, N> sin(const dual<T, N>& a) {
+  using std::cos;
+  using std::sin;
+  return a.chain(sin(a.value), cos(a.value));
+}
+template <class T, int N>
+dual<T, N> cos(const dual<T, N>& a) {
+  using std::cos;
+  using std::sin;
+  return a.chain(cos(a.value), -sin(a.value));
+}
+template <class T, int N>
+dual<T, N> tan(const dual<T, N>& a) {
+  using std::tan;
+  const T value = tan(a.value);
+  return a.chain(value, T(1.0) + value * value);
+}
+template <class T, int N>
+dual<T, N> atan(const dual<T, N>& a) {
+  using std::atan;
+  return a.chain(atan(a.value), T(1.0) / (T(1.0) + a.value * a.value));
+}
+template <class T, int N>
+dual<T, N> sinh(const dual<T, N>& a) {
+  using std::cosh;
+  using std::sinh;
+  return a.chain(sinh(a.value), cosh(a.value));
+}
+template <class T, int N>
+dual<T, N> cosh(const dual<T, N>& a) {
+  using std::cosh;
+  using std::sinh;
+  return a.chain(cosh(a.value), sinh(a.value));
+}
+template <class T, int N>
+dual<T, N> tanh(const dual<T, N>& a) {
+  using std::tanh;
+  const T value = tanh(a.value);
+  return a.chain(value, T(1.0) - value * value);
+}
+/// The exponent is a constant; its derivative at 0 follows libm (pow(0, 0) = 1).
+template <class T, int N>
+dual<T, N> pow(const dual<T, N>& a, double exponent) {
+  using std::pow;
+  return a.chain(pow(a.value, exponent), exponent * pow(a.value, exponent - 1.0));
+}
+/// The derivative at 0 is taken from the right.
+template <class T, int N>
+dual<T, N> abs(const dual<T, N>& a) {
+  return a.value < 0.0 ? -a : a;
+}
+
+}  // namespace nysalt
+
+namespace Eigen {
+/// Lets Eigen store dual numbers in vectors and matrices.
+template <class T, int N>
+struct NumTraits<nysalt::dual<T, N>> : NumTraits<double> {
+  using Real = nysalt::dual<T, N>;
+  using NonInteger = nysalt::dual<T, N>;
+  using Nested = nysalt::dual<T, N>;
+  using Literal = double;
+  enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
+};
+}  // namespace Eigen

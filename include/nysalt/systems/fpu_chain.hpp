@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// Fermi-Pasta-Ulam chain of 2 m unit masses, joined by stiff linear and soft quartic springs in turn,
+/// both ends fixed [hairer_lubich_wanner_2006, section I.5.1; li_lu_tao_ye_2023, equation (5.1)]:
+///   V = omega^2/4 sum_i (q_{2i} - q_{2i-1})^2 + sum_{i=0..m} (q_{2i+1} - q_{2i})^4,  q_0 = q_{2m+1} = 0.
+/// Pairs is m, or Eigen::Dynamic. A force costs one pass of 4 m + 1 multiplications and some 6 m additions.
+template <int Pairs = Eigen::Dynamic>
+class fpu_chain {
+ public:
+  static constexpr int dimension = Pairs == Eigen::Dynamic ? Eigen::Dynamic : 2 * Pairs;
+
+  /// Throws std::invalid_argument unless omega is positive and finite.
+  explicit fpu_chain(double omega)
+    requires(Pairs != Eigen::Dynamic)
+      : fpu_chain(Pairs, omega) {}
+
+  /// Throws std::invalid_argument unless pairs >= 1 (and fits Pairs), omega positive and finite.
+  fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
+    if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
+      throw std::invalid_argument(fmt::format("fpu_chain: cannot have {} pairs of masses", pairs));
+    }
+    if (!(omega > 0.0) || !std::isfinite(omega)) {
+      throw std::invalid_argument(fmt::format("fpu_chain: omega must be positive and finite, got {}", omega));
+    }
+  }
+
+  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }
+  Eigen::Index size() const { return 2 * pairs(); }
+  double omega() const { return omega_; }
+
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    T stiff(0.0);
+    T soft(0.0);
+    T bond = q[0];
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      const T stretch = q[2 * i + 1] - q[2 * i];
+      stiff += stretch * stretch;
+      soft += fourth_power(bond);
+      bond = i + 1 < pairs() ? q[2 * i + 2] - q[2 * i + 1] : -q[2 * i + 1];
+    }
+    soft += fourth_power(bond);
+    return stiff * (0.25 * omega_ * omega_) + soft;
+  }
+
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    const double k = 0.5 * omega_ * omega_;
+    T left = quartic_pull(q[0]);
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      const T stiff = (q[2 * i + 1] - q[2 * i]) * k;
+      const T right = quartic_pull(i + 1 < pairs() ? T(q[2 * i + 2] - q[2 * i + 1]) : T(-q[2 * i + 1]));
+      f[2 * i] = stiff - left;
+      f[2 * i + 1] = right - stiff;
+      left = right;
+    }
+  }
+
+  /// I_j = (y_{1,j}^2 + omega^2 x_{1,j}^2)/2, the energy of stiff spring j = 0..m-1
+  /// [li_lu_tao_ye_2023, equation (5.4)].
+  template <class T>
+  T stiff_energy(const phase_point<T, dimension>& x, Eigen::Index j) const {
+    const T stretch = x.q[2 * j + 1] - x.q[2 * j];
+    const T rate = x.p[2 * j + 1] - x.p[2 * j];
+    return (rate * rate + stretch * stretch * (omega_ * omega_)) * 0.25;
+  }
+  /// I = sum_j I_j, an adiabatic invariant.
+  template <class T>
+  T stiff_energy(const phase_point<T, dimension>& x) const {
+    T sum(0.0);
+    for (Eigen::Index j = 0; j < pairs(); ++j) sum += stiff_energy(x, j);
+    return sum;
+  }
+
+  /// The paper's x_0 (first m columns, frequency 0) and x_1 (last m, frequency omega), equations (5.2-3).
+  normal_modes modes() const {
+    const double half = std::sqrt(0.5);
+    normal_modes result{Eigen::MatrixXd::Zero(size(), size()), Eigen::VectorXd::Zero(size())};
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      result.basis(2 * i, i) = half;
+      result.basis(2 * i + 1, i) = half;
+      result.basis(2 * i, pairs() + i) = -half;
+      result.basis(2 * i + 1, pairs() + i) = half;
+      result.frequencies[pairs() + i] = omega_;
+    }
+    return result;
+  }
+
+  /// Soft band and stiff band for soft bonds that hold an energy up to `soft_energy` each. A bond u
+  /// has stiffness 12 u^2 = 12 sqrt(energy), and a mode of the linearised soft chain at most twice it.
+  std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
+    const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
+    return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
+  }
+  std::string description() const { return fmt::format("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
+
+ private:
+  template <class T>
+  static T fourth_power(const T& u) {
+    const T square = u * u;
+    return square * square;
+  }
+  template <class T>
+  static T quartic_pull(const T& u) {
+    return u * u * u * 4.0;
+  }
+
+  Eigen::Index pairs_;
+  double omega_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// H = sum p_i^2/(2 m_i) + q^T K q/2 with any symmetric, positive semidefinite stiffness matrix K and
+/// any masses m_i > 0. A force costs dimension^2 multiplications.
+class linear_chain {
+ public:
+  static constexpr int dimension = Eigen::Dynamic;
+
+  /// Unit masses unless given. Throws std::invalid_argument if K is empty, not square, not finite,
+  /// not symmetric or has a negative eigenvalue, or if the masses do not fit or are not positive.
+  explicit linear_chain(Eigen::MatrixXd stiffness, Eigen::VectorXd masses = {})
+      : stiffness_(std::move(stiffness)), inverse_masses_(std::move(masses)) {
+    const auto n = stiffness_.rows();
+    if (n == 0 || n != stiffness_.cols()) {
+      throw std::invalid_argument(fmt::format("linear_chain: the stiffness matrix must be square, got {} x {}", n,
+                                              stiffness_.cols()));
+    }
+    if (!stiffness_.allFinite()) throw std::invalid_argument("linear_chain: the stiffness matrix is not finite");
+    if (stiffness_ != stiffness_.transpose()) {
+      throw std::invalid_argument("linear_chain: the stiffness matrix must be symmetric; use (K + K^T)/2");
+    }
+    if (inverse_masses_.size() == 0) inverse_masses_ = Eigen::VectorXd::Ones(n);
+    if (inverse_masses_.size() != n || !(inverse_masses_.minCoeff() > 0.0) || !inverse_masses_.allFinite()) {
+      throw std::invalid_argument(fmt::format("linear_chain: {} positive, finite masses are needed", n));
+    }
+    inverse_masses_ = inverse_masses_.cwiseInverse();
+    modes_ = decompose();
+  }
+
+  /// Equal masses in a row, each joined to its neighbours and the walls by springs of one stiffness.
+  static linear_chain between_walls(Eigen::Index masses, double spring, double mass = 1.0) {
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses, masses);
+    stiffness.diagonal().setConstant(2.0 * spring);
+    stiffness.diagonal(1).setConstant(-spring);
+    stiffness.diagonal(-1).setConstant(-spring);
+    return linear_chain(std::move(stiffness), Eigen::VectorXd::Constant(masses, mass));
+  }
+
+  Eigen::Index size() const { return stiffness_.rows(); }
+  double inverse_mass(Eigen::Index i) const { return inverse_masses_[i]; }
+
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    T sum(0.0);
+    for (Eigen::Index j = 0; j < size(); ++j) {
+      for (Eigen::Index i = 0; i < size(); ++i) sum += q[i] * q[j] * (0.5 * stiffness_(i, j));
+    }
+    return sum;
+  }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    for (Eigen::Index i = 0; i < size(); ++i) f[i] = q[0] * -stiffness_(i, 0);
+    for (Eigen::Index j = 1; j < size(); ++j) {
+      for (Eigen::Index i = 0; i < size(); ++i) f[i] -= q[j] * stiffness_(i, j);
+    }
+  }
+
+  normal_modes modes() const { return modes_; }
+  std::vector<frequency_band> frequency_bands() const {
+    return {{modes_.frequencies.minCoeff(), modes_.frequencies.maxCoeff()}};
+  }
+  std::string description() const {
+    return fmt::format("linear_chain(masses={}, omega_max={:.17g})", size(), modes_.frequencies.maxCoeff());
+  }
+
+ private:
+  normal_modes decompose() const {
+    const Eigen::VectorXd root = inverse_masses_.cwiseSqrt();
+    const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness_ * root.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
+    const double largest = std::max(0.0, solver.eigenvalues().maxCoeff());
+    // The solver's eigenvalues are off by up to about n eps |K|: below that, a frequency is zero.
+    const double rounding = 8.0 * static_cast<double>(size()) * 2.2e-16 * std::max(largest, weighted.norm());
+    Eigen::VectorXd squares = solver.eigenvalues();
+    if (squares.minCoeff() < -rounding) {
+      throw std::invalid_argument(fmt::format(
+          "linear_chain: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded",
+          squares.minCoeff()));
+    }
+    for (auto& square : squares) square = square <= rounding ? 0.0 : square;
+    return {solver.eigenvectors(), squares.cwiseSqrt()};
+  }
+
+  Eigen::MatrixXd stiffness_;
+  Eigen::VectorXd inverse_masses_;
+  normal_modes modes_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,66 @@
+# Runs PROGRAM and compares its output, line by line, with the comment at the end of SOURCE:
+#
+#   // Expected output:
+#   // the energy error is ~ after 1000 steps
+#
+# where ~ stands for any text within the line, for digits that depend on the machine.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Takes the first line off the text. No CMake lists: output may hold semicolons and brackets.
+macro(take_line text line)
+  string(FIND "${${text}}" "\n" end)
+  string(SUBSTRING "${${text}}" 0 ${end} ${line})
+  if(end EQUAL -1)
+    set(${text} "")
+  else()
+    math(EXPR end "${end} + 1")
+    string(SUBSTRING "${${text}}" ${end} -1 ${text})
+  endif()
+endmacro()
+
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE actual ERROR_VARIABLE errors RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "it ended with '${result}'\n${actual}${errors}")
+endif()
+
+file(READ ${SOURCE} expected)
+set(marker "\n// Expected output:\n")
+string(FIND "${expected}" "${marker}" start REVERSE)
+if(start EQUAL -1)
+  message(FATAL_ERROR "${SOURCE} has no comment '// Expected output:'")
+endif()
+string(LENGTH "${marker}" length)
+math(EXPR start "${start} + ${length}")
+string(SUBSTRING "${expected}" ${start} -1 expected)
+
+set(output "${actual}")
+set(number 0)
+set(failures "")
+while(NOT expected STREQUAL "" OR NOT actual STREQUAL "")
+  math(EXPR number "${number} + 1")
+  set(want "// (no line)")
+  set(got "(no line)")
+  set(same FALSE)
+  if(NOT expected STREQUAL "" AND NOT actual STREQUAL "")
+    take_line(expected want)
+    take_line(actual got)
+    string(REGEX REPLACE "^// ?" "" pattern "${want}")
+    string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" pattern "${pattern}")
+    string(REPLACE "~" ".+" pattern "${pattern}")
+    if("${got}" MATCHES "^${pattern}$")
+      set(same TRUE)
+    endif()
+  elseif(NOT expected STREQUAL "")
+    take_line(expected want)
+  else()
+    take_line(actual got)
+  endif()
+  if(NOT same)
+    string(APPEND failures "line ${number}\n  expected: ${want}\n  printed:  // ${got}\n")
+  endif()
+endwhile()
+if(NOT failures STREQUAL "")
+  message("${failures}the whole output:\n${output}${errors}")
+  message(FATAL_ERROR "${SOURCE} did not print what it says")
+endif()
