@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSL-1.0
+// Fits a family to the flow map of a system at a step.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/minimise.hpp"
+#include "nysalt/losses/one_step.hpp"
+#include "nysalt/method.hpp"
+
+namespace nysalt {
+
+template <Family F>
+struct learn_options {
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;
+  parameters_of<F> start = F::start();
+  std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
+  int max_iterations = 200;
+};
+
+template <Family F>
+struct learned {
+  tuned_method<F> method;
+  fit_summary summary;
+};
+
+namespace detail {
+
+/// Why a fit should not be used; empty if it may be.
+template <Family F, System S>
+std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta, bool converged) {
+  if (!converged) return "the search did not converge";
+  if (!(fit.held_out_loss < fit.held_out_start_loss) && fit.held_out_loss > 1e-24) {
+    return "on held-out data it is no better than the parameters that the search began with";
+  }
+  if (!(fit.reference_error <= 0.1 * fit.one_step_error)) {
+    return fmt::format("the reference's own error {:.2e} is not small against the one-step error {:.2e}",
+                       fit.reference_error, fit.one_step_error);
+  }
+  if constexpr (HasFrequencyBands<S>) {
+    const auto windows = stability_windows(member<F>(theta));
+    for (const auto& band : system.frequency_bands()) {
+      if (is_stable(windows, fit.step * band.low, fit.step * band.high)) continue;
+      return fmt::format("it is not linearly stable for the frequencies {:g} to {:g} of the system", band.low,
+                         band.high);
+    }
+  }
+  return {};
+}
+
+}  // namespace detail
+
+/// theta that minimises the one-step loss over `data` [li_lu_tao_ye_2023, section 3.1], judged on
+/// `held_out`, which should come from another seed. Bounds that may be attained are left aside by the
+/// search; where it ends beyond one, that parameter is held there and the others are fitted again.
+///
+/// Throws std::invalid_argument if the data are of another system or of two steps, or if the coordinates,
+/// the start or a fixed value cannot be. A fit that cannot be trusted is returned with usable = false.
+/// Cost: some 20 to 80 passes over the data, each a plain step with derivatives a pair.
+template <Family F, SeparableSystem S>
+learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& data,
+                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
+  const auto began = std::chrono::steady_clock::now();
+  for (const auto* set : {&data, &held_out}) {
+    if (set->system != describe(system)) {
+      throw std::invalid_argument(
+          fmt::format("learn: the data are of {}, the system is {}", set->system, describe(system)));
+    }
+  }
+  if (held_out.step != data.step) {
+    throw std::invalid_argument(
+        fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
+  }
+  auto theta = options.start;
+  for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = options.fixed[k].value_or(theta[k]);
+  require_in_range<F>(theta);
+
+  const counted<S> watched(system);
+  const metric<S::dimension> measure(system, data, options.coordinates);
+  const one_step<F, counted<S>> loss(watched, data, measure);
+  const one_step<F, counted<S>> held_out_loss(watched, held_out, measure);
+  const double held_out_start_loss = loss_value(held_out_loss, theta);
+
+  std::vector<Eigen::Index> free;
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    if (!options.fixed[k]) free.push_back(static_cast<Eigen::Index>(k));
+  }
+  fit_summary fit;
+  bool converged = false;
+  for (bool inside = false; !inside;) {
+    const auto found = minimise(loss, theta, free, options.max_iterations);
+    theta = found.theta;
+    converged = found.converged;
+    fit.iterations += found.iterations;
+    inside = true;
+    for (std::size_t k = 0; k < theta.size(); ++k) {
+      const auto range = F::ranges()[k];
+      if (range.contains(theta[k])) continue;
+      theta[k] = std::clamp(theta[k], range.low, range.high);
+      std::erase(free, static_cast<Eigen::Index>(k));
+      inside = false;
+    }
+  }
+
+  const curvature bend(hessian(loss, theta), free);
+  // The weights are 1/Sigma, and Sigma is estimated: a coordinate whose Sigma comes out larger by some part
+  // counts less by that part. Without this the errors are two to three times too small.
+  const Eigen::MatrixXd by_coordinate =
+      coordinate_gradients(loss, theta, static_cast<std::size_t>(measure.residuals()));
+  const Eigen::VectorXd errors =
+      bend.standard_errors(block_gradients(loss, theta) - by_coordinate * measure.weight_deviations());
+  fit.family = F::name;
+  fit.system = data.system;
+  fit.reference = data.reference;
+  fit.ensemble = data.ensemble;
+  fit.coordinates = to_string(options.coordinates);
+  fit.derivatives = derivative_source<S>();
+  fit.step = data.step;
+  fit.seed = data.seed;
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    const auto index = static_cast<Eigen::Index>(k);
+    const bool is_free = std::find(free.begin(), free.end(), index) != free.end();
+    fit.parameters.push_back({std::string(F::parameter_names[k]), theta[k], is_free ? errors[index] : 0.0, is_free});
+  }
+  fit.loss = loss_value(loss, theta);
+  fit.held_out_loss = loss_value(held_out_loss, theta);
+  fit.held_out_start_loss = held_out_start_loss;
+  fit.samples = data.pairs();
+  fit.trajectories = data.trajectories();
+  fit.held_out_samples = held_out.pairs();
+  fit.condition = bend.condition();
+  for (const auto& flat : bend.flat_directions()) fit.flat_directions.emplace_back(flat.begin(), flat.end());
+  fit.dropped = measure.dropped();
+  fit.one_step_error = std::sqrt(fit.loss);
+  Eigen::VectorXd r(measure.residuals());
+  double of_reference = 0.0;
+  for (const auto& [pair, finish] : data.finer) {
+    measure.residual(finish.q, finish.p, data.finish[pair], r.data());
+    of_reference += r.squaredNorm() / static_cast<double>(data.finer.size());
+  }
+  fit.reference_error = std::sqrt(of_reference);
+  fit.data_seconds = data.seconds + held_out.seconds;
+  fit.learning_evaluations = data.evaluations + held_out.evaluations + watched.evaluations;
+  fit.reason = detail::objection<F>(system, fit, theta, converged);
+  fit.usable = fit.reason.empty();
+  fit.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return {tuned_method<F>(member<F>(theta), data.step, data.system), fit};
+}
+
+}  // namespace nysalt

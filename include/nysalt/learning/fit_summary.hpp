@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+// What there is to know of a fit.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nysalt {
+
+struct fitted_parameter {
+  std::string name;
+  double value;
+  double standard_error;  // NaN from a single trajectory, infinite where the loss is flat, 0 if not free
+  bool free;              // false: fixed by the user, or held at its bound
+};
+
+struct fit_summary {
+  std::string family;
+  std::string system;
+  std::string reference;
+  std::string ensemble;
+  std::string coordinates;
+  std::string derivatives;  // where the force's derivatives come from
+  double step = 0.0;
+  std::uint64_t seed = 0;
+
+  std::vector<fitted_parameter> parameters;
+  double loss = 0.0;           // mean over pairs of the sum over coordinates of r^2/Sigma
+  double held_out_loss = 0.0;  // the same on data that was not learned from
+  double held_out_start_loss = 0.0;  // and with the parameters that the search began with
+  std::size_t samples = 0;     // pairs
+  std::size_t trajectories = 0;
+  std::size_t held_out_samples = 0;
+
+  double condition = 1.0;                              // of the Hessian, flat directions apart
+  std::vector<std::vector<double>> flat_directions;    // along which the data say nothing
+  std::vector<std::string> dropped;                    // coordinates that never move
+  int iterations = 0;
+  double one_step_error = 0.0;   // root of the loss
+  double reference_error = 0.0;  // the reference's own, in the same measure
+
+  double data_seconds = 0.0;
+  double fit_seconds = 0.0;
+  std::int64_t learning_evaluations = 0;  // force evaluations of data and fit
+
+  bool usable = false;
+  std::string reason;  // why not
+
+  std::string brief() const {
+    std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
+    for (const auto& p : parameters) {
+      text += fmt::format(" {} = {:.6f}", p.name, p.value);
+      text += p.free ? fmt::format(" +- {:.1e}", p.standard_error) : " (fixed)";
+    }
+    text += fmt::format(", loss {:.3e}, held out {:.3e}, {}", loss, held_out_loss,
+                        usable ? "usable" : "NOT usable: " + reason);
+    return text;
+  }
+
+  std::string full() const {
+    std::string text = fmt::format("{} at step {:.17g} for {}\n", family, step, system);
+    for (const auto& p : parameters) {
+      text += fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
+                          p.free ? fmt::format("  +- {:.2e}", p.standard_error) : "  (not free)");
+    }
+    const auto line = [&](const char* what, const std::string& value) {
+      text += fmt::format("  {:<22}{}\n", what, value);
+    };
+    line("usable", usable ? "yes" : "no: " + reason);
+    line("loss", fmt::format("{:.6e} on {} pairs of {} trajectories", loss, samples, trajectories));
+    line("held-out loss", fmt::format("{:.6e} on {} pairs; at the start {:.6e}", held_out_loss, held_out_samples,
+                                      held_out_start_loss));
+    line("one-step error", fmt::format("{:.3e}, the reference's own {:.3e}", one_step_error, reference_error));
+    line("coordinates", coordinates);
+    for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
+    line("condition", fmt::format("{:.3g}", condition));
+    for (const auto& direction : flat_directions) {
+      std::string components;
+      for (const double x : direction) components += fmt::format(" {:.4f}", x);
+      line("flat direction", components);
+    }
+    line("iterations", fmt::format("{}", iterations));
+    line("reference", reference);
+    line("starts", fmt::format("{}, seed {}", ensemble, seed));
+    line("force derivatives", derivatives);
+    line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations, data_seconds,
+                             fit_seconds));
+    return text;
+  }
+};
+
+}  // namespace nysalt
