@@ -80,20 +80,25 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
   return {stepper.synchronous(run), run.step, std::nullopt};
 }
 
-/// The same for a method at a step.
+/// The same unobserved: only the finish is wanted.
+template <class Stepper>
+outcome<Stepper::dimension> integrate(const Stepper& stepper,
+                                      const phase_point<double, Stepper::dimension>& start, std::int64_t steps) {
+  const auto nobody = [](auto&&...) {};
+  return integrate(stepper, start, steps, nobody, std::max<std::int64_t>(steps, 1));
+}
+
+/// The same for a method at a step. For many trajectories make the stepper once.
 template <System S, Method M, class Observer>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
-
-/// And unobserved: only the finish is wanted.
 template <System S, Method M>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {
-  const auto nobody = [](auto&&...) {};
-  return integrate(make_stepper(system, method, step), start, steps, nobody, std::max<std::int64_t>(steps, 1));
+  return integrate(make_stepper(system, method, step), start, steps);
 }
 
 }  // namespace nysalt

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/reference.hpp"
+
+namespace nysalt {
+
+/// Global error at the horizon for steps that are halved, and the order that they show.
+struct order_measurement {
+  std::vector<double> steps;
+  std::vector<double> errors;
+  double order = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Integrates to the horizon with horizon/n, n = fewest_steps 2^k, and compares with the reference. The
+/// order is the log-log slope over the steps whose error is above the noise: the reference's own error
+/// and the rounding of n steps. NaN if fewer than two are. Use a nonlinear system: on linear ones methods
+/// converge too well.
+template <SeparableSystem S, Method M, ReferenceFlow<S> R>
+order_measurement convergence_order(const S& system, const M& method, const R& reference,
+                                    const phase_point<double, S::dimension>& start, double horizon,
+                                    std::int64_t fewest_steps, int halvings) {
+  auto exact = start;
+  reference.advance(system, exact, horizon);
+  const double size_of_state = std::max(exact.q.cwiseAbs().maxCoeff(), exact.p.cwiseAbs().maxCoeff());
+  const double of_reference = reference_error(system, reference, start, horizon);
+
+  order_measurement result;
+  std::vector<double> log_steps;
+  std::vector<double> log_errors;
+  for (std::int64_t n = fewest_steps, k = 0; k <= halvings; ++k, n *= 2) {
+    const double step = horizon / static_cast<double>(n);
+    const auto end = integrate(system, method, step, start, n).finish;
+    const double error =
+        std::max((end.q - exact.q).cwiseAbs().maxCoeff(), (end.p - exact.p).cwiseAbs().maxCoeff());
+    result.steps.push_back(step);
+    result.errors.push_back(error);
+    const double rounding =
+        std::numeric_limits<double>::epsilon() * size_of_state * static_cast<double>(n * M::word::length);
+    if (error > 20.0 * (of_reference + rounding)) {  // then they bend the slope by less than .1
+      log_steps.push_back(std::log(step));
+      log_errors.push_back(std::log(error));
+    }
+  }
+  if (log_steps.size() >= 2) result.order = slope(log_steps, log_errors);
+  return result;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/integrate.hpp"
+
+namespace nysalt {
+
+/// (H - H_0)/|H_0| along a trajectory: bounded for a symplectic method, and without a trend.
+struct energy_record {
+  double largest = 0.0;             // of |H - H_0|/|H_0|
+  double drift = 0.0;               // its trend per unit time, least squares
+  std::optional<std::int64_t> diverged_at;
+};
+
+/// Runs `steps` steps and looks at the energy every `every` of them. |H_0| below 1e-300 counts as 1.
+template <SeparableSystem S, Method M>
+  requires HasEnergy<S>
+energy_record energy_drift(const S& system, const M& method, double step,
+                           const phase_point<double, S::dimension>& start, std::int64_t steps,
+                           std::int64_t every = 1) {
+  const double initial = energy<double>(system, start);
+  const double unit = std::abs(initial) < 1e-300 ? 1.0 : std::abs(initial);
+  energy_record result;
+  std::vector<double> times;
+  std::vector<double> errors;
+  const auto watch = [&](std::int64_t, double t, const auto& x) {
+    const double error = (energy<double>(system, x) - initial) / unit;
+    result.largest = std::max(result.largest, std::abs(error));
+    times.push_back(t);
+    errors.push_back(error);
+  };
+  result.diverged_at = integrate(system, method, step, start, steps, watch, every).diverged_at;
+  if (times.size() > 1) result.drift = slope(times, errors);
+  return result;
+}
+
+}  // namespace nysalt

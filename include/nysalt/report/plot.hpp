@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+// Pictures by gnuplot: a script and its data, which stay beside what they drew.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nysalt/report/write_file.hpp"
+
+namespace nysalt {
+
+struct curve {
+  std::string label;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> error{};  // of y, drawn as bars if given
+  bool emphasised = false;
+};
+
+struct panel {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  bool log_log = false;  // with points; else plain lines
+  std::vector<curve> curves;
+  std::string y_range = "[*:*]";
+};
+
+struct figure {
+  std::string name;  // of the files
+  std::vector<panel> panels;  // side by side
+  int width = 800;
+  int height = 520;
+};
+
+namespace detail {
+
+inline std::string quoted(const std::string& text) {  // for gnuplot and for the shell alike
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("_") : std::string(1, c);
+  return result + "'";
+}
+
+/// One block a curve, in the order of the panels. Points that are not finite leave a gap.
+inline std::string plot_data(const figure& f) {
+  std::string text;
+  for (const auto& panel : f.panels) {
+    for (const auto& curve : panel.curves) {
+      text += fmt::format("# {}: {}\n", panel.title, curve.label);
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        const double error = i < curve.error.size() && std::isfinite(curve.error[i]) ? curve.error[i] : 0.0;
+        if (std::isfinite(curve.y[i])) text += fmt::format("{:.10g} {:.10g} {:.10g}\n", curve.x[i], curve.y[i], error);
+      }
+      text += "\n\n";
+    }
+  }
+  return text;
+}
+
+inline std::string plot_script(const figure& f) {
+  // Okabe and Ito's colours, with a point type each, so that the picture reads in grey too.
+  static constexpr const char* colours[] = {"#D55E00", "#0072B2", "#56B4E9", "#009E73",
+                                            "#CC79A7", "#E69F00", "#000000", "#999999"};
+  static constexpr int points[] = {7, 5, 4, 9, 8, 13, 2, 6};
+  std::string text = fmt::format(
+      "# gnuplot -e \"kind='svg'; target='{0}.svg'\" {0}.gp\n"
+      "if (kind eq 'svg') {{ set terminal svg size {1},{2} background 'white' font 'sans,13' noenhanced }}\n"
+      "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} background 'white' font 'sans,11' noenhanced }}\n"
+      "set output target\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc '#cccccc'\n",
+      f.name, f.width, f.height);
+  if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
+  std::size_t block = 0;
+  for (const auto& panel : f.panels) {
+    text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset yrange {}\n", quoted(panel.title),
+                        quoted(panel.x_label), quoted(panel.y_label), panel.y_range);
+    text += panel.log_log ? "set logscale xy\nset format y '10^{%T}'\nset format y '%.0e'\n" : "unset logscale\n";
+    for (std::size_t j = 0; j < panel.curves.size(); ++j, ++block) {
+      const auto& curve = panel.curves[j];
+      const std::string data = fmt::format("'{}.dat' index {}", f.name, block);
+      const std::string colour = fmt::format("lc '{}'", colours[j % std::size(colours)]);
+      text += j == 0 ? "plot " : ", ";
+      if (panel.log_log) {
+        const int point = points[j % std::size(points)];
+        text += fmt::format("{} using 1:2 with linespoints {} lw {} pt {} ps {} title {}", data, colour,
+                            curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.1 : 0.9, quoted(curve.label));
+        if (!curve.error.empty()) text += fmt::format(", {} using 1:2:3 with yerrorbars {} pt 0 notitle", data, colour);
+      } else {
+        text += fmt::format("{} using 1:2 with lines {} lw {} title {}", data, colour, curve.emphasised ? 1.6 : 0.9,
+                            quoted(curve.label));
+      }
+    }
+    text += "\n";
+  }
+  return text + (f.panels.size() > 1 ? "unset multiplot\n" : "");
+}
+
+}  // namespace detail
+
+/// Writes NAME.dat and NAME.gp into the folder, and has gnuplot draw NAME.svg and NAME.png, each whole or
+/// not at all. False if gnuplot is not there or fails; then data and script are there to draw later.
+/// Throws std::runtime_error if the folder cannot be written.
+inline bool draw(const figure& f, const std::filesystem::path& folder) {
+  write_file(folder / (f.name + ".dat"), detail::plot_data(f));
+  write_file(folder / (f.name + ".gp"), detail::plot_script(f));
+  for (const std::string kind : {"svg", "png"}) {
+    const std::string picture = f.name + "." + kind;
+    const std::string command =
+        fmt::format("cd {} && gnuplot -e \"kind='{}'; target='{}.tmp'\" {}.gp 2>/dev/null",
+                    detail::quoted(folder.string()), kind, picture, f.name);
+    if (std::system(command.c_str()) != 0) return false;
+    std::filesystem::rename(folder / (picture + ".tmp"), folder / picture);
+  }
+  return true;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nysalt {
+
+/// Rows of text under named columns, for people (text, Markdown) and for machines (CSV).
+class table {
+ public:
+  explicit table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+  /// Throws std::invalid_argument unless there is a cell for each column.
+  void add(std::vector<std::string> cells) {
+    if (cells.size() != columns_.size()) {
+      throw std::invalid_argument(fmt::format("table: {} cells for {} columns", cells.size(), columns_.size()));
+    }
+    rows_.push_back(std::move(cells));
+  }
+
+  /// The first column to the left, the others to the right.
+  std::string text() const { return lay_out("", "  ", "", '-'); }
+  std::string markdown() const { return lay_out("| ", " | ", " |", '-'); }
+
+  /// RFC 4180: cells with commas, quotes or line breaks are quoted.
+  std::string csv() const {
+    std::string result;
+    const auto line = [&](const std::vector<std::string>& cells) {
+      for (std::size_t j = 0; j < cells.size(); ++j) result += (j > 0 ? "," : "") + quoted(cells[j]);
+      result += '\n';
+    };
+    line(columns_);
+    for (const auto& row : rows_) line(row);
+    return result;
+  }
+
+ private:
+  static std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+    std::string result = "\"";
+    for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + '"';
+  }
+
+  std::string lay_out(const char* left, const char* between, const char* right, char rule) const {
+    std::vector<std::size_t> widths;
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      widths.push_back(columns_[j].size());
+      for (const auto& row : rows_) widths[j] = std::max(widths[j], row[j].size());
+    }
+    std::string result;
+    const auto line = [&](const std::vector<std::string>& cells) {
+      result += left;
+      for (std::size_t j = 0; j < cells.size(); ++j) {
+        if (j > 0) result += between;
+        result += j == 0 ? fmt::format("{:<{}}", cells[j], widths[j]) : fmt::format("{:>{}}", cells[j], widths[j]);
+      }
+      result += std::string(right) + '\n';
+    };
+    std::vector<std::string> rules;
+    for (const std::size_t width : widths) rules.emplace_back(width, rule);
+    line(columns_);
+    line(rules);
+    for (const auto& row : rows_) line(row);
+    return result;
+  }
+
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a method costs beside how far it errs: always together.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/path_error.hpp"
+#include "nysalt/report/plot.hpp"
+#include "nysalt/report/table.hpp"
+
+namespace nysalt {
+
+struct work_precision_row {
+  std::string method;
+  double step;
+  double evaluations_per_time;  // force evaluations of a trajectory per unit time, counted
+  double seconds_per_time;      // measured
+  estimate error;               // NaN if every trajectory diverged
+  std::int64_t diverged;
+  std::int64_t trajectories;
+};
+
+inline table work_precision_table(const std::vector<work_precision_row>& rows) {
+  table result({"method", "step", "evaluations/time", "ns/time", "error", "standard error", "diverged"});
+  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); };
+  for (const auto& row : rows) {
+    result.add({row.method, fmt::format("{:g}", row.step), fmt::format("{:.1f}", row.evaluations_per_time),
+                fmt::format("{:.0f}", 1e9 * row.seconds_per_time), number(row.error.mean),
+                number(row.error.standard_error), fmt::format("{}/{}", row.diverged, row.trajectories)});
+  }
+  return result;
+}
+
+/// A method's error at a cost, on straight log-log lines between its rows without diverged trajectories;
+/// nothing outside them.
+inline std::optional<double> error_at_cost(const std::vector<work_precision_row>& rows, const std::string& method,
+                                           double evaluations_per_time) {
+  const work_precision_row* below = nullptr;
+  const work_precision_row* above = nullptr;
+  constexpr double same = 1e-2;  // start-up evaluations are no difference in cost
+  for (const auto& row : rows) {
+    if (row.method != method || row.diverged > 0) continue;
+    const double cost = row.evaluations_per_time;
+    if (std::abs(cost / evaluations_per_time - 1.0) <= same) return row.error.mean;
+    if (cost < evaluations_per_time && (below == nullptr || cost > below->evaluations_per_time)) below = &row;
+    if (cost > evaluations_per_time && (above == nullptr || cost < above->evaluations_per_time)) above = &row;
+  }
+  if (below == nullptr || above == nullptr) return std::nullopt;
+  const double s = std::log(evaluations_per_time / below->evaluations_per_time) /
+                   std::log(above->evaluations_per_time / below->evaluations_per_time);
+  return std::exp((1.0 - s) * std::log(below->error.mean) + s * std::log(above->error.mean));
+}
+
+/// Error against a cost, a curve a method; rows without a finite error are left out.
+inline panel work_precision_panel(const std::vector<work_precision_row>& rows, const std::string& emphasised,
+                                  const std::string& x_label, double work_precision_row::*cost) {
+  panel result;
+  result.x_label = x_label;
+  result.log_log = true;
+  for (const auto& row : rows) {
+    auto at = std::find_if(result.curves.begin(), result.curves.end(),
+                           [&](const curve& c) { return c.label == row.method; });
+    if (at == result.curves.end()) {
+      result.curves.push_back({.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
+      at = result.curves.end() - 1;
+    }
+    at->x.push_back(row.*cost);
+    at->y.push_back(row.error.mean);
+    at->error.push_back(row.error.standard_error);
+  }
+  return result;
+}
+
+}  // namespace nysalt
