@@ -249,7 +249,11 @@ std::string describe(const S& system) {
   if constexpr (requires { { system.description() } -> std::convertible_to<std::string>; }) {
     return system.description();
   } else {
-    return std::string(typeid(S).name()) + " with " + std::to_string(size(system)) + " degrees of freedom";
+    std::string name = typeid(S).name();  // in steps: g++ 12 warns wrongly about a chain of +
+    name += " with ";
+    name += std::to_string(size(system));
+    name += " degrees of freedom";
+    return name;
   }
 }
 

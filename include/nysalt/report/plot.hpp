@@ -78,7 +78,8 @@ inline std::string plot_script(const figure& f) {
   for (const auto& panel : f.panels) {
     text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset yrange {}\n", quoted(panel.title),
                         quoted(panel.x_label), quoted(panel.y_label), panel.y_range);
-    text += panel.log_log ? "set logscale xy\nset format y '10^{%T}'\nset format y '%.0e'\n" : "unset logscale\n";
+    text += panel.log_log ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key left bottom\n"
+                          : "unset logscale\n";
     for (std::size_t j = 0; j < panel.curves.size(); ++j, ++block) {
       const auto& curve = panel.curves[j];
       const std::string data = fmt::format("'{}.dat' index {}", f.name, block);
@@ -86,9 +87,8 @@ inline std::string plot_script(const figure& f) {
       text += j == 0 ? "plot " : ", ";
       if (panel.log_log) {
         const int point = points[j % std::size(points)];
-        text += fmt::format("{} using 1:2 with linespoints {} lw {} pt {} ps {} title {}", data, colour,
-                            curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.1 : 0.9, quoted(curve.label));
-        if (!curve.error.empty()) text += fmt::format(", {} using 1:2:3 with yerrorbars {} pt 0 notitle", data, colour);
+        text += fmt::format("{} using 1:2:3 with yerrorlines {} lw {} pt {} ps {} title {}", data, colour,
+                            curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.4 : 1.0, quoted(curve.label));
       } else {
         text += fmt::format("{} using 1:2 with lines {} lw {} title {}", data, colour, curve.emphasised ? 1.6 : 0.9,
                             quoted(curve.label));
