@@ -23,7 +23,8 @@ int main() {
   const auto data = make_flow_map_data(chain, law, reference, {.step = step, .seed = 1});
   const auto held_out = make_flow_map_data(chain, law, reference, {.step = step, .seed = 2});
   const auto [method, fit] = learn(nystrom{}, chain, data, held_out);
-  for (const auto& p : fit.parameters) fmt::print("{:<5} = {:.5f} +- {:.0e}\n", p.name, p.value, p.standard_error);
+  for (const auto& p : fit.parameters)
+    fmt::print("{:<5} = {:.5f} +- {:.0e}\n", p.name, p.value, p.standard_error);
   fmt::print("usable: {}\n\n", fit.usable ? "yes" : fit.reason);
 
   // Run: one trajectory over 100 units of time, watched every 10 of them.
@@ -40,8 +41,8 @@ int main() {
   const auto report = [&](const auto& other, double its_step, std::int64_t steps) {
     const auto paths = reference_paths(chain, reference, its_step, steps, starts, observable);
     const auto result = path_error(chain, other, its_step, starts, paths, observable);
-    fmt::print("{:<16} step {:.3f} {:5.1f} evaluations/time  error {:.1e} +- {:.0e}\n", other.name(), its_step,
-               result.evaluations_per_time, result.error.mean, result.error.standard_error);
+    fmt::print("{:<16} step {:.3f} {:5.1f} evaluations/time  error {:.1e} +- {:.0e}\n", other.name(),
+               its_step, result.evaluations_per_time, result.error.mean, result.error.standard_error);
   };
   report(method, step, 16);
   report(mclachlan2{}, step, 16);

@@ -22,7 +22,8 @@ double closed_form_error(double beta1, double z) {
   const double c = 0.5 * (1.0 - s);
   const double half_trace = 1.0 - z * z / 2.0 + z * z * z * z * s * (1.0 - s) / 8.0;
   const double pq = -z + z * z * z * s / 4.0;
-  const double qp = z * (1.0 - z * z * (c * (1.0 - c) + (1.0 - c) * c) / 2.0) + z * z * z * z * z * c * c * s / 4.0;
+  const double qp =
+      z * (1.0 - z * z * (c * (1.0 - c) + (1.0 - c) * c) / 2.0) + z * z * z * z * z * c * c * s / 4.0;
   return 2.0 * std::pow(std::cos(z) - half_trace, 2) + std::pow(std::sin(z) - qp, 2) +
          std::pow(-std::sin(z) - pq, 2);
 }

@@ -38,17 +38,20 @@ int main() {
   constexpr double step = 0.4;
   const fine_steps<> reference(0.01);
   const auto data = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 1});
-  const auto held_out = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 2});
+  const auto held_out =
+      make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 2});
   const auto [method, fit] = learn(nystrom{}, system, data, held_out);
   fmt::print("b1 = {:.4f}, beta1 = {:.4f}, usable: {}\n", fit.parameters[0].value, fit.parameters[1].value,
              fit.usable ? "yes" : fit.reason);
   fmt::print("force derivatives by {}\n\n", fit.derivatives);
 
   const auto start = starts(3, 0);
-  fmt::print("symplectic to {}\n", symplecticity_defect(system, method, step, start) < 1e-13 ? "rounding" : "no degree");
+  fmt::print("symplectic to {}\n",
+             symplecticity_defect(system, method, step, start) < 1e-13 ? "rounding" : "no degree");
   const auto report = [&](const auto& other) {
     const auto energy = energy_drift(system, other, step, start, 2500);
-    fmt::print("{:<16} largest relative energy error over 1000 units of time: {:.1e}\n", other.name(), energy.largest);
+    fmt::print("{:<16} largest relative energy error over 1000 units of time: {:.1e}\n", other.name(),
+               energy.largest);
   };
   report(method);
   report(mclachlan2{});

@@ -40,8 +40,8 @@ int main() {
 
   const counted<pendulum> watched(system);
   const auto own = integrate(watched, srkn6b{}, step, start, 200);
-  fmt::print("our own loop: {} evaluations for 200 steps of six, and the same state to {:.0e}\n", watched.evaluations,
-             std::max(1e-14, std::abs(own.finish.q[0] - x.q[0])));
+  fmt::print("our own loop: {} evaluations for 200 steps of six, and the same state to {:.0e}\n",
+             watched.evaluations, std::max(1e-14, std::abs(own.finish.q[0] - x.q[0])));
 }
 
 // Expected output:

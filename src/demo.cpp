@@ -52,8 +52,12 @@ struct experiment {
 class comparison {
  public:
   comparison(const chain& system, double step, const std::vector<state>& starts)
-      : system_(system), step_(step), starts_(starts), steps_(static_cast<std::int64_t>(horizon / step + 1e-9)) {
-    reference_ = reference_paths(system_, fine_steps<>(fine_step), step_, steps_, starts_, stiff_energy{system_});
+      : system_(system),
+        step_(step),
+        starts_(starts),
+        steps_(static_cast<std::int64_t>(horizon / step + 1e-9)) {
+    reference_ =
+        reference_paths(system_, fine_steps<>(fine_step), step_, steps_, starts_, stiff_energy{system_});
   }
 
   template <Method M>
@@ -75,7 +79,8 @@ class comparison {
   /// The error of the reference itself, in the same measure, on a few trajectories.
   double reference_error() const {
     const std::vector<state> few(starts_.begin(), starts_.begin() + 16);
-    const auto finer = reference_paths(system_, fine_steps<>(fine_step).finer(), step_, steps_, few, stiff_energy{system_});
+    const auto finer =
+        reference_paths(system_, fine_steps<>(fine_step).finer(), step_, steps_, few, stiff_energy{system_});
     double sum = 0.0;
     for (std::size_t m = 0; m < few.size(); ++m) sum += relative_rms(reference_[m], finer[m]);
     return sum / static_cast<double>(few.size());
@@ -94,13 +99,15 @@ template <Method M>
 panel stiff_energies(const chain& system, const M& method, double step, const std::string& title) {
   constexpr double length = 500.0;
   panel result{.title = title, .x_label = "t", .y_label = "stiff energy", .curves = {}, .y_range = "[0:4]"};
-  for (const char* label : {"I", "I1", "I2", "I3"}) result.curves.push_back({.label = label, .x = {}, .y = {}});
+  for (const char* label : {"I", "I1", "I2", "I3"})
+    result.curves.push_back({.label = label, .x = {}, .y = {}});
   result.curves[0].emphasised = true;
   const auto steps = static_cast<std::int64_t>(length / step + 0.5);
   const auto watch = [&](std::int64_t, double t, const state& x) {
     for (auto& curve : result.curves) curve.x.push_back(t);
     result.curves[0].y.push_back(system.stiff_energy(x));
-    for (std::size_t j = 0; j < 3; ++j) result.curves[j + 1].y.push_back(system.stiff_energy(x, Eigen::Index(j)));
+    for (std::size_t j = 0; j < 3; ++j)
+      result.curves[j + 1].y.push_back(system.stiff_energy(x, Eigen::Index(j)));
   };
   const auto every = std::max<std::int64_t>(1, steps / 2500);
   integrate(system, method, step, fpu_law<3>(system)(test_seed, 0), steps, watch, every);
@@ -140,8 +147,8 @@ table at_equal_cost(const std::vector<work_precision_row>& rows, const std::stri
   return result;
 }
 
-void draw_all(const chain& system, const std::vector<work_precision_row>& rows, const tuned_method<nystrom>& learned,
-              const std::filesystem::path& folder) {
+void draw_all(const chain& system, const std::vector<work_precision_row>& rows,
+              const tuned_method<nystrom>& learned, const std::filesystem::path& folder) {
   const std::string y_label = "average relative error of the total stiff energy";
   figure evaluations{"error_against_evaluations",
                      {work_precision_panel(rows, learned.name(), "force evaluations per unit time",
@@ -160,7 +167,8 @@ void draw_all(const chain& system, const std::vector<work_precision_row>& rows, 
       460};
   for (const auto& picture : {evaluations, seconds, energies}) {
     if (!draw(picture, folder)) {
-      fmt::print("gnuplot could not draw {0}: is it installed? {0}.gp and {0}.dat are there.\n", picture.name);
+      fmt::print("gnuplot could not draw {0}: is it installed? {0}.gp and {0}.dat are there.\n",
+                 picture.name);
     }
   }
 }
@@ -172,7 +180,8 @@ void demonstrate(const std::filesystem::path& folder) {
   const fine_steps<> reference(fine_step);
   std::vector<state> starts;
   for (std::uint64_t m = 0; m < test_trajectories; ++m) starts.push_back(law(test_seed, m));
-  fmt::print("{}, starts by {}, reference: {}\n\n", system.description(), law.description(), reference.description());
+  fmt::print("{}, starts by {}, reference: {}\n\n", system.description(), law.description(),
+             reference.description());
 
   std::vector<experiment> experiments;
   std::map<double, tuned_method<nystrom>> tuned;
@@ -186,10 +195,11 @@ void demonstrate(const std::filesystem::path& folder) {
     tuned.emplace(step, method);
     const auto& b1 = fit.parameters[0];
     const auto& beta1 = fit.parameters[1];
-    fits.add({fmt::format("{:g}", step), fmt::format("{:.5f}", b1.value), fmt::format("{:.0e}", b1.standard_error),
-              fmt::format("{:.5f}", beta1.value), fmt::format("{:.0e}", beta1.standard_error),
-              fmt::format("{:.2e}", fit.loss), fmt::format("{:.2e}", fit.held_out_loss),
-              fit.usable ? "yes" : fit.reason, fmt::format("{:.2f}", fit.data_seconds + fit.fit_seconds)});
+    fits.add({fmt::format("{:g}", step), fmt::format("{:.5f}", b1.value),
+              fmt::format("{:.0e}", b1.standard_error), fmt::format("{:.5f}", beta1.value),
+              fmt::format("{:.0e}", beta1.standard_error), fmt::format("{:.2e}", fit.loss),
+              fmt::format("{:.2e}", fit.held_out_loss), fit.usable ? "yes" : fit.reason,
+              fmt::format("{:.2f}", fit.data_seconds + fit.fit_seconds)});
     const comparison compare(system, step, starts);
     experiments.push_back(compare(method));
     experiments.push_back(compare(verlet{}));
@@ -199,7 +209,8 @@ void demonstrate(const std::filesystem::path& folder) {
     experiments.push_back(compare(srkn6b{}));
     reference_own_error = std::max(reference_own_error, compare.reference_error());
   }
-  experiments.push_back(comparison(system, 0.06, starts)(srkn6b{}));  // it costs there what two stages cost at .02
+  experiments.push_back(
+      comparison(system, 0.06, starts)(srkn6b{}));  // it costs there what two stages cost at .02
   progress("timing");
   const auto rows = timed(experiments);
 
@@ -213,15 +224,19 @@ void demonstrate(const std::filesystem::path& folder) {
       at_equal_cost(rows, shown.name(), {"verlet", "verlet_2x", "mclachlan2", "bcss2", "srkn6b"});
   write_file(folder / "table.csv", comparison_table.csv());
   write_file(folder / "table.md", "Learned parameters:\n\n" + fits.markdown() + "\nSpeed against error:\n\n" +
-                                      comparison_table.markdown() + "\nAt equal cost:\n\n" + equal_cost.markdown());
+                                      comparison_table.markdown() + "\nAt equal cost:\n\n" +
+                                      equal_cost.markdown());
   fmt::print("Learned from 100 trajectories of length {:g}:\n\n{}\n", horizon, fits.text());
-  fmt::print("Error of the total stiff energy on {} new trajectories of length {:g}\n"
-             "(average relative RMS; the reference's own error is {:.0e}):\n\n{}\n",
-             test_trajectories, horizon, reference_own_error, comparison_table.text());
-  fmt::print("At the cost of each learned step (a ratio above 1: the learned scheme is better):\n\n{}\n", equal_cost.text());
-  fmt::print("Table: {0}/table.md and table.csv\nPictures: {0}/error_against_evaluations, error_against_seconds, "
-             "stiff_energies (.svg and .png)\n",
-             folder.string());
+  fmt::print(
+      "Error of the total stiff energy on {} new trajectories of length {:g}\n"
+      "(average relative RMS; the reference's own error is {:.0e}):\n\n{}\n",
+      test_trajectories, horizon, reference_own_error, comparison_table.text());
+  fmt::print("At the cost of each learned step (a ratio above 1: the learned scheme is better):\n\n{}\n",
+             equal_cost.text());
+  fmt::print(
+      "Table: {0}/table.md and table.csv\nPictures: {0}/error_against_evaluations, error_against_seconds, "
+      "stiff_energies (.svg and .png)\n",
+      folder.string());
 }
 
 constexpr std::string_view usage =

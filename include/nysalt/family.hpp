@@ -33,17 +33,16 @@ using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)
 ///   ranges(), start()                              where theta may lie, and where a search begins
 ///   coefficients(theta)                            over any scalar
 template <class F>
-concept Family =
-    Word<typename F::word> && requires(const parameters_of<F>& theta) {
-      { F::name } -> std::convertible_to<std::string_view>;
-      { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
-      { F::order } -> std::convertible_to<int>;
-      { F::symmetric } -> std::convertible_to<bool>;
-      { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
-      { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
-      { F::start() } -> std::same_as<parameters_of<F>>;
-      { F::coefficients(theta) } -> std::same_as<std::array<double, F::word::length>>;
-    };
+concept Family = Word<typename F::word> && requires(const parameters_of<F>& theta) {
+  { F::name } -> std::convertible_to<std::string_view>;
+  { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
+  { F::order } -> std::convertible_to<int>;
+  { F::symmetric } -> std::convertible_to<bool>;
+  { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
+  { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
+  { F::start() } -> std::same_as<parameters_of<F>>;
+  { F::coefficients(theta) } -> std::same_as<std::array<double, F::word::length>>;
+};
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 template <Family F>
@@ -53,8 +52,8 @@ void require_in_range(const parameters_of<F>& theta) {
     if (ranges[k].contains(theta[k])) continue;
     const auto [low, high, open] = ranges[k];
     throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", F::name,
-                                            F::parameter_names[k], open ? '(' : '[', low, high, open ? ')' : ']',
-                                            theta[k]));
+                                            F::parameter_names[k], open ? '(' : '[', low, high,
+                                            open ? ')' : ']', theta[k]));
   }
 }
 

@@ -56,13 +56,14 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   constexpr std::int64_t checks = 16;  // enough for the size of an error
   const auto began = std::chrono::steady_clock::now();
   if (!(options.step > 0.0) || !std::isfinite(options.step)) {
-    throw std::invalid_argument(fmt::format("flow_map_data: the step must be positive, got {}", options.step));
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the step must be positive, got {}", options.step));
   }
   const auto steps = static_cast<std::int64_t>(std::floor(options.horizon / options.step + 1e-9));
   if (steps < 1 || options.trajectories < 1) {
-    throw std::invalid_argument(
-        fmt::format("flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
-                    options.trajectories, options.horizon, options.step));
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
+        options.trajectories, options.horizon, options.step));
   }
   const counted<S> watched(system);
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
@@ -84,8 +85,8 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
       reference.advance(watched, x, options.step);
       if (!is_finite(x)) {
         throw std::runtime_error(
-            fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged", m,
-                        n + 1, reference.description()));
+            fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged",
+                        m, n + 1, reference.description()));
       }
       data.finish.push_back(x);
     }

@@ -50,11 +50,12 @@ class divergence {
 /// Throws std::invalid_argument if steps < 0, every < 1 or the start is not finite or does not fit.
 template <class Stepper, class Observer>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
-                                      const phase_point<double, Stepper::dimension>& start, std::int64_t steps,
-                                      Observer&& observer, std::int64_t every) {
+                                      const phase_point<double, Stepper::dimension>& start,
+                                      std::int64_t steps, Observer&& observer, std::int64_t every) {
   constexpr std::int64_t check_every = 64;  // energy costs about a force: 2 % of a one-stage method
   if (steps < 0 || every < 1) {
-    throw std::invalid_argument(fmt::format("integrate: {} steps, observed every {}: cannot be", steps, every));
+    throw std::invalid_argument(
+        fmt::format("integrate: {} steps, observed every {}: cannot be", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");
@@ -83,7 +84,8 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
 /// The same unobserved: only the finish is wanted.
 template <class Stepper>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
-                                      const phase_point<double, Stepper::dimension>& start, std::int64_t steps) {
+                                      const phase_point<double, Stepper::dimension>& start,
+                                      std::int64_t steps) {
   const auto nobody = [](auto&&...) {};
   return integrate(stepper, start, steps, nobody, std::max<std::int64_t>(steps, 1));
 }

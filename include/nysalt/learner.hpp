@@ -35,7 +35,8 @@ namespace detail {
 
 /// Why a fit should not be used; empty if it may be.
 template <Family F, System S>
-std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta, bool converged) {
+std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta,
+                      bool converged) {
   if (!converged) return "the search did not converge";
   if (!(fit.held_out_loss < fit.held_out_start_loss) && fit.held_out_loss > 1e-24) {
     return "on held-out data it is no better than the parameters that the search began with";
@@ -127,7 +128,8 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   for (std::size_t k = 0; k < theta.size(); ++k) {
     const auto index = static_cast<Eigen::Index>(k);
     const bool is_free = std::find(free.begin(), free.end(), index) != free.end();
-    fit.parameters.push_back({std::string(F::parameter_names[k]), theta[k], is_free ? errors[index] : 0.0, is_free});
+    fit.parameters.push_back(
+        {std::string(F::parameter_names[k]), theta[k], is_free ? errors[index] : 0.0, is_free});
   }
   fit.loss = loss_value(loss, theta);
   fit.held_out_loss = loss_value(held_out_loss, theta);

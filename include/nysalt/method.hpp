@@ -78,8 +78,9 @@ class tuned_method {
                       name(), step_, step));
     }
     if (system != system_) {
-      throw std::invalid_argument(fmt::format(
-          "{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(), system_, system));
+      throw std::invalid_argument(
+          fmt::format("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
+                      system_, system));
     }
   }
 
@@ -92,9 +93,10 @@ class tuned_method {
 /// The stepper of a method on a system. Throws what the method's validity or the stepper refuses.
 template <System S, Method M>
 stepper<S, typename M::word> make_stepper(const S& system, const M& method, double step) {
-  static_assert(SeparableSystem<S>,
-                "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
-                "template or over double; see nysalt/system.hpp");
+  static_assert(
+      SeparableSystem<S>,
+      "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
+      "template or over double; see nysalt/system.hpp");
   static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
                 "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
                 "kinetic energy of its own");

@@ -8,6 +8,7 @@ namespace nysalt {
 
 /// A field with double coefficients: double itself, a dual number, a truncated series, a ceres::Jet.
 /// What T is decides what a step computes; systems, flows and families never ask.
+// clang-format off
 template <class T>
 concept Scalar = std::copyable<T> && std::constructible_from<T, double> &&
                  requires(T x, const T& a, const T& b, double c) {
@@ -26,5 +27,10 @@ concept Scalar = std::copyable<T> && std::constructible_from<T, double> &&
 /// mixed arithmetic cannot creep in.
 template <class C, class T>
 concept CoefficientOf = Scalar<C> && Scalar<T> && (std::same_as<C, double> || std::same_as<C, T>);
+// clang-format on
+
+/// The same, said of the state's scalar.
+template <class T, class C>
+concept SteppedBy = CoefficientOf<C, T>;
 
 }  // namespace nysalt

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -49,8 +49,7 @@ class stepper {
   const S& system() const { return *system_; }
 
   /// Begins a run at x. Cost: W::evaluations_to_open.
-  template <Scalar T>
-    requires CoefficientOf<C, T>
+  template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x) const {
     open_run<T, dimension> run{{x.q, x.p, make_vector<T>(*system_)}};
     if constexpr (W::evaluations_to_open > 0) force<T>(*system_, run.state.q, run.state.f);
@@ -89,8 +88,7 @@ class stepper {
 
   /// One plain step, letter by letter, from q and p alone (f is scratch): what learning and the
   /// analyses differentiate. Cost: W::evaluations_of_plain_step.
-  template <Scalar T>
-    requires CoefficientOf<C, T>
+  template <SteppedBy<C> T>
   void step(flow_state<T, dimension>& x) const {
     plain_letters<0>(*system_, x);
   }

@@ -6,8 +6,7 @@
 //   template <class T> void force(const vector<T, N>& q, vector<T, N>& f) const;      f = -grad V
 //   void force(const vector<double, N>& q, vector<double, N>& f) const;               a black box
 // and, if wanted,
-//   void force_derivative(const vector<double, N>& q, const vector<double, N>& v, vector<double, N>& g) const;
-//                                     g = f'(q) v of a black box (else central differences)
+//   void force_derivative(q, v, g) const, all vector<double, N>;   g = f'(q) v, else central differences
 //   double inverse_mass(Eigen::Index i) const;                      K = sum p_i^2 / (2 m_i), else m_i = 1
 //   template <class T> T kinetic_energy(const vector<T, N>& p) const;                 any other K(p)
 //   template <class T> void velocity(const vector<T, N>& p, vector<T, N>& v) const;   v = grad K
@@ -42,21 +41,23 @@ struct frequency_band {
 };
 
 template <class S>
-concept System = std::copyable<S> && (S::dimension > 0 || (S::dimension == Eigen::Dynamic &&
-                                                          requires(const S& s) {
-                                                            { s.size() } -> std::convertible_to<Eigen::Index>;
-                                                          }));
+concept System = std::copyable<S> &&
+    (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
+       { s.size() } -> std::convertible_to<Eigen::Index>;
+     }));
 
 template <class S, class T>
 concept HasPotential = requires(const S& s, const vector<T, S::dimension>& q) {
   { s.potential(q) } -> std::same_as<T>;
 };
 template <class S, class T>
-concept HasForce =
-    requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) { s.force(q, f); };
+concept HasForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
+  s.force(q, f);
+};
 template <class S>
 concept HasForceDerivative = requires(const S& s, const vector<double, S::dimension>& q,
-                                      const vector<double, S::dimension>& v, vector<double, S::dimension>& g) {
+                                      const vector<double, S::dimension>& v,
+                                      vector<double, S::dimension>& g) {
   s.force_derivative(q, v, g);
 };
 template <class S>
@@ -68,8 +69,9 @@ concept HasKineticEnergy = requires(const S& s, const vector<T, S::dimension>& p
   { s.kinetic_energy(p) } -> std::same_as<T>;
 };
 template <class S, class T>
-concept HasVelocity =
-    requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) { s.velocity(p, v); };
+concept HasVelocity = requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
+  s.velocity(p, v);
+};
 template <class S>
 concept HasModes = requires(const S& s) {
   { s.modes() } -> std::same_as<normal_modes>;
@@ -96,8 +98,8 @@ inline constexpr int sweep = (N == Eigen::Dynamic || N > 16) ? 1 : N;
 
 /// A system whose force can be evaluated over the scalar T.
 template <class S, class T>
-concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, detail::sweep<S::dimension>>> ||
-                                   (BlackBoxForce<S> && detail::is_dual_of_double<T>));
+concept SystemOver = System<S> &&(HasForce<S, T> || HasPotential<S, dual<T, detail::sweep<S::dimension>>> ||
+                                  (BlackBoxForce<S> && detail::is_dual_of_double<T>));
 
 /// H = K(p) + V(q): kicks and drifts are exact.
 template <class S>
@@ -105,12 +107,11 @@ concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>
 
 /// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
 template <class S>
-concept NystromSystem =
-    SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
+concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
 /// H can be evaluated.
 template <class S, class T = double>
-concept HasEnergy = HasPotential<S, T> && (NystromSystem<S> || HasKineticEnergy<S, T>);
+concept HasEnergy = HasPotential<S, T> &&(NystromSystem<S> || HasKineticEnergy<S, T>);
 
 /// Number of degrees of freedom.
 template <System S>
@@ -246,7 +247,9 @@ T energy(const S& system, const phase_point<T, S::dimension>& x) {
 /// What a learned method remembers of its system, so that it can refuse another one.
 template <System S>
 std::string describe(const S& system) {
-  if constexpr (requires { { system.description() } -> std::convertible_to<std::string>; }) {
+  if constexpr (requires {
+                  { system.description() } -> std::convertible_to<std::string>;
+                }) {
     return system.description();
   } else {
     std::string name = typeid(S).name();  // in steps: g++ 12 warns wrongly about a chain of +

@@ -50,7 +50,7 @@ struct word {
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =
-      length > 1 && std::is_same_v<letter<0>, letter<length - 1>> && letter<0>::additive;
+      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
 
   static std::string letters() { return {L::letter...}; }
 

@@ -14,14 +14,13 @@ namespace nysalt {
 
 /// (H - H_0)/|H_0| along a trajectory: bounded for a symplectic method, and without a trend.
 struct energy_record {
-  double largest = 0.0;             // of |H - H_0|/|H_0|
-  double drift = 0.0;               // its trend per unit time, least squares
+  double largest = 0.0;  // of |H - H_0|/|H_0|
+  double drift = 0.0;    // its trend per unit time, least squares
   std::optional<std::int64_t> diverged_at;
 };
 
 /// Runs `steps` steps and looks at the energy every `every` of them. |H_0| below 1e-300 counts as 1.
-template <SeparableSystem S, Method M>
-  requires HasEnergy<S>
+template <HasEnergy S, Method M>
 energy_record energy_drift(const S& system, const M& method, double step,
                            const phase_point<double, S::dimension>& start, std::int64_t steps,
                            std::int64_t every = 1) {

@@ -38,10 +38,10 @@ inline double relative_rms(const std::vector<double>& a, const std::vector<doubl
 }
 
 struct path_error_result {
-  estimate error;                            // over the trajectories that did not diverge
-  std::int64_t diverged = 0;                 // trajectories
-  std::vector<std::int64_t> diverged_at;     // their steps
-  double evaluations_per_time = 0.0;         // force evaluations of one whole trajectory, start-up included
+  estimate error;                         // over the trajectories that did not diverge
+  std::int64_t diverged = 0;              // trajectories
+  std::vector<std::int64_t> diverged_at;  // their steps
+  double evaluations_per_time = 0.0;      // force evaluations of one whole trajectory, start-up included
 };
 
 /// The paper's average relative error of an observable [li_lu_tao_ye_2023, equation (5.6)], with its

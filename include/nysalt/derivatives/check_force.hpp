@@ -16,19 +16,20 @@ namespace nysalt {
 
 /// Defects are relative to the largest entry of the force, and of its Jacobian, over all points.
 struct force_check {
-  double gradient_defect = 0.0;   // of force = -grad V; 0 where the system has no potential
-  Eigen::Index coordinate = 0;    // where that is worst, from 0
-  double asymmetry = 0.0;         // of the Jacobian of the force: a gradient's is symmetric
-  double tolerance = 0.0;         // what the derivatives used can be off by
+  double gradient_defect = 0.0;  // of force = -grad V; 0 where the system has no potential
+  Eigen::Index coordinate = 0;   // where that is worst, from 0
+  double asymmetry = 0.0;        // of the Jacobian of the force: a gradient's is symmetric
+  double tolerance = 0.0;        // what the derivatives used can be off by
   bool has_potential = false;
 
   bool passed() const { return gradient_defect <= tolerance && asymmetry <= tolerance; }
   std::string report() const {
     if (passed()) return fmt::format("the force is {}", has_potential ? "-grad V" : "conservative");
     if (gradient_defect > tolerance) {
-      return fmt::format("the force is not -grad V: coordinate {} is off by {:.2e} of the largest force; check its "
-                         "sign and formula",
-                         coordinate + 1, gradient_defect);
+      return fmt::format(
+          "the force is not -grad V: coordinate {} is off by {:.2e} of the largest force; check its "
+          "sign and formula",
+          coordinate + 1, gradient_defect);
     }
     return fmt::format("the force is not conservative: its Jacobian is asymmetric by {:.2e}", asymmetry);
   }

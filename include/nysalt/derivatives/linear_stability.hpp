@@ -58,7 +58,8 @@ inline std::vector<double> positive_roots(std::vector<double> c) {
   if (degree < 1) return roots;
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
   companion.diagonal(-1).setOnes();
-  for (Eigen::Index i = 0; i < degree; ++i) companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
+  for (Eigen::Index i = 0; i < degree; ++i)
+    companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(companion, false);
   for (const auto& root : solver.eigenvalues()) {
     // A root too many only cuts an interval in two, so be generous with nearly double ones.

@@ -20,8 +20,8 @@ class normal_around {
   /// Throws std::invalid_argument if the centre is not finite or a deviation is negative or not finite.
   normal_around(phase_point<double, N> centre, double deviation_q, double deviation_p)
       : centre_(std::move(centre)), deviation_q_(deviation_q), deviation_p_(deviation_p) {
-    if (!is_finite(centre_) || !(deviation_q >= 0.0) || !(deviation_p >= 0.0) || !std::isfinite(deviation_q) ||
-        !std::isfinite(deviation_p)) {
+    if (!is_finite(centre_) || !(deviation_q >= 0.0) || !(deviation_p >= 0.0) ||
+        !std::isfinite(deviation_q) || !std::isfinite(deviation_p)) {
       throw std::invalid_argument("normal_around: needs a finite centre and finite deviations >= 0");
     }
   }
@@ -29,7 +29,8 @@ class normal_around {
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     phase_point<double, N> start = centre_;
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      const auto [x, y] = standard_normals(seed, n, static_cast<std::uint32_t>(i), noise_purpose::initial_state);
+      const auto [x, y] =
+          standard_normals(seed, n, static_cast<std::uint32_t>(i), noise_purpose::initial_state);
       start.q[i] += deviation_q_ * x;
       start.p[i] += deviation_p_ * y;
     }

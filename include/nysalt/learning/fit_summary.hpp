@@ -28,16 +28,16 @@ struct fit_summary {
   std::uint64_t seed = 0;
 
   std::vector<fitted_parameter> parameters;
-  double loss = 0.0;           // mean over pairs of the sum over coordinates of r^2/Sigma
-  double held_out_loss = 0.0;  // the same on data that was not learned from
+  double loss = 0.0;                 // mean over pairs of the sum over coordinates of r^2/Sigma
+  double held_out_loss = 0.0;        // the same on data that was not learned from
   double held_out_start_loss = 0.0;  // and with the parameters that the search began with
-  std::size_t samples = 0;     // pairs
+  std::size_t samples = 0;           // pairs
   std::size_t trajectories = 0;
   std::size_t held_out_samples = 0;
 
-  double condition = 1.0;                              // of the Hessian, flat directions apart
-  std::vector<std::vector<double>> flat_directions;    // along which the data say nothing
-  std::vector<std::string> dropped;                    // coordinates that never move
+  double condition = 1.0;                            // of the Hessian, flat directions apart
+  std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
+  std::vector<std::string> dropped;                  // coordinates that never move
   int iterations = 0;
   double one_step_error = 0.0;   // root of the loss
   double reference_error = 0.0;  // the reference's own, in the same measure
@@ -71,9 +71,10 @@ struct fit_summary {
     };
     line("usable", usable ? "yes" : "no: " + reason);
     line("loss", fmt::format("{:.6e} on {} pairs of {} trajectories", loss, samples, trajectories));
-    line("held-out loss", fmt::format("{:.6e} on {} pairs; at the start {:.6e}", held_out_loss, held_out_samples,
-                                      held_out_start_loss));
-    line("one-step error", fmt::format("{:.3e}, the reference's own {:.3e}", one_step_error, reference_error));
+    line("held-out loss", fmt::format("{:.6e} on {} pairs; at the start {:.6e}", held_out_loss,
+                                      held_out_samples, held_out_start_loss));
+    line("one-step error",
+         fmt::format("{:.3e}, the reference's own {:.3e}", one_step_error, reference_error));
     line("coordinates", coordinates);
     for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
     line("condition", fmt::format("{:.3g}", condition));
@@ -86,8 +87,8 @@ struct fit_summary {
     line("reference", reference);
     line("starts", fmt::format("{}, seed {}", ensemble, seed));
     line("force derivatives", derivatives);
-    line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations, data_seconds,
-                             fit_seconds));
+    line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations,
+                             data_seconds, fit_seconds));
     return text;
   }
 };

@@ -43,7 +43,8 @@ class block_cost final : public ceres::CostFunction {
       loss_->template evaluate<D>(block_, lifted, r.data());
       for (std::size_t i = 0; i < count; ++i) {
         residuals[i] = r[i].value;
-        for (std::size_t k = 0; k < theta.size(); ++k) jacobians[0][i * theta.size() + k] = r[i].derivative[k];
+        for (std::size_t k = 0; k < theta.size(); ++k)
+          jacobians[0][i * theta.size() + k] = r[i].derivative[k];
       }
     }
     for (std::size_t i = 0; i < count; ++i) {

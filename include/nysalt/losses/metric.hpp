@@ -100,7 +100,8 @@ class metric {
     weight_ = Eigen::VectorXd::Ones(2 * size_);
     for (Eigen::Index row = 0; row < 2 * size_; ++row) active_.push_back(row);
     Eigen::VectorXd increment(2 * size_);
-    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(2 * size_, static_cast<Eigen::Index>(data.trajectories()));
+    Eigen::MatrixXd squares =
+        Eigen::MatrixXd::Zero(2 * size_, static_cast<Eigen::Index>(data.trajectories()));
     Eigen::RowVectorXd shares(squares.cols());
     const auto total = static_cast<double>(data.pairs());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
@@ -123,7 +124,8 @@ class metric {
         dropped_.push_back(fmt::format("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1));
       }
     }
-    if (active_.empty()) throw std::invalid_argument("nothing moves in the data: there is nothing to learn from");
+    if (active_.empty())
+      throw std::invalid_argument("nothing moves in the data: there is nothing to learn from");
     deviations_ = squares(active_, Eigen::all);
     for (Eigen::Index k = 0; k < residuals(); ++k) {
       deviations_.row(k) = deviations_.row(k) / sigma[active_[static_cast<std::size_t>(k)]] - shares;

@@ -27,7 +27,8 @@ class one_step {
 
   std::size_t blocks() const { return data_->trajectories(); }
   std::size_t residuals(std::size_t block) const {
-    return (data_->first_of[block + 1] - data_->first_of[block]) * static_cast<std::size_t>(metric_->residuals());
+    return (data_->first_of[block + 1] - data_->first_of[block]) *
+           static_cast<std::size_t>(metric_->residuals());
   }
 
   /// The residuals of a block over double, or over dual numbers that carry derivatives by theta; the loss
@@ -37,7 +38,8 @@ class one_step {
                 C* r) const {
     using word = typename F::word;
     const stepper<S, word, C> one(*system_, F::coefficients(theta), data_->step);
-    flow_state<C, S::dimension> x{make_vector<C>(*system_), make_vector<C>(*system_), make_vector<C>(*system_)};
+    flow_state<C, S::dimension> x{make_vector<C>(*system_), make_vector<C>(*system_),
+                                  make_vector<C>(*system_)};
     const double share = 1.0 / std::sqrt(static_cast<double>(data_->pairs()));
     const Eigen::Index rows = metric_->residuals();
     for (std::size_t n = data_->first_of[block]; n < data_->first_of[block + 1]; ++n) {

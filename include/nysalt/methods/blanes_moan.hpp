@@ -13,7 +13,7 @@ struct blanes_moan_s6 : palindromic<kick, drift, 13> {
   static constexpr int order = 4;
   static std::string name() { return "blanes_moan_s6"; }
   static constexpr std::array<double, 13> coefficients() {
-    return palindrome<13>({0.0792036964311957, 0.209515106613362,    //
+    return palindrome<13>({0.0792036964311957, 0.209515106613362,  //
                            0.353172906049774, -0.143851773179818,  //
                            -0.0420650803577195});
   }

@@ -15,8 +15,8 @@ enum class noise_purpose : std::uint32_t { initial_state = 1 };
 
 /// Two independent standard normal numbers, a pure function of the arguments: Philox 4x32-10 with the seed
 /// as its key [salmon_2011], then Box and Muller on two 53-bit uniforms. No state, hence no order.
-inline std::array<double, 2> standard_normals(std::uint64_t seed, std::uint64_t trajectory, std::uint32_t slot,
-                                              noise_purpose purpose) {
+inline std::array<double, 2> standard_normals(std::uint64_t seed, std::uint64_t trajectory,
+                                              std::uint32_t slot, noise_purpose purpose) {
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
   const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32U); };
   const r123::Philox4x32::key_type key = {{low(seed), high(seed)}};

@@ -21,7 +21,8 @@ class fine_steps {
   /// Throws std::invalid_argument unless the step is positive and finite.
   explicit fine_steps(double step, const M& method = M{}) : step_(step), method_(method) {
     if (!(step > 0.0) || !std::isfinite(step)) {
-      throw std::invalid_argument(fmt::format("fine_steps: the step must be positive and finite, got {}", step));
+      throw std::invalid_argument(
+          fmt::format("fine_steps: the step must be positive and finite, got {}", step));
     }
   }
 
@@ -31,7 +32,8 @@ class fine_steps {
     const double ratio = t / step_;
     const double steps = std::round(ratio);
     if (!(steps >= 1.0) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
-      throw std::invalid_argument(fmt::format("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+      throw std::invalid_argument(
+          fmt::format("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
     }
     const auto fine = make_stepper(system, method_, t / steps);
     auto run = fine.open(x);

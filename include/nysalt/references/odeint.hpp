@@ -22,7 +22,8 @@ class odeint_reference {
   /// Throws std::invalid_argument unless 0 < tolerance < 1.
   explicit odeint_reference(double tolerance) : tolerance_(tolerance) {
     if (!(tolerance > 0.0 && tolerance < 1.0)) {
-      throw std::invalid_argument(fmt::format("odeint_reference: the tolerance must lie in (0, 1), got {}", tolerance));
+      throw std::invalid_argument(
+          fmt::format("odeint_reference: the tolerance must lie in (0, 1), got {}", tolerance));
     }
   }
 

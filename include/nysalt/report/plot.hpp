@@ -32,7 +32,7 @@ struct panel {
 };
 
 struct figure {
-  std::string name;  // of the files
+  std::string name;           // of the files
   std::vector<panel> panels;  // side by side
   int width = 800;
   int height = 520;
@@ -54,7 +54,8 @@ inline std::string plot_data(const figure& f) {
       text += fmt::format("# {}: {}\n", panel.title, curve.label);
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double error = i < curve.error.size() && std::isfinite(curve.error[i]) ? curve.error[i] : 0.0;
-        if (std::isfinite(curve.y[i])) text += fmt::format("{:.10g} {:.10g} {:.10g}\n", curve.x[i], curve.y[i], error);
+        if (std::isfinite(curve.y[i]))
+          text += fmt::format("{:.10g} {:.10g} {:.10g}\n", curve.x[i], curve.y[i], error);
       }
       text += "\n\n";
     }
@@ -70,7 +71,8 @@ inline std::string plot_script(const figure& f) {
   std::string text = fmt::format(
       "# gnuplot -e \"kind='svg'; target='{0}.svg'\" {0}.gp\n"
       "if (kind eq 'svg') {{ set terminal svg size {1},{2} background 'white' font 'sans,13' noenhanced }}\n"
-      "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} background 'white' font 'sans,11' noenhanced }}\n"
+      "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} background 'white' font 'sans,11' noenhanced "
+      "}}\n"
       "set output target\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc '#cccccc'\n",
       f.name, f.width, f.height);
   if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
@@ -87,11 +89,12 @@ inline std::string plot_script(const figure& f) {
       text += j == 0 ? "plot " : ", ";
       if (panel.log_log) {
         const int point = points[j % std::size(points)];
-        text += fmt::format("{} using 1:2:3 with yerrorlines {} lw {} pt {} ps {} title {}", data, colour,
-                            curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.4 : 1.0, quoted(curve.label));
+        text +=
+            fmt::format("{} using 1:2:3 with yerrorlines {} lw {} pt {} ps {} title {}", data, colour,
+                        curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.4 : 1.0, quoted(curve.label));
       } else {
-        text += fmt::format("{} using 1:2 with lines {} lw {} title {}", data, colour, curve.emphasised ? 1.6 : 0.9,
-                            quoted(curve.label));
+        text += fmt::format("{} using 1:2 with lines {} lw {} title {}", data, colour,
+                            curve.emphasised ? 1.6 : 0.9, quoted(curve.label));
       }
     }
     text += "\n";

@@ -19,7 +19,8 @@ class table {
   /// Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells) {
     if (cells.size() != columns_.size()) {
-      throw std::invalid_argument(fmt::format("table: {} cells for {} columns", cells.size(), columns_.size()));
+      throw std::invalid_argument(
+          fmt::format("table: {} cells for {} columns", cells.size(), columns_.size()));
     }
     rows_.push_back(std::move(cells));
   }
@@ -59,7 +60,8 @@ class table {
       result += left;
       for (std::size_t j = 0; j < cells.size(); ++j) {
         if (j > 0) result += between;
-        result += j == 0 ? fmt::format("{:<{}}", cells[j], widths[j]) : fmt::format("{:>{}}", cells[j], widths[j]);
+        result +=
+            j == 0 ? fmt::format("{:<{}}", cells[j], widths[j]) : fmt::format("{:>{}}", cells[j], widths[j]);
       }
       result += std::string(right) + '\n';
     };

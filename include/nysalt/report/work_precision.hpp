@@ -39,8 +39,8 @@ inline table work_precision_table(const std::vector<work_precision_row>& rows) {
 
 /// A method's error at a cost, on straight log-log lines between its rows without diverged trajectories;
 /// nothing outside them.
-inline std::optional<double> error_at_cost(const std::vector<work_precision_row>& rows, const std::string& method,
-                                           double evaluations_per_time) {
+inline std::optional<double> error_at_cost(const std::vector<work_precision_row>& rows,
+                                           const std::string& method, double evaluations_per_time) {
   const work_precision_row* below = nullptr;
   const work_precision_row* above = nullptr;
   constexpr double same = 1e-2;  // start-up evaluations are no difference in cost
@@ -67,7 +67,8 @@ inline panel work_precision_panel(const std::vector<work_precision_row>& rows, c
     auto at = std::find_if(result.curves.begin(), result.curves.end(),
                            [&](const curve& c) { return c.label == row.method; });
     if (at == result.curves.end()) {
-      result.curves.push_back({.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
+      result.curves.push_back(
+          {.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
       at = result.curves.end() - 1;
     }
     at->x.push_back(row.*cost);

@@ -23,7 +23,8 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
   if (!stream || failure) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(fmt::format("cannot write {}: is the folder there, writable, and not full?", path.string()));
+    throw std::runtime_error(
+        fmt::format("cannot write {}: is the folder there, writable, and not full?", path.string()));
   }
 }
 

@@ -22,9 +22,7 @@ struct series {
   series(double constant) { coefficient[0] = constant; }
 
   /// The variable x itself.
-  static series variable()
-    requires(Degree >= 1)
-  {
+  static series variable() requires(Degree >= 1) {
     series result;
     result.coefficient[1] = 1.0;
     return result;

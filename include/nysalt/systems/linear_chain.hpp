@@ -27,10 +27,11 @@ class linear_chain {
       : stiffness_(std::move(stiffness)), inverse_masses_(std::move(masses)) {
     const auto n = stiffness_.rows();
     if (n == 0 || n != stiffness_.cols()) {
-      throw std::invalid_argument(fmt::format("linear_chain: the stiffness matrix must be square, got {} x {}", n,
-                                              stiffness_.cols()));
+      throw std::invalid_argument(fmt::format(
+          "linear_chain: the stiffness matrix must be square, got {} x {}", n, stiffness_.cols()));
     }
-    if (!stiffness_.allFinite()) throw std::invalid_argument("linear_chain: the stiffness matrix is not finite");
+    if (!stiffness_.allFinite())
+      throw std::invalid_argument("linear_chain: the stiffness matrix is not finite");
     if (stiffness_ != stiffness_.transpose()) {
       throw std::invalid_argument("linear_chain: the stiffness matrix must be symmetric; use (K + K^T)/2");
     }
