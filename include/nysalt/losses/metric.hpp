@@ -14,7 +14,7 @@
 
 namespace nysalt {
 
-/// qp      every q_i and p_i, each weighted with its own mean square increment [li_lu_tao_ye_2023, (3.7)]
+/// qp      every q_i and p_i, each weighted with its own mean square increment [li_lu_tao_ye_2023, (3.5)]
 /// modes   the same in the system's orthonormal modes x = U^T M^{1/2} q, y = U^T M^{-1/2} p
 /// energy  omega_k x_k and y_k with one common weight: the energy norm of the quadratic part
 enum class coordinates { qp, modes, energy };

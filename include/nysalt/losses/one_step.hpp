@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-/// The paper's loss [li_lu_tao_ye_2023, equation (3.7)]: the mean over all pairs of
+/// The paper's loss [li_lu_tao_ye_2023, equation (3.5)]: the mean over all pairs of
 /// sum over coordinates of r^2 / Sigma, with r the error of one step from `start` to `finish`.
 ///
 /// A block is one trajectory, whose pairs depend on each other; blocks are independent.

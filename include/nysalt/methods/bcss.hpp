@@ -8,7 +8,7 @@
 namespace nysalt {
 
 /// A(a) B(1/2) A(1 - 2a) B(1/2) A(a) with the least energy error on oscillators up to z = 2: order 2, two
-/// evaluations [blanes_casas_sanz_serna_2014, table 2, two stages].
+/// evaluations [blanes_casas_sanz_serna_2014, the method of two stages].
 struct bcss2 : palindromic<drift, kick, 5> {
   static constexpr int order = 2;
   static std::string name() { return "bcss2"; }
@@ -16,7 +16,7 @@ struct bcss2 : palindromic<drift, kick, 5> {
 };
 
 /// B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b), the same up to z = 3: order 2, three evaluations
-/// [blanes_casas_sanz_serna_2014, table 2, three stages].
+/// [blanes_casas_sanz_serna_2014, the method of three stages].
 struct bcss3 : palindromic<kick, drift, 7> {
   static constexpr int order = 2;
   static std::string name() { return "bcss3"; }

@@ -8,7 +8,7 @@
 namespace nysalt {
 
 /// Position-extended Forest-Ruth-like: A(xi) B((1 - 2 lambda)/2) A(chi) B(lambda) A(1 - 2(chi + xi)) ...,
-/// order 4, four evaluations [omelyan_mryglod_folk_2002, equations (20-22)].
+/// order 4, four evaluations [omelyan_mryglod_folk_2002].
 struct pefrl : palindromic<drift, kick, 9> {
   static constexpr int order = 4;
   static std::string name() { return "pefrl"; }

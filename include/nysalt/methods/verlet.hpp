@@ -8,7 +8,7 @@
 namespace nysalt {
 
 /// B(1/2) A B(1/2): velocity Verlet, order 2, one evaluation a step
-/// [verlet_1967, equation (4); hairer_lubich_wanner_2006, equation (I.1.17)].
+/// [verlet_1967; hairer_lubich_wanner_2006, section I.1.4].
 struct verlet : palindromic<kick, drift, 3> {
   static constexpr int order = 2;
   static std::string name() { return "verlet"; }

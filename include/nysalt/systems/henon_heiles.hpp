@@ -10,7 +10,7 @@
 namespace nysalt {
 
 /// H = (p_1^2 + p_2^2)/2 + (q_1^2 + q_2^2)/2 + q_1^2 q_2 - q_2^3/3, bounded below energy 1/6
-/// [henon_heiles_1964, equation (11)].
+/// [henon_heiles_1964].
 struct henon_heiles {
   static constexpr int dimension = 2;
 

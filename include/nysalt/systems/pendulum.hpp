@@ -9,7 +9,7 @@
 
 namespace nysalt {
 
-/// H = p^2/2 - cos q: unit mass, length and gravity [hairer_lubich_wanner_2006, equation (I.1.13)].
+/// H = p^2/2 - cos q: unit mass, length and gravity [hairer_lubich_wanner_2006, section I.1.2].
 struct pendulum {
   static constexpr int dimension = 1;
 
