@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "nysalt/system.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 

@@ -55,9 +55,10 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
                                                const data_options& options) {
   constexpr std::int64_t checks = 16;  // enough for the size of an error
   const auto began = std::chrono::steady_clock::now();
-  if (!(options.step > 0.0) || !std::isfinite(options.step)) {
+  if (!(options.step > 0.0) || !std::isfinite(options.step) || !std::isfinite(options.horizon)) {
     throw std::invalid_argument(
-        fmt::format("flow_map_data: the step must be positive, got {}", options.step));
+        fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
+                    options.step, options.horizon));
   }
   const auto steps = static_cast<std::int64_t>(std::floor(options.horizon / options.step + 1e-9));
   if (steps < 1 || options.trajectories < 1) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nysalt/energy.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt {

@@ -105,5 +105,7 @@ stepper<S, typename M::word> make_stepper(const S& system, const M& method, doub
   }
   return stepper<S, typename M::word>(system, method.coefficients(), step);
 }
+template <System S, Method M>
+void make_stepper(const S&& system, const M& method, double step) = delete;  // it would refer to a temporary
 
 }  // namespace nysalt

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "nysalt/force.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

@@ -75,8 +75,16 @@ struct word {
   /// Force evaluations of one step in the loop, of opening a run, and of a plain step.
   static constexpr int evaluations_per_step =
       detail::count_evaluations<length>({L::reads_force...}, known_in_loop, first_in_loop);
-  static constexpr int evaluations_to_open =
-      known_in_loop[first_in_loop] || (merges && letter<0>::reads_force) ? 1 : 0;
+  static constexpr int evaluations_to_open = [] {
+    constexpr std::array<bool, length> reads{L::reads_force...};
+    constexpr std::array<bool, length> moves{L::moves_q...};
+    if (merges && reads[0]) return 1;
+    for (std::size_t i = first_in_loop; i < length; ++i) {
+      if (reads[i]) return known_in_loop[i] ? 1 : 0;
+      if (moves[i]) return 0;  // what was known is stale before it is read
+    }
+    return 0;
+  }();
   static constexpr int evaluations_of_plain_step =
       detail::count_evaluations<length>({L::reads_force...}, known_in_step, 0);
 };

@@ -30,7 +30,7 @@ std::vector<std::vector<double>> reference_paths(const S& system, const R& refer
   return paths;
 }
 
-/// Root mean square over the path of (a - b)/b [li_lu_tao_ye_2023, equation (5.7)].
+/// Root mean square over the path of (a - b)/b; b must not vanish [li_lu_tao_ye_2023, equation (5.7)].
 inline double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < b.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]) / (b[i] * b[i]);

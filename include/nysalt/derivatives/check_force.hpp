@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/system.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 

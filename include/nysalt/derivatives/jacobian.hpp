@@ -33,5 +33,7 @@ template <System S, Method M>
 auto step_map(const S& system, const M& method, double step) {
   return [stepper = make_stepper(system, method, step)](auto& x) { stepper.step(x); };
 }
+template <System S, Method M>
+void step_map(const S&& system, const M& method, double step) = delete;  // it would refer to a temporary
 
 }  // namespace nysalt

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/system.hpp"
+#include "nysalt/energy.hpp"
 
 namespace nysalt {
 

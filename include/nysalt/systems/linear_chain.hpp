@@ -76,7 +76,8 @@ class linear_chain {
     return {{modes_.frequencies.minCoeff(), modes_.frequencies.maxCoeff()}};
   }
   std::string description() const {
-    return fmt::format("linear_chain(masses={}, omega_max={:.17g})", size(), modes_.frequencies.maxCoeff());
+    return fmt::format("linear_chain(masses={}, |K|={}, omega_max={})", size(), stiffness_.norm(),
+                       modes_.frequencies.maxCoeff());
   }
 
  private:

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+// K(p), its gradient, and H.
+#pragma once
+
+#include "nysalt/force.hpp"
+
+namespace nysalt {
+
+/// v = grad K(p): p_i / m_i, or the system's own, or by autodiff from its kinetic energy.
+template <class T, System S>
+void velocity(const S& system, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
+  if constexpr (HasVelocity<S, T>) {
+    system.velocity(p, v);
+  } else if constexpr (HasKineticEnergy<S, double>) {
+    gradient<T, S::dimension>([&](const auto& y) { return system.kinetic_energy(y); }, p, 1.0, v);
+  } else if constexpr (HasInverseMass<S>) {
+    for (Eigen::Index i = 0; i < p.size(); ++i) v[i] = p[i] * system.inverse_mass(i);
+  } else {
+    for (Eigen::Index i = 0; i < p.size(); ++i) v[i] = p[i];
+  }
+}
+
+template <class T, HasEnergy<T> S>
+T kinetic_energy(const S& system, const vector<T, S::dimension>& p) {
+  if constexpr (HasKineticEnergy<S, T>) {
+    return system.kinetic_energy(p);
+  } else {
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < p.size(); ++i) {
+      if constexpr (HasInverseMass<S>) {
+        sum += p[i] * p[i] * system.inverse_mass(i);
+      } else {
+        sum += p[i] * p[i];
+      }
+    }
+    return sum * 0.5;
+  }
+}
+
+/// H(q, p) = K(p) + V(q).
+template <class T, HasEnergy<T> S>
+T energy(const S& system, const phase_point<T, S::dimension>& x) {
+  return kinetic_energy<T>(system, x.p) + system.potential(x.q);
+}
+
+}  // namespace nysalt

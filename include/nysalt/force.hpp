@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+// f = -grad V over any scalar: the system's own, by automatic differentiation, or from a black box.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// result = sign * grad function at x, by automatic differentiation of function(vector) -> scalar.
+/// Cost: 1 evaluation over dual<T, N> for small fixed N, else N evaluations over dual<T, 1>.
+template <class T, int N>
+void gradient(const auto& function, const vector<T, N>& x, double sign, vector<T, N>& result) {
+  constexpr int width = detail::sweep<N>;
+  using D = dual<T, width>;
+  vector<D, N> lifted(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) lifted[i] = D(x[i]);
+  for (Eigen::Index first = 0; first < x.size(); first += width) {
+    for (int k = 0; k < width; ++k) lifted[first + k] = D::variable(x[first + k], k);
+    const D value = function(lifted);
+    for (int k = 0; k < width; ++k) {
+      result[first + k] = sign * value.derivative[static_cast<std::size_t>(k)];
+      lifted[first + k] = D(x[first + k]);
+    }
+  }
+}
+
+/// g = f'(q) v of a black-box force: the system's own, or central differences with an error of order
+/// eps^(2/3) relative to |f|/|q| (two evaluations).
+template <System S>
+  requires HasForce<S, double>
+void directional_derivative(const S& system, const vector<double, S::dimension>& q,
+                            const vector<double, S::dimension>& v, vector<double, S::dimension>& g) {
+  if constexpr (HasForceDerivative<S>) {
+    system.force_derivative(q, v, g);
+  } else {
+    double length = 0.0;
+    double scale = 1.0;
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      length = std::max(length, std::abs(v[i]));
+      scale = std::max(scale, std::abs(q[i]));
+    }
+    for (Eigen::Index i = 0; i < q.size(); ++i) g[i] = 0.0;
+    if (length == 0.0) return;
+    // The optimal step of a central difference balances eps/s against s^2.
+    const double s = std::cbrt(std::numeric_limits<double>::epsilon()) * scale / length;
+    auto ahead = q;
+    auto behind = q;
+    auto f_behind = q;
+    for (Eigen::Index i = 0; i < q.size(); ++i) ahead[i] += s * v[i];
+    for (Eigen::Index i = 0; i < q.size(); ++i) behind[i] -= s * v[i];
+    system.force(ahead, g);
+    system.force(behind, f_behind);
+    for (Eigen::Index i = 0; i < q.size(); ++i) g[i] = (g[i] - f_behind[i]) / (2.0 * s);
+  }
+}
+
+/// f = -grad V(q) over any scalar that the system can serve.
+template <class T, SystemOver<T> S>
+void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
+  if constexpr (HasForce<S, T>) {
+    system.force(q, f);
+  } else if constexpr (HasPotential<S, dual<T, detail::sweep<S::dimension>>>) {
+    gradient<T, S::dimension>([&](const auto& x) { return system.potential(x); }, q, -1.0, f);
+  } else {  // a black box over dual<double, N>: f(q + e v) = f(q) + e f'(q) v
+    auto value = make_vector<double>(system);
+    auto direction = value;
+    auto result = value;
+    for (Eigen::Index i = 0; i < q.size(); ++i) value[i] = q[i].value;
+    system.force(value, result);
+    for (Eigen::Index i = 0; i < q.size(); ++i) f[i].value = result[i];
+    for (std::size_t k = 0; k < T::derivatives; ++k) {
+      for (Eigen::Index i = 0; i < q.size(); ++i) direction[i] = q[i].derivative[k];
+      directional_derivative(system, value, direction, result);
+      for (Eigen::Index i = 0; i < q.size(); ++i) f[i].derivative[k] = result[i];
+    }
+  }
+}
+
+/// How derivatives of the force come about, for reports.
+template <SeparableSystem S>
+constexpr const char* derivative_source() {
+  if constexpr (!BlackBoxForce<S>) return "automatic differentiation";
+  if constexpr (HasForceDerivative<S>) return "the system's directional derivative";
+  return "central differences of the force";
+}
+
+}  // namespace nysalt
