@@ -59,7 +59,7 @@ concept HasForceDerivative = requires(const S& s, const vector<double, S::dimens
 };
 template <class S>
 concept HasInverseMass = requires(const S& s, Eigen::Index i) {
-  { s.inverse_mass(i) } -> std::same_as<double>;
+  { s.inverse_mass(i) } -> std::convertible_to<double>;
 };
 template <class S, class T>
 concept HasKineticEnergy = requires(const S& s, const vector<T, S::dimension>& p) {
@@ -108,9 +108,11 @@ concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>
 template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
+// clang-format off
 /// H can be evaluated.
 template <class S, class T = double>
-concept HasEnergy = HasPotential<S, T> && HasKineticEnergy<S, T> || HasPotential<S, T> && NystromSystem<S>;
+concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
+// clang-format on
 
 /// Number of degrees of freedom.
 template <System S>

@@ -21,10 +21,12 @@ struct force_check {
   double asymmetry = 0.0;        // of the Jacobian of the force: a gradient's is symmetric
   double tolerance = 0.0;        // what the derivatives used can be off by
   bool has_potential = false;
+  bool finite = true;  // force, potential and their derivatives, at all points
 
-  bool passed() const { return gradient_defect <= tolerance && asymmetry <= tolerance; }
+  bool passed() const { return finite && gradient_defect <= tolerance && asymmetry <= tolerance; }
   std::string report() const {
     if (passed()) return fmt::format("the force is {}", has_potential ? "-grad V" : "conservative");
+    if (!finite) return "the force is not finite at one of the points, or not differentiable there";
     if (gradient_defect > tolerance) {
       return fmt::format(
           "the force is not -grad V: coordinate {} is off by {:.2e} of the largest force; check its "
@@ -54,6 +56,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
   Eigen::MatrixXd slopes(n, n);
   for (const auto& q : points) {
     force<double>(system, q, f);
+    result.finite = result.finite && f.allFinite();
     largest_force = std::max(largest_force, f.cwiseAbs().maxCoeff());
     if constexpr (HasPotential<S, double>) {
       if constexpr (differentiable) {
@@ -68,6 +71,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
           expected[i] = (system.potential(behind) - system.potential(ahead)) / (ahead[i] - behind[i]);
         }
       }
+      result.finite = result.finite && expected.allFinite();
       Eigen::Index worst = 0;
       const double defect = (f - expected).cwiseAbs().maxCoeff(&worst);
       if (!(defect <= result.gradient_defect)) {
@@ -83,6 +87,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
       force<dual<double, 1>>(system, lifted, g);
       for (Eigen::Index i = 0; i < n; ++i) slopes(i, j) = g[i].derivative[0];
     }
+    result.finite = result.finite && slopes.allFinite();
     largest_slope = std::max(largest_slope, slopes.cwiseAbs().maxCoeff());
     result.asymmetry = std::max(result.asymmetry, (slopes - slopes.transpose()).cwiseAbs().maxCoeff());
   }

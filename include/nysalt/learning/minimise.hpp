@@ -15,6 +15,16 @@
 
 namespace nysalt {
 
+/// Within the open ranges: beyond them the coefficients are not defined.
+template <Family F>
+bool is_defined(const parameters_of<F>& theta) {
+  const auto ranges = F::ranges();
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    if (ranges[k].open && !ranges[k].contains(theta[k])) return false;
+  }
+  return true;
+}
+
 /// One block of a loss as a Ceres cost, differentiated automatically through the stepping code. Points
 /// outside an open range, or where the step is not finite, are rejected.
 template <class Loss>
@@ -27,14 +37,13 @@ class block_cost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     using D = dual<double, parameters_v<Loss>>;
-    const auto ranges = Loss::family::ranges();
     theta_of<Loss> theta;
     std::array<D, theta_of<Loss>{}.size()> lifted;
     for (std::size_t k = 0; k < theta.size(); ++k) {
       theta[k] = blocks[0][k];
       lifted[k] = D::variable(theta[k], static_cast<int>(k));
-      if (ranges[k].open && !ranges[k].contains(theta[k])) return false;
     }
+    if (!is_defined<typename Loss::family>(theta)) return false;
     const auto count = static_cast<std::size_t>(num_residuals());
     if (jacobians == nullptr || jacobians[0] == nullptr) {
       loss_->template evaluate<double>(block_, theta, residuals);
@@ -114,6 +123,7 @@ minimum<Loss> minimise(const Loss& loss, const theta_of<Loss>& start, const std:
   for (int n = 0; n < 8 && decrease > 0.0; ++n) {
     auto next = theta;
     for (std::size_t k = 0; k < next.size(); ++k) next[k] -= step[static_cast<Eigen::Index>(k)];
+    if (!is_defined<typename Loss::family>(next)) break;
     double next_decrease = 0.0;
     const Eigen::VectorXd next_step = newton_step(next, next_decrease);
     if (!(next_decrease < decrease)) break;  // rounding is reached

@@ -19,10 +19,11 @@ struct blanes_moan_s6 : palindromic<kick, drift, 13> {
   }
 };
 
-/// SRKN6b: order 4, six evaluations [blanes_moan_2002, table 3, SRKN_6^b].
+/// SRKN6b: order 4, six evaluations [blanes_moan_2002, table 3, SRKN_6^b]. Its order holds for any K(p): what
+/// a quadratic K removes is a term of fourth order, which a symmetric method lacks anyway. Its small error
+/// constant is for quadratic K.
 struct srkn6b : palindromic<kick, drift, 13> {
   static constexpr int order = 4;
-  static constexpr bool requires_quadratic_kinetic = true;
   static std::string name() { return "srkn6b"; }
   static constexpr std::array<double, 13> coefficients() {
     return palindrome<13>({0.0829844064174052, 0.245298957184271,  //
@@ -31,7 +32,7 @@ struct srkn6b : palindromic<kick, drift, 13> {
   }
 };
 
-/// SRKN11b: order 6, eleven evaluations [blanes_moan_2002, table 3, SRKN_11^b].
+/// SRKN11b: order 6 for quadratic K(p), else 4; eleven evaluations [blanes_moan_2002, table 3, SRKN_11^b].
 struct srkn11b : palindromic<kick, drift, 23> {
   static constexpr int order = 6;
   static constexpr bool requires_quadratic_kinetic = true;

@@ -40,9 +40,10 @@ struct figure {
 
 namespace detail {
 
-inline std::string quoted(const std::string& text) {  // for gnuplot and for the shell alike
+/// In single quotes, with what one inside is written as: '' for gnuplot, '\'' for the shell.
+inline std::string quoted(const std::string& text, const char* inside = "''") {
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("_") : std::string(1, c);
+  for (const char c : text) result += c == '\'' ? std::string(inside) : std::string(1, c);
   return result + "'";
 }
 
@@ -54,8 +55,9 @@ inline std::string plot_data(const figure& f) {
       text += fmt::format("# {}: {}\n", panel.title, curve.label);
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double error = i < curve.error.size() && std::isfinite(curve.error[i]) ? curve.error[i] : 0.0;
-        if (std::isfinite(curve.y[i]))
-          text += fmt::format("{:.10g} {:.10g} {:.10g}\n", curve.x[i], curve.y[i], error);
+        const bool finite = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
+        text += finite ? fmt::format("{:.10g} {:.10g} {:.10g}\n", curve.x[i], curve.y[i], error)
+                       : "NaN NaN NaN\n";
       }
       text += "\n\n";
     }
@@ -114,8 +116,12 @@ inline bool draw(const figure& f, const std::filesystem::path& folder) {
     const std::string picture = f.name + "." + kind;
     const std::string command =
         fmt::format("cd {} && gnuplot -e \"kind='{}'; target='{}.tmp'\" {}.gp 2>/dev/null",
-                    detail::quoted(folder.string()), kind, picture, f.name);
-    if (std::system(command.c_str()) != 0) return false;
+                    detail::quoted(folder.string(), R"('\'')"), kind, picture, f.name);
+    if (std::system(command.c_str()) != 0) {
+      std::error_code ignored;
+      std::filesystem::remove(folder / (picture + ".tmp"), ignored);
+      return false;
+    }
     std::filesystem::rename(folder / (picture + ".tmp"), folder / picture);
   }
   return true;

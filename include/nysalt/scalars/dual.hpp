@@ -154,11 +154,12 @@ dual<T, N> tanh(const dual<T, N>& a) {
   const T value = tanh(a.value);
   return a.chain(value, T(1.0) - value * value);
 }
-/// The exponent is a constant; its derivative at 0 follows libm (pow(0, 0) = 1).
+/// The exponent is a constant.
 template <class T, int N>
 dual<T, N> pow(const dual<T, N>& a, double exponent) {
   using std::pow;
-  return a.chain(pow(a.value, exponent), exponent * pow(a.value, exponent - 1.0));
+  const T slope = exponent == 0.0 ? T(0.0) : T(exponent * pow(a.value, exponent - 1.0));
+  return a.chain(pow(a.value, exponent), slope);
 }
 /// The derivative at 0 is taken from the right.
 template <class T, int N>

@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -76,11 +78,20 @@ class linear_chain {
     return {{modes_.frequencies.minCoeff(), modes_.frequencies.maxCoeff()}};
   }
   std::string description() const {
-    return fmt::format("linear_chain(masses={}, |K|={}, omega_max={})", size(), stiffness_.norm(),
-                       modes_.frequencies.maxCoeff());
+    return fmt::format("linear_chain(masses={}, omega_max={}, fingerprint={:016x})", size(),
+                       modes_.frequencies.maxCoeff(), fingerprint());
   }
 
  private:
+  /// FNV-1a over the bits of K and the inverse masses: what tells one chain from another of its size.
+  std::uint64_t fingerprint() const {
+    std::uint64_t hash = 0xcbf29ce484222325U;  // FNV's offset basis and prime for 64 bits
+    const auto add = [&](double x) { hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U; };
+    for (const double x : stiffness_.reshaped()) add(x);
+    for (const double x : inverse_masses_) add(x);
+    return hash;
+  }
+
   normal_modes decompose() const {
     const Eigen::VectorXd root = inverse_masses_.cwiseSqrt();
     const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness_ * root.asDiagonal();

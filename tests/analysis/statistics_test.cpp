@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <boost/test/unit_test.hpp>
+
+#include "../support/draws.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/analysis/statistics.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+using numbers = std::vector<double>;
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_mean_comes_with_its_error) {
+  const auto [mean, error] = mean_and_error(numbers{1.0, 2.0, 3.0, 6.0});
+  BOOST_TEST(mean == 3.0, boost::test_tools::tolerance(8 * eps));
+  BOOST_TEST(error == std::sqrt(14.0 / 3.0 / 4.0), boost::test_tools::tolerance(8 * eps));
+}
+
+BOOST_AUTO_TEST_CASE(too_few_samples_give_no_number) {
+  BOOST_TEST(std::isnan(mean_and_error(numbers{}).mean));
+  BOOST_TEST(std::isnan(mean_and_error(numbers{}).standard_error));
+  BOOST_TEST(mean_and_error(numbers{7.0}).mean == 7.0);
+  BOOST_TEST(std::isnan(mean_and_error(numbers{7.0}).standard_error));
+  BOOST_TEST(std::isnan(median({})));
+  BOOST_TEST(std::isnan(estimate{}.mean));
+}
+
+// A large offset would drown squares that are not centred.
+BOOST_AUTO_TEST_CASE(an_offset_does_not_change_the_error) {
+  const double offset = 1e8;
+  const double error = mean_and_error(numbers{offset + 1.0, offset + 2.0, offset + 3.0}).standard_error;
+  BOOST_TEST(error == std::sqrt(1.0 / 3.0), boost::test_tools::tolerance(8 * eps * offset));
+}
+
+// The mean of 200 draws is within three errors of the true one, in 99.7 % of cases.
+BOOST_AUTO_TEST_CASE(the_error_is_that_of_the_mean) {
+  draws random;
+  int within = 0;
+  int within_half = 0;
+  for (int n = 0; n < 100; ++n) {
+    numbers samples;
+    for (int i = 0; i < 200; ++i) samples.push_back(random.uniform(-1.0, 1.0));
+    const auto [mean, error] = mean_and_error(samples);
+    within += std::abs(mean) <= 3.0 * error;
+    within_half += std::abs(mean) <= 0.5 * error;
+  }
+  BOOST_TEST_CONTEXT("seed " << draws::seed) {
+    BOOST_TEST(within >= 97);        // the chance of four failures among 100 is 3e-4
+    BOOST_TEST(within_half <= 60);   // 38 expected, and 60 are four deviations and a half away
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_median_is_in_the_middle) {
+  BOOST_TEST(median({3.0, 1.0, 2.0}) == 2.0);
+  BOOST_TEST(median({4.0, 1.0, 3.0, 2.0}) == 2.5);
+  BOOST_TEST(median({5.0}) == 5.0);
+  BOOST_TEST(median({1.0, 1.0, 1e300}) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_slope_of_a_line_is_its_slope) {
+  draws random;
+  numbers x;
+  numbers y;
+  for (int i = 0; i < 20; ++i) {
+    x.push_back(random.uniform(-1.0, 1.0));
+    y.push_back(3.0 - 2.0 * x.back());
+  }
+  BOOST_TEST(slope(x, y) == -2.0, boost::test_tools::tolerance(100 * eps));  // 20 terms, a few roundings each
+  y[0] += 1.0;
+  BOOST_TEST(std::abs(slope(x, y) + 2.0) > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(the_least_squares_slope_by_hand) {
+  BOOST_TEST(slope(numbers{0.0, 1.0, 2.0}, numbers{0.0, 3.0, 3.0}) == 1.5, boost::test_tools::tolerance(8 * eps));
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+// The check finds what people get wrong in a force, says where, and does not cry wolf.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/models.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/derivatives/check_force.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <SeparableSystem S>
+force_check check(const S& system, double reach = 0.5, int points = 5) {
+  draws random;
+  std::vector<vector<double, S::dimension>> at;
+  for (int n = 0; n < points; ++n) at.push_back(random.state(system, reach).q);
+  return check_force(system, at);
+}
+bool says(const force_check& result, const char* words) { return result.report().find(words) != std::string::npos; }
+
+/// The galaxy with a mistake in the second coordinate.
+struct mistaken : henon_heiles {
+  double factor = 1.0;  // of its force
+  double added = 0.0;   // a constant
+  template <class T>
+  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    henon_heiles::force(q, f);
+    f[1] = f[1] * factor + added;
+  }
+};
+
+/// A force without potential that turns states around: conservative only without the twist.
+struct twisted {
+  static constexpr int dimension = 2;
+  double twist = 0.0;
+  template <class T>
+  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    f[0] = -q[0] - q[1] * twist;
+    f[1] = -q[1] + q[0] * twist;
+  }
+};
+
+/// The same for double only.
+struct twisted_box {
+  static constexpr int dimension = 2;
+  double twist = 0.0;
+  void force(const vector<double, 2>& q, vector<double, 2>& f) const { twisted{twist}.force(q, f); }
+};
+
+/// A black box whose potential is one, too.
+struct double_only {
+  static constexpr int dimension = 2;
+  double factor = 1.0;
+  double potential(const vector<double, 2>& q) const { return henon_heiles().potential(q); }
+  void force(const vector<double, 2>& q, vector<double, 2>& f) const {
+    henon_heiles().force(q, f);
+    f[0] *= factor;
+  }
+};
+
+/// A black box that can be differentiated, wrongly.
+struct wrong_derivative {
+  static constexpr int dimension = 2;
+  void force(const vector<double, 2>& q, vector<double, 2>& f) const { f = -q; }
+  void force_derivative(const vector<double, 2>&, const vector<double, 2>& v, vector<double, 2>& g) const {
+    g = vector<double, 2>(-v[0] - v[1], -v[1]);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(right_forces_pass, Model, systems) {
+  const auto system = Model::make();
+  const auto result = check(system, Model::reach);
+  BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system) << ": " << result.report()) {
+    BOOST_TEST(result.passed());
+    BOOST_TEST(says(result, result.has_potential ? "the force is -grad V" : "the force is conservative"));
+    // Derivatives are exact, of some hundred operations.
+    BOOST_TEST(result.gradient_defect <= 100.0 * eps);
+    BOOST_TEST(result.asymmetry <= 100.0 * eps);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(right_black_boxes_pass) {
+  BOOST_TEST(check(black_box()).passed());
+  BOOST_TEST(check(twisted_box()).passed());
+  BOOST_TEST(check(double_only()).passed());
+  BOOST_TEST(says(check(twisted_box()), "conservative"));
+  BOOST_TEST(says(check(double_only()), "-grad V"));
+  BOOST_TEST(!check(twisted_box()).has_potential);
+  BOOST_TEST(check(double_only()).has_potential);
+}
+
+BOOST_AUTO_TEST_CASE(the_large_are_checked_too) {
+  BOOST_TEST(check(fpu_chain<3>(1e4)).passed());
+  BOOST_TEST(check(fpu_chain<>(20, 50.0)).passed());
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_are_found_and_the_coordinate_named) {
+  mistaken sign;
+  sign.factor = -1.0;
+  mistaken slightly_too_strong;
+  slightly_too_strong.factor = 1.0001;
+  mistaken shifted;
+  shifted.added = 1e-5;
+  for (const auto& system : {sign, slightly_too_strong, shifted}) {
+    const auto result = check(system);
+    BOOST_TEST_CONTEXT(result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(result.coordinate == 1);
+      BOOST_TEST(says(result, "not -grad V"));
+      BOOST_TEST(says(result, "coordinate 2"));
+    }
+  }
+  const auto by_one_percent = check(wrong_force());
+  BOOST_TEST(says(by_one_percent, "coordinate 1"));
+  // The first coordinate of the force is often the largest, and then off by one part in 101 of it.
+  BOOST_TEST(by_one_percent.gradient_defect <= 0.01);
+  BOOST_TEST(by_one_percent.gradient_defect > 0.001);
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_in_black_boxes_are_found) {
+  const auto result = check(double_only{1.001});
+  BOOST_TEST(!result.passed());
+  BOOST_TEST(result.coordinate == 0);
+  BOOST_TEST(says(result, "coordinate 1"));
+}
+
+BOOST_AUTO_TEST_CASE(forces_that_are_no_gradient_are_found) {
+  BOOST_TEST(check(twisted()).passed());
+  for (const auto& result : {check(twisted{1e-3}), check(twisted_box{1e-2}), check(wrong_derivative())}) {
+    BOOST_TEST_CONTEXT(result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(says(result, "not conservative"));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_finite_does_not_pass) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  mistaken nowhere;
+  nowhere.factor = nothing;
+  for (const auto& result : {check(nowhere), check(twisted{nothing}), check(double_only{nothing})}) {
+    BOOST_TEST(!result.passed());
+    BOOST_TEST(says(result, "not finite"));
+  }
+}

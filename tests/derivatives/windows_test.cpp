@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+// Just inside the ends of its windows a method is stable, just outside it is not.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/models.hpp"
+#include "../laws/stability_law.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(windows_end_where_the_spectral_radius_leaves_one, M, methods) {
+  draws random;
+  for (int n = 0; n < 20; ++n) {
+    const auto method = any_method<M>(random);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << ", draw " << n) {
+      BOOST_TEST(!stability_windows(method).empty());
+      try_ends(
+          method, 1e-3, 1e-3,
+          [&](double z) { BOOST_TEST(spectral_radius(method, z) <= 1.0 + radius_rounding(method, z)); },
+          [&](double z) { BOOST_TEST(spectral_radius(method, z) > 1.0 + radius_rounding(method, z)); });
+    }
+  }
+}
+
+// Between the windows: a claim that they are one must fail.
+BOOST_AUTO_TEST_CASE(the_gap_between_windows_is_unstable) {
+  const member<nystrom> method({0.5, 0.4});
+  BOOST_TEST(spectral_radius(method, 2.5) <= 1.0 + radius_rounding(method, 2.5));
+  BOOST_TEST(spectral_radius(method, 2.9) > 1.1);
+  BOOST_TEST(spectral_radius(method, 3.5) <= 1.0 + radius_rounding(method, 3.5));
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+// The paper's initial law has the paper's moments, and is a function of seed and number.
+#include <boost/test/unit_test.hpp>
+
+#include "../support/rounding.hpp"
+#include "../support/statistics.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+constexpr std::uint64_t count = 20'000;
+constexpr double omega = 50.0;
+const fpu_chain<3> chain(omega);
+const fpu_law<3> law(chain);
+
+/// A mode's coordinate over many trajectories: mode k of q, or of p.
+std::vector<double> sample(std::uint64_t seed, Eigen::Index k, bool momentum, std::uint64_t first = 0) {
+  const Eigen::MatrixXd basis = chain.modes().basis;
+  std::vector<double> result;
+  for (std::uint64_t n = first; n < first + count; ++n) {
+    const auto x = law(seed, n);
+    result.push_back(basis.col(k).dot(momentum ? x.p : x.q));
+  }
+  return result;
+}
+
+double in_standard_errors(double r) { return std::abs(r) * std::sqrt(static_cast<double>(count)); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(slow_modes_start_at_one) {
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    const auto x = law(7, n);
+    for (int i = 0; i < 3; ++i) {  // two products and a sum, on numbers up to 2
+      const Eigen::VectorXd slow = chain.modes().basis.col(i);
+      BOOST_TEST(std::abs(slow.dot(x.q) - 1.0) <= 8.0 * eps);
+      BOOST_TEST(std::abs(slow.dot(x.p) - 1.0) <= 8.0 * eps);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(stiff_modes_are_normal_with_deviation_one_over_omega) {
+  for (Eigen::Index k = 3; k < 6; ++k) {
+    const auto x = sample(1, k, false);  // 1/omega + zeta
+    const auto y = sample(1, k, true);   // 1 + eta
+    BOOST_TEST(mean_off(x, 1.0 / omega, 1.0 / omega) <= 4.0);
+    BOOST_TEST(mean_off(y, 1.0, 1.0 / omega) <= 4.0);
+    for (const auto& numbers : {x, y}) {
+      BOOST_TEST(deviation_off(numbers, 1.0 / omega) <= 4.0);
+      BOOST_TEST(deviation_off(numbers, 1.0 / std::sqrt(omega)) > 4.0);  // the rival reading
+    }
+    auto standard = y;
+    for (double& value : standard) value = (value - 1.0) * omega;
+    BOOST_TEST(kolmogorov_smirnov(standard) <= 2.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(modes_and_trajectories_are_independent) {
+  BOOST_TEST(in_standard_errors(correlation(sample(1, 3, false), sample(1, 4, false))) <= 4.0);
+  BOOST_TEST(in_standard_errors(correlation(sample(1, 3, false), sample(1, 3, true))) <= 4.0);
+  BOOST_TEST(in_standard_errors(correlation(sample(1, 3, false), sample(1, 3, false, 1))) <= 4.0);
+}
+
+BOOST_AUTO_TEST_CASE(seeds_are_independent_and_no_shift_of_trajectories) {
+  const auto one = sample(1, 3, false);
+  BOOST_TEST(in_standard_errors(correlation(one, sample(1, 3, false))) > 4.0);  // itself
+  for (std::uint64_t shift = 0; shift < 3; ++shift) {
+    BOOST_TEST(in_standard_errors(correlation(one, sample(2, 3, false, shift))) <= 4.0);
+    BOOST_TEST(in_standard_errors(correlation(sample(1, 3, false, shift), sample(2, 3, false))) <= 4.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_same_seed_and_number_give_the_same_bits) {
+  const fpu_law<Eigen::Dynamic> dynamic(fpu_chain<>(3, omega));
+  for (const std::uint64_t n : {0U, 1U, 41U}) {
+    BOOST_TEST(same_bits(law(5, n), law(5, n)));
+    BOOST_TEST(!same_bits(law(5, n), law(5, n + 1)));
+    BOOST_TEST(!same_bits(law(5, n), law(6, n)));
+    BOOST_TEST((law(5, n).q == dynamic(5, n).q && law(5, n).p == dynamic(5, n).p));
+  }
+  BOOST_TEST(law.description() == "fpu_law(omega=50)");
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+// What the laws are tried on. A new system or method is one line here (and its name in a list).
+#pragma once
+
+#include <tuple>
+
+#include "../support/draws.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/methods/bcss.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
+
+namespace nysalt::test {
+
+/// Three masses on two springs, held by nothing: one frequency is zero.
+inline linear_chain free_chain() {
+  Eigen::MatrixXd stiffness(3, 3);
+  stiffness << 2.0, -2.0, 0.0, -2.0, 5.0, -3.0, 0.0, -3.0, 3.0;
+  return linear_chain(stiffness, Eigen::Vector3d(1.0, 2.0, 5.0));
+}
+
+// clang-format off
+// reach: random coordinates are drawn from -reach..reach, where motion stays bounded.
+struct within_one { static constexpr double reach = 1.0; };
+struct within_a_half { static constexpr double reach = 0.5; };
+struct within_a_quarter { static constexpr double reach = 0.25; };
+
+struct an_oscillator : within_one { static auto make() { return harmonic_oscillator(1.7); } };
+struct a_chain : within_one { static auto make() { return linear_chain::between_walls(4, 3.0); } };
+struct a_free_chain : within_one { static auto make() { return free_chain(); } };
+struct an_fpu_chain : within_a_half { static auto make() { return fpu_chain<3>(10.0); } };
+struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2, 7.0); } };
+struct a_pendulum : within_one { static auto make() { return pendulum(); } };
+struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
+struct a_potential : within_one { static auto make() { return potential_only(); } };
+struct a_dynamic_one : within_one { static auto make() { return dynamic_potential(); } };
+struct a_black_box : within_one { static auto make() { return black_box(); } };
+struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
+struct two_weights : within_one { static auto make() { return two_masses(); } };
+struct a_fast_one : within_one { static auto make() { return relativistic(); } };
+struct a_faster_one : within_one { static auto make() { return relativistic_with_velocity(); } };
+// clang-format on
+
+/// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
+using systems =
+    std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_pendulum, a_galaxy,
+               a_potential, a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
+
+/// One of each kind, for laws about methods rather than systems.
+using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;
+
+using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, pefrl, blanes_moan_s6,
+                           srkn6b, srkn11b, member<nystrom>>;
+
+/// A theta well inside the ranges, where coefficients are of moderate size.
+template <Family F>
+parameters_of<F> random_theta(draws& random) {
+  parameters_of<F> theta;
+  for (std::size_t k = 0; k < theta.size(); ++k) {
+    const auto [low, high, open] = F::ranges()[k];
+    theta[k] = random.uniform(low + 0.2 * (high - low), high - 0.2 * (high - low));
+  }
+  return theta;
+}
+
+/// The method itself, or a random member of its family.
+template <Method M>
+M any_method(draws& random) {
+  if constexpr (requires { typename M::family; }) {
+    return M(random_theta<typename M::family>(random));
+  } else {
+    return M{};
+  }
+}
+
+/// Calls f.operator()<Model>() for each model in a list.
+template <class List>
+void for_each(auto&& f) {
+  [&]<class... Model>(std::tuple<Model...>*) {
+    (f.template operator()<Model>(), ...);
+  }(static_cast<List*>(nullptr));
+}
+
+template <class Model>
+using system_of = decltype(Model::make());
+
+template <class M, class Model>
+inline constexpr bool fits = !M::requires_quadratic_kinetic || NystromSystem<system_of<Model>>;
+
+}  // namespace nysalt::test

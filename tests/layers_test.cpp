@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSL-1.0
+// Includes go only downwards, in no circle, and every header begins as the house wants it.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using texts = std::map<std::string, std::string>;  // by path below include/nysalt
+
+/// Names of files without .hpp, and of folders with a slash; from the lowest layer to the highest.
+const std::vector<std::vector<std::string>> layers{
+    {"scalar", "scalars/", "phase_point"},
+    {"system", "force", "energy", "systems/", "counted", "noises/"},
+    {"flow", "flows/", "word", "palindrome", "stepper"},
+    {"family", "families/", "method", "methods/"},
+    {"integrate", "observers/", "odeint_stepper"},
+    {"derivatives/", "reference", "references/", "ensemble", "ensembles/", "flow_map_data"},
+    {"losses/", "learning/", "learner"},
+    {"analysis/"},
+    {"report/"},
+    {"nysalt"}};
+
+int layer_of(const std::string& path) {
+  const auto slash = path.find('/');
+  const std::string name =
+      slash == std::string::npos ? path.substr(0, path.rfind('.')) : path.substr(0, slash + 1);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (std::find(layers[k].begin(), layers[k].end(), name) != layers[k].end()) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+std::set<std::string> includes_of(const std::string& text) {
+  static const std::regex ours(R"re(#\s*include\s*["<]nysalt/([^">]+)[">])re");
+  std::set<std::string> result;
+  for (std::sregex_iterator i(text.begin(), text.end(), ours); i != std::sregex_iterator(); ++i) {
+    result.insert((*i)[1]);
+  }
+  return result;
+}
+
+bool reaches(const texts& files, const std::string& from, const std::string& goal,
+             std::set<std::string>& seen) {
+  if (!seen.insert(from).second || !files.contains(from)) return false;
+  for (const auto& next : includes_of(files.at(from))) {
+    if (next == goal || reaches(files, next, goal, seen)) return true;
+  }
+  return false;
+}
+
+/// Every breach, in words.
+std::vector<std::string> breaches(const texts& files) {
+  std::vector<std::string> found;
+  for (const auto& [path, text] : files) {
+    if (layer_of(path) < 0) found.push_back(path + " belongs to no layer");
+    for (const auto& other : includes_of(text)) {
+      if (!files.contains(other)) found.push_back(path + " includes " + other + ", which is not there");
+      if (layer_of(other) > layer_of(path))
+        found.push_back(path + " includes " + other + ", which is above it");
+    }
+    std::set<std::string> seen;
+    if (reaches(files, path, path, seen)) found.push_back(path + " includes itself");
+    if (text.rfind("// SPDX-License-Identifier: BSL-1.0\n", 0) != 0)
+      found.push_back(path + " has no licence line");
+    if (text.find("\n#pragma once\n") == std::string::npos) found.push_back(path + " has no #pragma once");
+  }
+  return found;
+}
+
+texts read_headers() {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::path(NYSALT_SOURCE_DIR) / "include" / "nysalt";
+  texts files;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_regular_file()) continue;
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    files[fs::relative(entry.path(), root).generic_string()] = text.str();
+  }
+  return files;
+}
+
+const std::string head = "// SPDX-License-Identifier: BSL-1.0\n#pragma once\n";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_house_stands) {
+  const auto files = read_headers();
+  BOOST_TEST(files.size() > 40U);
+  for (const auto& breach : breaches(files)) BOOST_ERROR(breach);
+}
+
+BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
+  const texts sound{{"scalar.hpp", head}, {"method.hpp", head + "#include \"nysalt/scalar.hpp\"\n"}};
+  BOOST_TEST(breaches(sound).empty());
+  const auto one_breach = [](const texts& files, const std::string& words) {
+    const auto found = breaches(files);
+    return std::any_of(found.begin(), found.end(),
+                       [&](const std::string& breach) { return breach.find(words) != std::string::npos; });
+  };
+  BOOST_TEST(
+      one_breach({{"scalar.hpp", head + "#include \"nysalt/method.hpp\"\n"}, {"method.hpp", head}}, "above"));
+  BOOST_TEST(one_breach({{"systems/a.hpp", head + "# include <nysalt/systems/b.hpp>\n"},
+                         {"systems/b.hpp", head + "#include \"nysalt/systems/a.hpp\"\n"}},
+                        "itself"));
+  BOOST_TEST(one_breach({{"cellar.hpp", head}}, "no layer"));
+  BOOST_TEST(one_breach({{"cellar/a.hpp", head}}, "no layer"));
+  BOOST_TEST(one_breach({{"scalar.hpp", head + "#include \"nysalt/gone.hpp\"\n"}}, "not there"));
+  BOOST_TEST(one_breach({{"scalar.hpp", "#pragma once\n"}}, "licence"));
+  BOOST_TEST(one_breach({{"scalar.hpp", "// SPDX-License-Identifier: BSL-1.0\n"}}, "pragma"));
+}

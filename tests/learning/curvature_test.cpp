@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSL-1.0
+// The Hessian of the loss, and what follows from a Hessian.
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+
+#include "../laws/models.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/learning/curvature.hpp"
+#include "nysalt/losses/one_step.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// Second derivatives without differences: dual numbers of dual numbers.
+Eigen::Matrix2d exact_hessian(const auto& loss, const parameters_of<nystrom>& theta) {
+  using inner = dual<double, 2>;
+  using outer = dual<inner, 2>;
+  std::array<outer, 2> lifted;
+  for (int k = 0; k < 2; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    lifted[i] = outer::variable(inner::variable(theta[i], k), k);
+  }
+  outer sum(0.0);
+  std::vector<outer> r;
+  for (std::size_t block = 0; block < loss.blocks(); ++block) {
+    r.resize(loss.residuals(block));
+    loss.template evaluate<outer>(block, lifted, r.data());
+    for (const auto& x : r) sum += x * x;
+  }
+  Eigen::Matrix2d result;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j)
+      result(i, j) = sum.derivative[static_cast<std::size_t>(i)].derivative[static_cast<std::size_t>(j)];
+  }
+  return result;
+}
+
+/// Curvatures 1 and `small`, the latter along (2, 1)/sqrt 5.
+Eigen::MatrixXd valley(double small) {
+  const Eigen::Vector2d along = Eigen::Vector2d(2.0, 1.0) / std::sqrt(5.0);
+  const Eigen::Vector2d across(-along[1], along[0]);
+  return across * across.transpose() + small * along * along.transpose();
+}
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
+  const henon_heiles system;
+  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
+  const auto data =
+      make_flow_map_data(system, starts, fine_steps<>(0.02), {.step = 0.4, .horizon = 2.0, .trajectories = 7});
+  const metric<2> measure(system, data, coordinates::qp);
+  const one_step<nystrom, henon_heiles> loss(system, data, measure);
+  draws random;
+  for (int n = 0; n < 5; ++n) {
+    const auto theta = random_theta<nystrom>(random);
+    const auto exact = exact_hessian(loss, theta);
+    // The differences of step s are off by s^2/6 times the fourth derivatives, whose size we take from the
+    // exact Hessian nearby, and by the rounding of gradients over s.
+    constexpr double s = 1e-4;
+    constexpr double t = 1e-2;
+    double fourth = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto ahead = theta;
+      auto behind = theta;
+      ahead[k] += t;
+      behind[k] -= t;
+      fourth = std::max(fourth, norm(exact_hessian(loss, ahead) - 2.0 * exact + exact_hessian(loss, behind)) / (t * t));
+    }
+    const double rounding = 100.0 * eps * block_gradients(loss, theta).cwiseAbs().sum() / s;
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
+      const double error = norm(hessian(loss, theta) - exact);
+      BOOST_TEST(error <= 2.0 * s * s / 6.0 * fourth + rounding);
+      BOOST_TEST(error <= 1e-5 * norm(exact));  // which says something
+      auto beside = theta;
+      beside[0] += t;
+      BOOST_TEST(norm(hessian(loss, beside) - exact) > 1e-5 * norm(exact));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(flat_directions_are_found_and_left_alone) {
+  const curvature flat(valley(1e-9), {0, 1});
+  BOOST_REQUIRE(flat.flat_directions().size() == 1);
+  const Eigen::Vector2d along = flat.flat_directions()[0];
+  BOOST_TEST(std::abs(along[0]) == 2.0 / std::sqrt(5.0), boost::test_tools::tolerance(1e-8));  // eps/1e-9 at most
+  BOOST_TEST(along[0] * along[1] > 0.0);
+  BOOST_TEST(flat.condition() == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(flat.is_minimum());
+  BOOST_TEST(norm(flat.solve(along)) <= 1e-7);  // nothing along the valley
+  const Eigen::Vector2d across(-1.0, 2.0);
+  BOOST_TEST(norm(flat.solve(across) - across) <= 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(a_shallow_valley_is_not_a_flat_one) {
+  const curvature shallow(valley(1e-6), {0, 1});
+  BOOST_TEST(shallow.flat_directions().empty());
+  BOOST_TEST(shallow.condition() == 1e6, boost::test_tools::tolerance(1e-8));  // eps of the larger in the smaller
+  const Eigen::Vector2d along(2.0, 1.0);
+  BOOST_TEST(norm(shallow.solve(along) - 1e6 * along) <= 1e-8 * 1e6);
+}
+
+BOOST_AUTO_TEST_CASE(only_free_parameters_count) {
+  const curvature one(valley(1e-9), {1});
+  BOOST_TEST(one.flat_directions().empty());
+  BOOST_TEST(one.condition() == 1.0);
+  const Eigen::VectorXd solved = one.solve(Eigen::Vector2d(7.0, 1.0));
+  BOOST_TEST(solved[0] == 0.0);
+  BOOST_TEST(solved[1] == 1.0 / valley(1e-9)(1, 1), boost::test_tools::tolerance(1e-14));
+  const curvature none(valley(1.0), {});
+  BOOST_TEST(none.is_minimum());
+  BOOST_TEST(norm(none.standard_errors(Eigen::MatrixXd::Ones(2, 3))) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(saddles_are_no_minima) {
+  BOOST_TEST(!curvature(valley(-1e-3), {0, 1}).is_minimum());
+  BOOST_TEST(curvature(valley(-1e-12), {0, 1}).is_minimum());  // zero, to the Hessian's error
+}
+
+BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
+  Eigen::MatrixXd scores(2, 3);
+  scores << 1.0, -2.0, 1.0, 0.5, 0.5, -1.0;
+  const Eigen::Matrix2d bread = valley(0.1).inverse();
+  const Eigen::Matrix2d sandwich = bread * (scores * scores.transpose()) * bread * 3.0 / 2.0;
+  const auto errors = curvature(valley(0.1), {0, 1}).standard_errors(scores);
+  // A condition of 10, squared, times some 10 roundings.
+  BOOST_TEST(norm(errors.cwiseAbs2() - sandwich.diagonal()) <= 1e3 * eps * norm(sandwich));
+  const auto unknown = curvature(valley(0.1), {0, 1}).standard_errors(scores.leftCols(1));
+  BOOST_TEST(std::isnan(unknown[0]));
+  const auto unbounded = curvature(valley(0.0), {0, 1}).standard_errors(scores);
+  BOOST_TEST(unbounded[0] == infinite);
+  BOOST_TEST(unbounded[1] == infinite);
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+// However a person writes the force, the same is learned, and the summary says where derivatives came from.
+#include <boost/test/unit_test.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include "../support/rounding.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/learner.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+// A pendulum in four ways. One description, as the data are the same.
+struct well {
+  static constexpr int dimension = 1;
+  static std::string description() { return "a pendulum"; }
+};
+struct by_potential : well {
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    using std::cos;
+    return -cos(q[0]);
+  }
+};
+struct by_force : well {
+  double strength = 1.0;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    using std::sin;
+    f[0] = -sin(q[0]) * strength;
+  }
+};
+struct by_black_box : well {
+  void force(const vector<double, 1>& q, vector<double, 1>& f) const { f[0] = -std::sin(q[0]); }
+};
+struct by_black_box_with_derivative : by_black_box {
+  void force_derivative(const vector<double, 1>& q, const vector<double, 1>& v, vector<double, 1>& g) const {
+    g[0] = -std::cos(q[0]) * v[0];
+  }
+};
+
+const by_force exact;
+
+flow_map_data<1> data_of(std::uint64_t seed) {
+  const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
+  return make_flow_map_data(exact, starts, fine_steps<>(0.02),
+                            {.step = 0.6, .horizon = 3.0, .trajectories = 40, .seed = seed});
+}
+
+/// How far theta moves where every derivative of a residual is off by `relative` of the largest: the gradient
+/// moves by 2 |r| |dJ|, and theta by that over the smallest curvature.
+double allowed(const flow_map_data<1>& data, const parameters_of<nystrom>& theta, double relative) {
+  const metric<1> measure(exact, data, coordinates::qp);
+  const one_step<nystrom, by_force> loss(exact, data, measure);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(nysalt::hessian(loss, theta));
+  const double jacobian = std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more
+  return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / solver.eigenvalues()[0];
+}
+
+double distance_of(const learned<nystrom>& a, const learned<nystrom>& b) {
+  return std::max(std::abs(a.method.parameters()[0] - b.method.parameters()[0]),
+                  std::abs(a.method.parameters()[1] - b.method.parameters()[1]));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
+  const auto data = data_of(1);
+  const auto held_out = data_of(2);
+  const auto fit = [&](const auto& system) { return learn(nystrom{}, system, data, held_out); };
+  const auto expected = fit(exact);
+  const auto potential = fit(by_potential());
+  const auto boxed = fit(by_black_box());
+  const auto derived = fit(by_black_box_with_derivative());
+  const auto theta = expected.method.parameters();
+  const double rounding = allowed(data, theta, 100.0 * eps);  // operations of a step
+  // A central difference is off by eps^(2/3) of |f|/|q| twice over: its two errors balance.
+  const double differences = allowed(data, theta, 2.0 * std::pow(eps, 2.0 / 3.0) + 100.0 * eps);
+  BOOST_TEST_CONTEXT(expected.summary.full()) {
+    BOOST_TEST_MESSAGE(distance_of(potential, expected) << ", " << distance_of(derived, expected) << " of " << rounding
+                                                        << "; " << distance_of(boxed, expected) << " of " << differences);
+    BOOST_TEST(expected.summary.usable);
+    BOOST_TEST(distance_of(potential, expected) <= rounding);
+    BOOST_TEST(distance_of(derived, expected) <= rounding);
+    BOOST_TEST(distance_of(boxed, expected) <= differences);
+    by_force wrong;  // by a thousandth of a per cent
+    wrong.strength = 1.0 + 1e-5;
+    BOOST_TEST(distance_of(fit(wrong), expected) > 1e3 * differences);
+  }
+  BOOST_TEST(expected.summary.derivatives == "automatic differentiation");
+  BOOST_TEST(potential.summary.derivatives == "automatic differentiation");
+  BOOST_TEST(derived.summary.derivatives == "the system's directional derivative");
+  BOOST_TEST(boxed.summary.derivatives == "central differences of the force");
+  BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSL-1.0
+// The errors that a fit reports are the scatter of fits to other data, and fall with the root of the number
+// of trajectories [li_lu_tao_ye_2023, theorem 3.1].
+#include <boost/test/unit_test.hpp>
+
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include "../support/draws.hpp"
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/learner.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+constexpr std::size_t repetitions = 40;
+constexpr double step = 0.02;
+const fpu_chain<3> chain(50.0);
+
+flow_map_data<6> data_of(std::int64_t trajectories, std::uint64_t seed) {
+  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
+                            {.step = step, .horizon = 0.2, .trajectories = trajectories, .seed = seed});
+}
+
+/// Errors that take the weights for given: the paper's theorem, but not its estimator.
+Eigen::VectorXd errors_without_weights(const flow_map_data<6>& data, const parameters_of<nystrom>& theta) {
+  const metric<6> measure(chain, data, coordinates::qp);
+  const one_step<nystrom, fpu_chain<3>> loss(chain, data, measure);
+  return curvature(hessian(loss, theta), {0, 1}).standard_errors(block_gradients(loss, theta));
+}
+
+/// Fits to data of different seeds.
+struct repeated {
+  std::array<std::vector<double>, 2> value, reported_square, naive_square;
+
+  repeated(std::int64_t trajectories, std::uint64_t first_seed) {
+    const auto held_out = data_of(2, 1);
+    for (std::size_t n = 0; n < repetitions; ++n) {
+      const auto data = data_of(trajectories, first_seed + n);
+      const auto fit = learn(nystrom{}, chain, data, held_out);
+      const auto naive = errors_without_weights(data, fit.method.parameters());
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto& p = fit.summary.parameters[k];
+        value[k].push_back(p.value);
+        reported_square[k].push_back(p.standard_error * p.standard_error);
+        naive_square[k].push_back(std::pow(naive[static_cast<Eigen::Index>(k)], 2));
+      }
+    }
+  }
+  double scatter(std::size_t k) const {  // standard deviation of one value
+    return mean_and_error(value[k]).standard_error * std::sqrt(static_cast<double>(repetitions));
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_scatter_over_seeds_is_the_reported_error) {
+  const repeated fits(100, 1000);
+  // The sum of squares over its expectation is chi-squared with 39 degrees of freedom. The reported variance
+  // is an estimate from 100 trajectories, 15 % off at most in the mean over 40 seeds.
+  const boost::math::chi_squared law(repetitions - 1);
+  const double low = 0.85 * quantile(law, 1e-3);
+  const double high = 1.15 * quantile(law, 1.0 - 1e-3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double squares = (repetitions - 1) * std::pow(fits.scatter(k), 2);
+    const double statistic = squares / mean_and_error(fits.reported_square[k]).mean;
+    const double naive = squares / mean_and_error(fits.naive_square[k]).mean;
+    BOOST_TEST_MESSAGE(nystrom::parameter_names[k] << ": " << statistic << " in " << low << ".." << high
+                                                   << "; with weights taken for given " << naive);
+    BOOST_TEST(statistic > low);
+    BOOST_TEST(statistic < high);
+    BOOST_TEST(naive > high);  // those errors are too small
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_scatter_falls_with_the_root_of_the_number_of_trajectories) {
+  std::array<std::vector<double>, 2> log_scatter, log_reported;
+  std::vector<double> log_count;
+  for (std::int64_t trajectories = 8; trajectories <= 256; trajectories *= 2) {
+    const repeated fits(trajectories, 2000 + 100 * static_cast<std::uint64_t>(trajectories));
+    log_count.push_back(std::log(static_cast<double>(trajectories)));
+    for (std::size_t k = 0; k < 2; ++k) {
+      log_scatter[k].push_back(std::log(fits.scatter(k)));
+      log_reported[k].push_back(0.5 * std::log(mean_and_error(fits.reported_square[k]).mean));
+    }
+  }
+  // The logarithm of a standard deviation of n normal numbers has the error 1/sqrt(2 (n - 1)); the slope
+  // through points x that, over the root of sum (x - mean)^2.
+  double spread = 0.0;
+  for (const double x : log_count) spread += std::pow(x - mean_and_error(log_count).mean, 2);
+  const double error = 1.0 / std::sqrt(2.0 * (repetitions - 1) * spread);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double measured = slope(log_count, log_scatter[k]);
+    BOOST_TEST_MESSAGE(nystrom::parameter_names[k] << ": slope " << measured << " +- " << error << ", of the reported errors "
+                                                   << slope(log_count, log_reported[k]));
+    BOOST_TEST(std::abs(measured + 0.5) <= 3.0 * error);
+    BOOST_TEST(std::abs(measured + 1.0) > 3.0 * error);
+    BOOST_TEST(std::abs(measured) > 3.0 * error);
+  }
+}

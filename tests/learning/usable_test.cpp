@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSL-1.0
+// A fit says whether it may be used, and if not, why. What cannot be learned at all is refused.
+#include <boost/test/unit_test.hpp>
+
+#include "../support/refusal.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/learner.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+constexpr int any = Eigen::Dynamic;
+const fpu_chain<3> chain(50.0);
+const linear_chain oscillator(Eigen::MatrixXd::Constant(1, 1, 4.0));  // frequency 2
+
+flow_map_data<6> of_chain(const auto& reference, double step, std::uint64_t seed) {
+  return make_flow_map_data(chain, fpu_law<3>(chain), reference,
+                            {.step = step, .horizon = 20.0 * step, .trajectories = 50, .seed = seed});
+}
+flow_map_data<any> of_oscillator(double step) {
+  const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  const listed<any> two_states({{number(0.5), number(0.0)}, {number(0.0), number(1.0)}});
+  return make_flow_map_data(oscillator, two_states, exact_linear(oscillator),
+                            {.step = step, .horizon = step, .trajectories = 2});
+}
+learned<nystrom> fit_oscillator(double step, const learn_options<nystrom>& options = {}) {
+  const auto data = of_oscillator(step);
+  return learn(nystrom{}, oscillator, data, data, options);
+}
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+}  // namespace
+
+// Verlet at a tenth of the step errs by a hundredth of its error at the step itself, which is a tenth of what
+// the learned method errs by: enough to move the optimum by more than its standard error.
+BOOST_AUTO_TEST_CASE(a_reference_with_an_error_of_its_own_is_flagged) {
+  const auto rough = fine_steps<verlet>(1e-4);
+  const auto fit = learn(nystrom{}, chain, of_chain(rough, 1e-3, 1), of_chain(rough, 1e-3, 2));
+  const auto fine = fine_steps<>(1e-3);
+  const auto right = learn(nystrom{}, chain, of_chain(fine, 1e-3, 1), of_chain(fine, 1e-3, 2));
+  BOOST_TEST_CONTEXT(fit.summary.full() << right.summary.full()) {
+    BOOST_TEST(!fit.summary.usable);
+    BOOST_TEST(says(fit.summary.reason, "the reference's own error"));
+    BOOST_TEST(right.summary.usable);
+    BOOST_TEST(right.summary.reason.empty());
+    const double bias = fit.method.parameters()[1] - right.method.parameters()[1];
+    BOOST_TEST(std::abs(bias - 1e-3) < 0.5e-3);  // known to one digit
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_flagged) {
+  const phase_point<double, any> start{Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+  const auto diverges = [&](const learned<nystrom>& fit) {
+    return integrate(oscillator, fit.method, fit.method.step(), start, 10000).diverged_at.has_value();
+  };
+  const auto stable = fit_oscillator(1.25, {.coordinates = coordinates::energy});
+  const auto unstable = fit_oscillator(1.4, {.coordinates = coordinates::energy});  // z = 2.8
+  BOOST_TEST_CONTEXT(stable.summary.full() << unstable.summary.full()) {
+    BOOST_TEST(stable.summary.usable);
+    BOOST_TEST(!diverges(stable));
+    BOOST_TEST(!unstable.summary.usable);
+    BOOST_TEST(says(unstable.summary.reason, "not linearly stable"));
+    BOOST_TEST(says(unstable.summary.reason, "2 to 2"));  // the frequencies
+    BOOST_TEST(diverges(unstable));
+  }
+}
+
+// However early the search ends there is an answer within the ranges; and it is flagged unless it is good.
+BOOST_AUTO_TEST_CASE(a_search_that_is_cut_short_is_flagged) {
+  const auto enough = fit_oscillator(0.5).summary;
+  BOOST_TEST_CONTEXT(enough.full()) BOOST_TEST(enough.usable);
+  int flagged = 0;
+  for (const int iterations : {0, 1, 3}) {
+    for (const double b1 : {1e-3, 0.3, 0.7, 0.999}) {
+      for (const double beta1 : {0.0, 0.1, 0.5}) {
+        const auto fit = fit_oscillator(0.5, {.start = {b1, beta1}, .max_iterations = iterations});
+        BOOST_CHECK_NO_THROW(require_in_range<nystrom>(fit.method.parameters()));
+        BOOST_TEST_CONTEXT("from " << b1 << ", " << beta1 << " in " << iterations << "\n" << fit.summary.full()) {
+          BOOST_TEST((fit.summary.loss <= 1.01 * enough.loss || !fit.summary.usable));
+        }
+        flagged += says(fit.summary.reason, "did not converge");
+      }
+    }
+  }
+  BOOST_TEST(flagged > 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
+  for (const double step : {0.5, 1.4}) {
+    const auto fit = fit_oscillator(step, {.coordinates = coordinates::energy}).summary;
+    BOOST_TEST_CONTEXT(fit.full()) {
+      for (const auto& p : fit.parameters) {
+        BOOST_TEST(says(fit.full(), fmt::format("{:.17g}", p.value)));
+        BOOST_TEST(says(fit.brief(), fmt::format("{} = {:.6f}", p.name, p.value)));
+      }
+      BOOST_TEST(fit.usable == (step < 1.0));
+      BOOST_TEST(says(fit.full(), fit.usable ? "yes" : "no: " + fit.reason));
+      BOOST_TEST(says(fit.brief(), fit.usable ? ", usable" : "NOT usable: " + fit.reason));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
+  const linear_chain with_a_free_mass(Eigen::Vector2d(4.0, 0.0).asDiagonal());
+  const listed<any> starts({{Eigen::Vector2d(0.5, 1.0), Eigen::Vector2d(0.0, 0.0)},
+                            {Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(1.0, 0.0)}});
+  const auto data = make_flow_map_data(with_a_free_mass, starts, exact_linear(with_a_free_mass),
+                                       {.step = 0.5, .horizon = 0.5, .trajectories = 2});
+  const auto fit = learn(nystrom{}, with_a_free_mass, data, data);
+  const auto alone = fit_oscillator(0.5);
+  BOOST_TEST_CONTEXT(fit.summary.full()) {
+    BOOST_TEST(fit.summary.usable);
+    BOOST_TEST(fit.summary.dropped == (std::vector<std::string>{"q2", "p2"}), boost::test_tools::per_element());
+    BOOST_TEST(says(fit.summary.full(), "q2, left out of the loss"));
+    for (std::size_t k = 0; k < 2; ++k) {  // Newton's steps end at rounding, magnified by the curvature's condition
+      BOOST_TEST(std::abs(fit.method.parameters()[k] - alone.method.parameters()[k]) <= 1e-12);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
+  const auto data = of_oscillator(0.5);
+  const auto refused = [&](const linear_chain& system, const flow_map_data<any>& training, const flow_map_data<any>& held_out,
+                           const learn_options<nystrom>& options, std::initializer_list<std::string_view> words) {
+    return refuses<wrong>([&] { learn(nystrom{}, system, training, held_out, options); }, words);
+  };
+  const linear_chain other(Eigen::MatrixXd::Constant(1, 1, 9.0));
+  BOOST_TEST(refused(other, data, data, {}, {"the data are of", describe(oscillator), describe(other)}));
+  BOOST_TEST(refused(oscillator, data, of_oscillator(0.25), {}, {"step 0.5", "0.25"}));
+  BOOST_TEST(refused(oscillator, data, data, {.start = {1.2, 0.4}}, {"b1", "(0, 1)", "1.2"}));
+  BOOST_TEST(refused(oscillator, data, data, {.start = {0.5, 0.6}}, {"beta1", "[0, 0.5]", "0.6"}));
+  BOOST_TEST(refused(oscillator, data, data, {.fixed = {std::nullopt, -0.1}}, {"beta1", "-0.1"}));
+  const listed<any> at_rest({{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}});
+  const auto nothing =
+      make_flow_map_data(oscillator, at_rest, exact_linear(oscillator), {.step = 0.5, .trajectories = 1});
+  BOOST_TEST(refused(oscillator, nothing, nothing, {}, {"nothing moves"}));
+}

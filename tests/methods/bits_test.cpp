@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+// Looking at a run or cutting it in two does not change a bit.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/run_laws.hpp"
+#include "../laws/trials.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(observed_is_unobserved_to_the_bit, M, methods) {
+  try_on<M, two_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto unobserved = integrate(system, method, step, x, 200).finish;
+    for (const std::int64_t every : {1, 3, 64, 1000}) {
+      BOOST_TEST(same_bits(observed_finish(system, method, step, x, 200, every), unobserved));
+    }
+  });
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(cut_is_uncut_to_the_bit, M, methods) {
+  try_on<M, two_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto uncut = integrate(system, method, step, x, 200).finish;
+    for (const std::int64_t first : {0, 1, 77, 200}) {
+      BOOST_TEST(same_bits(cut_finish(system, method, step, x, 200, first), uncut));
+    }
+  });
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(reopened_is_not_the_same_to_the_bit, M, methods) {
+  try_on<M, two_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto unobserved = integrate(system, method, step, x, 200).finish;
+    BOOST_TEST(!same_bits(reopened_finish(system, method, step, x, 200), unobserved));
+  });
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// A run, whose letters are merged, is where repeated plain steps are, to rounding.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/run_laws.hpp"
+#include "../laws/trials.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(merged_is_unmerged_to_rounding, M, methods) {
+  try_on<M, various_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    BOOST_TEST(merging_broken(system, method, step, x, 30) <= 1.0);
+  });
+}
+
+// A run that is not made synchronous before it is looked at is ahead by a letter.
+BOOST_AUTO_TEST_CASE(an_open_run_is_not_where_the_plain_step_is) {
+  try_on<verlet, various_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto fixed = make_stepper(system, method, step);
+    const auto run = fixed.open(x);
+    const double rounding = 4.0 * eps * size_of(x) * shears_at(system, x).frequency();
+    BOOST_TEST(distance(fixed.synchronous(run), x) <= rounding);
+    BOOST_TEST(distance({run.state.q, run.state.p}, x) > 1e6 * rounding);
+  });
+}

@@ -1,0 +1,26 @@
+// expect: a velocity(p, v) over double alone cannot be differentiated
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/methods/verlet.hpp"
+
+struct half_differentiable {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const nysalt::vector<T, 1>& q) const {
+    return q[0] * q[0];
+  }
+#ifdef NYSALT_CONTROL
+  template <class T>
+#else
+  template <std::same_as<double> T>
+#endif
+  void velocity(const nysalt::vector<T, 1>& p, nysalt::vector<T, 1>& v) const {
+    v[0] = p[0] * 2.0;
+  }
+};
+
+int main() {
+  const half_differentiable system;
+  const nysalt::phase_point<double, 1> x{nysalt::vector<double, 1>(1.0), nysalt::vector<double, 1>(0.0)};
+  return nysalt::symplecticity_defect(system, nysalt::verlet(), 0.1, x) < 1.0;
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+// Derivatives by dual numbers are those of calculus.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+#include "../support/draws.hpp"
+#include "nysalt/scalars/dual.hpp"
+
+using namespace nysalt;
+using nysalt::test::draws;
+
+namespace {
+
+using D = dual<double, 1>;
+using DD = dual<D, 1>;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// f of a dual against f and f' in closed form: a handful of roundings in each.
+void check(const char* name, const auto& f, double x, double value, double slope) {
+  BOOST_TEST_CONTEXT(name << " at " << x << ", seed " << draws::seed) {
+    const D y = f(D::variable(x, 0));
+    BOOST_TEST(std::abs(y.value - value) <= 4.0 * eps * std::max(1.0, std::abs(value)));
+    BOOST_TEST(std::abs(y.derivative[0] - slope) <= 8.0 * eps * std::max(1.0, std::abs(slope)));
+    BOOST_TEST(y.value == f(x));  // the branch without derivatives is the same number
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(elementary_functions_have_their_derivatives) {
+  draws random;
+  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::pow, std::sin, std::sinh,
+      std::sqrt, std::tan, std::tanh;
+  for (int n = 0; n < 50; ++n) {
+    const double x = random.uniform(0.1, 1.4);
+    const double y = random.uniform(-1.4, 1.4);
+    check(
+        "sqrt", [](const auto& a) { return sqrt(a); }, x, std::sqrt(x), 0.5 / std::sqrt(x));
+    check(
+        "log", [](const auto& a) { return log(a); }, x, std::log(x), 1.0 / x);
+    check(
+        "pow", [](const auto& a) { return pow(a, 2.5); }, x, std::pow(x, 2.5), 2.5 * std::pow(x, 1.5));
+    check(
+        "exp", [](const auto& a) { return exp(a); }, y, std::exp(y), std::exp(y));
+    check(
+        "sin", [](const auto& a) { return sin(a); }, y, std::sin(y), std::cos(y));
+    check(
+        "cos", [](const auto& a) { return cos(a); }, y, std::cos(y), -std::sin(y));
+    check(
+        "tan", [](const auto& a) { return tan(a); }, y, std::tan(y), 1.0 / (std::cos(y) * std::cos(y)));
+    check(
+        "atan", [](const auto& a) { return atan(a); }, y, std::atan(y), 1.0 / (1.0 + y * y));
+    check(
+        "sinh", [](const auto& a) { return sinh(a); }, y, std::sinh(y), std::cosh(y));
+    check(
+        "cosh", [](const auto& a) { return cosh(a); }, y, std::cosh(y), std::sinh(y));
+    const double sech = 1.0 / std::cosh(y);
+    check(
+        "tanh", [](const auto& a) { return tanh(a); }, y, std::tanh(y), sech * sech);
+    check(
+        "abs", [](const auto& a) { return abs(a); }, y, std::abs(y), y < 0.0 ? -1.0 : 1.0);
+  }
+  BOOST_TEST(abs(D::variable(0.0, 0)).derivative[0] == 1.0);  // from the right
+}
+
+BOOST_AUTO_TEST_CASE(arithmetic_follows_the_product_and_quotient_rules) {
+  draws random;
+  using D2 = dual<double, 2>;
+  for (int n = 0; n < 50; ++n) {
+    const double x = random.uniform(0.5, 2.0);
+    const double y = random.uniform(0.5, 2.0);
+    const D2 a = D2::variable(x, 0);
+    const D2 b = D2::variable(y, 1);
+    BOOST_TEST(((a * b).derivative == std::array{y, x}));
+    BOOST_TEST(((a + b).derivative == std::array{1.0, 1.0}));
+    BOOST_TEST(((a - b).derivative == std::array{1.0, -1.0}));
+    BOOST_TEST(((-a).derivative == std::array{-1.0, 0.0}));
+    BOOST_TEST(std::abs((a / b).derivative[0] - 1.0 / y) <= 4.0 * eps / y);
+    BOOST_TEST(std::abs((a / b).derivative[1] + x / (y * y)) <= 4.0 * eps * x / (y * y));
+    BOOST_TEST(std::abs((2.0 / b).derivative[1] + 2.0 / (y * y)) <= 8.0 * eps / (y * y));
+    BOOST_TEST((3.0 * a).derivative[0] == 3.0);
+    BOOST_TEST((3.0 - a).derivative[0] == -1.0);
+    BOOST_TEST((3.0 - a).value == 3.0 - x);
+    BOOST_TEST((a - 3.0).value == x - 3.0);
+    BOOST_TEST((a / 4.0).derivative[0] == 0.25);
+    D2 c = a;
+    c += b;
+    c *= b;
+    c -= a;
+    c /= b;  // ((a + b) b - a)/b = a + b - a/b
+    BOOST_TEST(std::abs(c.derivative[0] - (1.0 - 1.0 / y)) <= 16.0 * eps);
+    BOOST_TEST(std::abs(c.derivative[1] - (1.0 + x / (y * y))) <= 64.0 * eps);
+  }
+}
+
+// A central difference errs by s^2 |f'''|/6 + eps |f|/s; with s = 1e-5 and |f'''| < 50 that is below 1e-9.
+BOOST_AUTO_TEST_CASE(a_composite_agrees_with_finite_differences) {
+  draws random;
+  const auto f = [](const auto& x) {
+    using std::exp, std::sin, std::sqrt;
+    return sin(x * x) * exp(-x) / sqrt(x + 2.0);
+  };
+  const double s = 1e-5;
+  for (int n = 0; n < 20; ++n) {
+    const double x = random.uniform(-1.0, 1.0);
+    const double difference = (f(x + s) - f(x - s)) / (2.0 * s);
+    BOOST_TEST(std::abs(f(D::variable(x, 0)).derivative[0] - difference) <= 1e-9);
+    BOOST_TEST(std::abs(f(D::variable(x + 0.01, 0)).derivative[0] - difference) > 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nested_duals_have_second_derivatives) {
+  draws random;
+  for (int n = 0; n < 20; ++n) {
+    const double x = random.uniform(0.1, 1.4);
+    const DD a = DD::variable(D::variable(x, 0), 0);
+    const DD y = sin(a) * a;  // (x sin x)'' = 2 cos x - x sin x
+    BOOST_TEST(std::abs(y.derivative[0].derivative[0] - (2.0 * std::cos(x) - x * std::sin(x))) <= 8.0 * eps);
+    BOOST_TEST(y.derivative[0].value == y.value.derivative[0]);
+    const DD power = pow(a, 3.0) + sqrt(a) * 0.0 + 1.0 / a;
+    BOOST_TEST(std::abs(power.derivative[0].derivative[0] - (6.0 * x + 2.0 / (x * x * x))) <=
+               32.0 * eps * (6.0 * x + 2.0 / (x * x * x)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(comparisons_are_those_of_the_values) {
+  const D one = D::variable(1.0, 0);
+  const D also_one(1.0);
+  const D two(2.0);
+  BOOST_TEST((one == also_one));
+  BOOST_TEST((one != two));
+  BOOST_TEST((one < two && two > one && one <= also_one && one >= also_one));
+  BOOST_TEST((one < 2.0 && 2.0 > one && one == 1.0 && 0.5 < one));
+  const D not_a_number(std::numeric_limits<double>::quiet_NaN());
+  BOOST_TEST(!(not_a_number < one));
+  BOOST_TEST(!(not_a_number >= one));
+  BOOST_TEST((DD(one) < DD(two) && DD(one) < 1.5));
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+// What models each concept, and what does not.
+#include <boost/test/unit_test.hpp>
+
+#include <string>
+
+#include "../laws/models.hpp"
+#include "nysalt/counted.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/reference.hpp"
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/references/odeint.hpp"
+#include "nysalt/scalars/series.hpp"
+
+namespace nysalt::test {
+namespace {
+
+using D = dual<double, 1>;
+
+static_assert(Scalar<double> && Scalar<long double> && Scalar<D> && Scalar<dual<D, 3>> && Scalar<series<0>>);
+static_assert(!Scalar<float>);  // double * float is a double
+static_assert(!Scalar<int> && !Scalar<std::string> && !Scalar<double*> && !Scalar<vector<double, 2>>);
+
+static_assert(CoefficientOf<double, double> && CoefficientOf<double, D> && CoefficientOf<D, D>);
+static_assert(!CoefficientOf<D, double> && !CoefficientOf<dual<double, 2>, D> && !CoefficientOf<int, double>);
+
+// Systems: from nothing to a quadratic kinetic energy.
+struct without_dimension {};
+struct dimension_zero {
+  static constexpr int dimension = 0;
+};
+struct dynamic_without_size {
+  static constexpr int dimension = Eigen::Dynamic;
+};
+struct without_force {
+  static constexpr int dimension = 1;
+};
+struct potential_for_double : without_force {
+  double potential(const vector<double, 1>& q) const { return q[0]; }
+};
+struct potential_that_forgets : without_force {  // returns a double whatever it is given
+  template <class T>
+  double potential(const vector<T, 1>&) const {
+    return 0.0;
+  }
+};
+static_assert(!System<without_dimension> && !System<dimension_zero> && !System<dynamic_without_size>);
+static_assert(System<without_force> && !SeparableSystem<without_force>);
+static_assert(!SeparableSystem<potential_for_double> && !SeparableSystem<potential_that_forgets>);
+static_assert(SeparableSystem<potential_only> && SeparableSystem<dynamic_potential>);
+static_assert(SeparableSystem<black_box> && BlackBoxForce<black_box> && !BlackBoxForce<pendulum>);
+static_assert(SystemOver<black_box, dual<double, 2>> && !SystemOver<black_box, dual<D, 1>>);
+static_assert(SeparableSystem<relativistic> && !NystromSystem<relativistic>);
+static_assert(SeparableSystem<relativistic_with_velocity> && !NystromSystem<relativistic_with_velocity>);
+static_assert(NystromSystem<pendulum> && NystromSystem<henon_heiles> && NystromSystem<harmonic_oscillator>);
+static_assert(NystromSystem<linear_chain> && NystromSystem<fpu_chain<3>> && NystromSystem<fpu_chain<>>);
+static_assert(NystromSystem<two_masses> && NystromSystem<black_box> && NystromSystem<counted<black_box>>);
+static_assert(HasEnergy<pendulum> && HasEnergy<relativistic> && !HasEnergy<black_box>);
+static_assert(HasModes<linear_chain> && !HasModes<pendulum>);
+static_assert(HasFrequencyBands<pendulum> && !HasFrequencyBands<potential_only>);
+static_assert(HasInverseMass<linear_chain> && !HasInverseMass<pendulum>);
+struct mass_by_reference : pendulum {
+  double stored = 0.5;
+  const double& inverse_mass(Eigen::Index) const { return stored; }
+};
+static_assert(HasInverseMass<mass_by_reference>);  // not silently a unit mass
+
+// Letters and words.
+struct not_prepared {
+  static constexpr char letter = 'N';
+};
+static_assert(Flow<kick> && Flow<drift> && !Flow<not_prepared> && !Flow<int>);
+static_assert(Word<verlet::word> && !Word<kick> && !Word<verlet>);
+
+// Families and methods.
+struct without_start : nystrom {
+  static std::array<double, 2> start() = delete;
+};
+struct with_too_few_coefficients : nystrom {
+  template <Scalar C>
+  static std::array<C, 4> coefficients(const std::array<C, 2>&) {
+    return {};
+  }
+};
+struct without_order : palindromic<kick, drift, 3> {
+  static std::string name() { return {}; }
+  static std::array<double, 3> coefficients() { return {}; }
+};
+static_assert(Family<nystrom> && !Family<without_start> && !Family<with_too_few_coefficients> &&
+              !Family<verlet>);
+static_assert(Method<verlet> && Method<srkn11b> && Method<member<nystrom>> && Method<tuned_method<nystrom>>);
+static_assert(!Method<nystrom> && !Method<without_order> && !Method<kick>);
+
+// Ensembles and references.
+struct unsaid {  // an ensemble without a description
+  phase_point<double, 1> operator()(std::uint64_t, std::uint64_t) const { return {}; }
+};
+static_assert(Ensemble<fpu_law<3>, fpu_chain<3>> && Ensemble<fpu_law<-1>, fpu_chain<>>);
+static_assert(Ensemble<listed<1>, pendulum> && Ensemble<normal_around<2>, henon_heiles>);
+static_assert(!Ensemble<fpu_law<3>, fpu_chain<2>> && !Ensemble<listed<1>, henon_heiles> &&
+              !Ensemble<unsaid, pendulum>);
+
+struct never_finer {
+  template <System S>
+  void advance(const S&, phase_point<double, S::dimension>&, double) const {}
+  std::string description() const { return {}; }
+};
+static_assert(ReferenceFlow<exact_linear, linear_chain> && ReferenceFlow<fine_steps<>, fpu_chain<3>>);
+static_assert(ReferenceFlow<odeint_reference, black_box> && ReferenceFlow<odeint_reference, relativistic>);
+static_assert(!ReferenceFlow<never_finer, pendulum> && !ReferenceFlow<odeint_reference, without_force>);
+static_assert(!std::constructible_from<exact_linear, const pendulum&>);  // it has no modes
+
+}  // namespace
+}  // namespace nysalt::test
+
+BOOST_AUTO_TEST_CASE(the_concepts_hold_as_asserted) { BOOST_TEST(true); }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a stepper refuses, and what it is for words that are not palindromes.
+#include <boost/test/unit_test.hpp>
+
+#include "laws/models.hpp"
+#include "laws/run_laws.hpp"
+#include "support/refusal.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// Symplectic Euler, kick first: nothing merges, nothing is reused.
+struct euler_b {
+  using word = nysalt::word<kick, drift>;
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return "euler_b"; }
+  static std::array<double, 2> coefficients() { return {1.0, 1.0}; }
+};
+static_assert(Method<euler_b>);
+
+phase_point<double, 1> somewhere() { return {vector<double, 1>(0.7), vector<double, 1>(-0.4)}; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_step_is_finite_and_not_zero) {
+  const pendulum system;
+  for (const double step :
+       {0.0, -0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(system, verlet(), step); },
+                                              {"step", "finite and not zero"}));
+  }
+  BOOST_TEST(make_stepper(system, verlet(), -0.1).step_size() == -0.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_word_that_does_not_merge_runs_as_its_plain_steps_to_the_bit) {
+  const pendulum system;
+  const auto fixed = make_stepper(system, euler_b(), 0.1);
+  auto run = fixed.open(somewhere());
+  auto x = somewhere();
+  BOOST_TEST(same_bits(fixed.synchronous(run), x));
+  for (int n = 0; n < 50; ++n) fixed.step(x);
+  fixed.advance(run, 50);
+  BOOST_TEST(run.step == 50);
+  BOOST_TEST(same_bits(fixed.synchronous(run), x));
+  BOOST_TEST(evaluations_of_run(system, euler_b(), 0.1, somewhere(), 50) == 50);
+}
+
+BOOST_AUTO_TEST_CASE(verlet_is_verlet) {
+  const pendulum system;
+  const double h = 0.1;
+  auto x = somewhere();
+  make_stepper(system, verlet(), h).step(x);
+  const double half = -0.4 - 0.5 * h * std::sin(0.7);
+  const double q = 0.7 + h * half;
+  BOOST_TEST(std::abs(x.q[0] - q) <= 4.0 * eps);  // the same four operations, in another order
+  BOOST_TEST(std::abs(x.p[0] - (half - 0.5 * h * std::sin(q))) <= 4.0 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(masses_divide_the_momentum) {
+  const two_masses system;
+  phase_point<double, 2> x{{0.0, 0.0}, {1.0, 1.0}};
+  make_stepper(system, verlet(), 0.1).step(x);
+  BOOST_TEST(x.q[0] == 0.1 * 1.0);
+  BOOST_TEST(x.q[1] == 0.1 * 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(counting_changes_nothing) {
+  const auto system = an_fpu_chain::make();
+  draws random;
+  const auto x = random.state(system, 0.5);
+  const counted watched(system);
+  BOOST_TEST(same_bits(integrate(watched, pefrl(), 0.02, x, 100).finish,
+                       integrate(system, pefrl(), 0.02, x, 100).finish));
+  BOOST_TEST(watched.evaluations == 400);
+  BOOST_TEST(describe(watched) == describe(system));
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSL-1.0
+// Random parameters for property tests, all from one seed that is shown.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include <cstdint>
+#include <random>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt::test {
+
+/// mt19937_64 gives the same bits everywhere; the standard's distributions do not, so we scale ourselves.
+class draws {
+ public:
+  static constexpr std::uint64_t seed = 20260721;
+
+  draws() { BOOST_TEST_MESSAGE("random parameters from seed " << seed); }
+
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(bits_() >> 11U) * 0x1p-53);
+  }
+
+  /// A state whose coordinates are uniform in -reach..reach.
+  template <System S>
+  phase_point<double, S::dimension> state(const S& system, double reach) {
+    phase_point<double, S::dimension> x{make_vector<double>(system), make_vector<double>(system)};
+    for (auto& q : x.q) q = uniform(-reach, reach);
+    for (auto& p : x.p) p = uniform(-reach, reach);
+    return x;
+  }
+
+ private:
+  std::mt19937_64 bits_{seed};
+};
+
+}  // namespace nysalt::test

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+// Refusals must say why: an exception of the right type whose sentence has the words that help.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace nysalt::test {
+
+template <class Exception>
+bool refuses(auto&& action, std::initializer_list<std::string_view> words) {
+  try {
+    action();
+  } catch (const Exception& e) {
+    const std::string said = e.what();
+    BOOST_TEST_CONTEXT("said: " << said) {
+      for (const auto word : words) BOOST_TEST(said.find(word) != std::string::npos, "missing: " << word);
+    }
+    return true;
+  }
+  return false;
+}
+
+}  // namespace nysalt::test

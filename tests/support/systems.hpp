@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+// Systems that only tests need: one for each way in which a user may write one.
+#pragma once
+
+#include <cmath>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt::test {
+
+/// A potential and nothing else.
+struct potential_only {
+  static constexpr int dimension = 2;
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    return (q[0] * q[0] + q[1] * q[1]) * 0.5 + q[0] * q[0] * q[1] * q[1];
+  }
+};
+
+/// The same in any dimension: a ring of quartic wells.
+struct dynamic_potential {
+  static constexpr int dimension = Eigen::Dynamic;
+  Eigen::Index masses = 3;
+  Eigen::Index size() const { return masses; }
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < masses; ++i) {
+      const T stretch = q[(i + 1) % masses] - q[i];
+      sum += stretch * stretch * 0.5 + q[i] * q[i] * q[i] * q[i] * 0.25;
+    }
+    return sum;
+  }
+};
+
+/// The pendulum's force, for double only.
+struct black_box {
+  static constexpr int dimension = 1;
+  void force(const vector<double, 1>& q, vector<double, 1>& f) const { f[0] = -std::sin(q[0]); }
+};
+
+/// The same with f'(q) v.
+struct black_box_with_derivative : black_box {
+  void force_derivative(const vector<double, 1>& q, const vector<double, 1>& v, vector<double, 1>& g) const {
+    g[0] = -std::cos(q[0]) * v[0];
+  }
+};
+
+/// Two different masses on a nonlinear spring.
+struct two_masses {
+  static constexpr int dimension = 2;
+  double inverse_mass(Eigen::Index i) const { return i == 0 ? 1.0 : 0.25; }
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    const T stretch = q[1] - q[0];
+    return stretch * stretch * 0.5 + (q[0] * q[0] * q[0] * q[0] + q[1] * q[1] * q[1] * q[1]) * 0.25;
+  }
+};
+
+/// K = sqrt(1 + p^2), which no method of Runge-Kutta-Nystrom type was made for, in a quartic well.
+struct relativistic {
+  static constexpr int dimension = 1;
+  template <class T>
+  T kinetic_energy(const vector<T, 1>& p) const {
+    using std::sqrt;
+    return sqrt(p[0] * p[0] + 1.0);
+  }
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0] * 0.5 + q[0] * q[0] * q[0] * q[0] * 0.25;
+  }
+};
+
+/// The same with a velocity of its own.
+struct relativistic_with_velocity : relativistic {
+  template <class T>
+  void velocity(const vector<T, 1>& p, vector<T, 1>& v) const {
+    using std::sqrt;
+    v[0] = p[0] / sqrt(p[0] * p[0] + 1.0);
+  }
+};
+
+/// A mistake: the force is 1 % too strong. The laws of systems must find it.
+struct wrong_force : potential_only {
+  template <class T>
+  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    f[0] = (q[0] + q[0] * q[1] * q[1] * 2.0) * -1.01;
+    f[1] = -q[1] - q[0] * q[0] * q[1] * 2.0;
+  }
+};
+
+}  // namespace nysalt::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+// Systems that cannot be are refused with a sentence.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/models.hpp"
+#include "../support/refusal.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using wrong = std::invalid_argument;
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(frequencies_are_positive_and_finite) {
+  for (const double omega : {0.0, -1.0, infinite, not_a_number}) {
+    BOOST_TEST(refuses<wrong>([&] { harmonic_oscillator{omega}; }, {"omega", "positive"}));
+    BOOST_TEST(refuses<wrong>([&] { fpu_chain<3>{omega}; }, {"omega", "positive"}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_fpu_chain_has_the_pairs_that_its_type_says) {
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<>(0, 1.0); }, {"0 pairs"}));
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<3>(2, 1.0); }, {"2 pairs"}));
+  BOOST_TEST(fpu_chain<>(4, 1.0).size() == 8);
+}
+
+BOOST_AUTO_TEST_CASE(the_stiffness_of_a_chain_is_square_symmetric_finite_and_not_negative) {
+  Eigen::MatrixXd k(2, 2);
+  BOOST_TEST(refuses<wrong>([&] { linear_chain(Eigen::MatrixXd(2, 3)); }, {"square", "2 x 3"}));
+  BOOST_TEST(refuses<wrong>([&] { linear_chain(Eigen::MatrixXd(0, 0)); }, {"square"}));
+  k << 1.0, 0.5, 0.4, 1.0;
+  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"symmetric"}));
+  k << 1.0, not_a_number, not_a_number, 1.0;
+  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"not finite"}));
+  k << 1.0, 2.0, 2.0, 1.0;
+  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"negative eigenvalue -"}));
+  k << 1.0, 1.0, 1.0, 1.0;  // singular is allowed
+  BOOST_TEST(linear_chain(k).modes().frequencies[0] == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_masses_of_a_chain_fit_and_are_positive) {
+  const Eigen::MatrixXd k = Eigen::MatrixXd::Identity(2, 2);
+  for (const Eigen::VectorXd& masses :
+       {Eigen::VectorXd(Eigen::Vector3d::Ones()), Eigen::VectorXd(Eigen::Vector2d(1.0, 0.0)),
+        Eigen::VectorXd(Eigen::Vector2d(1.0, -1.0)), Eigen::VectorXd(Eigen::Vector2d(1.0, not_a_number)),
+        Eigen::VectorXd(Eigen::Vector2d(1.0, infinite))}) {
+    BOOST_TEST(refuses<wrong>([&] { linear_chain(k, masses); }, {"2 positive, finite masses"}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_chain_between_walls_has_the_known_frequencies) {
+  const auto modes = linear_chain::between_walls(3, 2.0, 0.5).modes();
+  for (int k = 0; k < 3; ++k) {  // w = 2 sqrt(spring/mass) sin(k pi/(2 (n + 1)))
+    const double expected = 4.0 * std::sin((k + 1) * std::acos(-1.0) / 8.0);
+    BOOST_TEST(std::abs(modes.frequencies[k] - expected) <=
+               8.0 * 3 * std::numeric_limits<double>::epsilon() * 4);
+  }
+}
+
+// The paper's formula, term by term, in the coordinates of the modes.
+BOOST_AUTO_TEST_CASE(the_stiff_energy_is_that_of_the_stiff_modes) {
+  const fpu_chain<3> chain(50.0);
+  draws random;
+  const auto x = random.state(chain, 1.0);
+  const auto modes = chain.modes();
+  double sum = 0.0;
+  for (int j = 0; j < 3; ++j) {
+    const double x1 = modes.basis.col(3 + j).dot(x.q);
+    const double y1 = modes.basis.col(3 + j).dot(x.p);
+    const double expected = 0.5 * (y1 * y1 + 2500.0 * x1 * x1);
+    sum += expected;
+    BOOST_TEST(chain.stiff_energy(x, j) == expected, boost::test_tools::tolerance(1e-14));  // 20 roundings
+  }
+  BOOST_TEST(chain.stiff_energy(x) == sum, boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
+  BOOST_TEST(describe(harmonic_oscillator(2.0)) == "harmonic_oscillator(omega=2)");
+  BOOST_TEST(describe(fpu_chain<3>(50.0)) == "fpu_chain(pairs=3, omega=50)");
+  BOOST_TEST(describe(fpu_chain<>(3, 50.0)) == describe(fpu_chain<3>(50.0)));
+  BOOST_TEST(describe(dynamic_potential{4}).find("4 degrees of freedom") != std::string::npos);
+}
