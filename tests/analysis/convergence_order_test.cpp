@@ -43,7 +43,8 @@ BOOST_AUTO_TEST_CASE(orders_are_those_of_the_methods) {
 
 BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
   const auto result = measure(verlet(), fine_steps<>(1e-2), 16, 3);
-  BOOST_TEST(result.steps == (std::vector<double>{0.25, 0.125, 0.0625, 0.03125}), boost::test_tools::per_element());
+  BOOST_TEST(result.steps == (std::vector<double>{0.25, 0.125, 0.0625, 0.03125}),
+             boost::test_tools::per_element());
   BOOST_REQUIRE(result.errors.size() == 4);
   auto exact = start;
   fine_steps<>(1e-2).advance(swing, exact, 4.0);

@@ -52,7 +52,8 @@ BOOST_AUTO_TEST_CASE(the_largest_error_is_known_on_the_oscillator) {
   const harmonic_oscillator system(2.0);
   const auto result = energy_drift(system, verlet(), 0.1, at(1.0, 0.0), 100'000);
   BOOST_TEST(result.largest <= 0.04 / 4.0 * (1.0 + 1e-9));
-  BOOST_TEST(result.largest == 0.04 / 4.0, boost::test_tools::tolerance(1e-4));  // some step is near the extremum
+  BOOST_TEST(result.largest == 0.04 / 4.0,
+             boost::test_tools::tolerance(1e-4));  // some step is near the extremum
 }
 
 BOOST_AUTO_TEST_CASE(a_divergence_is_told) {

@@ -27,7 +27,8 @@ std::vector<state> starts(std::uint64_t count) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(relative_rms_by_hand) {
-  BOOST_TEST(relative_rms({1.1, 2.0}, {1.0, 2.0}) == std::sqrt(0.01 / 2.0), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(relative_rms({1.1, 2.0}, {1.0, 2.0}) == std::sqrt(0.01 / 2.0),
+             boost::test_tools::tolerance(1e-14));
   BOOST_TEST(relative_rms({1.1, 2.0}, {1.1, 2.0}) == 0.0);
   BOOST_TEST(relative_rms({-2.0}, {-1.0}) == 1.0);
 }
@@ -48,7 +49,8 @@ BOOST_AUTO_TEST_CASE(paths_are_sampled_after_each_step) {
   BOOST_TEST(paths[1].size() == 7);
   auto x = from[1];
   fine_steps<>(5e-4).advance(chain, x, .07);
-  BOOST_TEST(paths[1][6] == stiff_energy(x), boost::test_tools::tolerance(1e-11));  // rounding of 140 fine steps
+  BOOST_TEST(paths[1][6] == stiff_energy(x),
+             boost::test_tools::tolerance(1e-11));  // rounding of 140 fine steps
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_for_one_whole_trajectory) {

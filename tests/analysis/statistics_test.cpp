@@ -47,8 +47,8 @@ BOOST_AUTO_TEST_CASE(the_error_is_that_of_the_mean) {
     within_half += std::abs(mean) <= 0.5 * error;
   }
   BOOST_TEST_CONTEXT("seed " << draws::seed) {
-    BOOST_TEST(within >= 97);        // the chance of four failures among 100 is 3e-4
-    BOOST_TEST(within_half <= 60);   // 38 expected, and 60 are four deviations and a half away
+    BOOST_TEST(within >= 97);       // the chance of four failures among 100 is 3e-4
+    BOOST_TEST(within_half <= 60);  // 38 expected, and 60 are four deviations and a half away
   }
 }
 
@@ -73,5 +73,6 @@ BOOST_AUTO_TEST_CASE(the_slope_of_a_line_is_its_slope) {
 }
 
 BOOST_AUTO_TEST_CASE(the_least_squares_slope_by_hand) {
-  BOOST_TEST(slope(numbers{0.0, 1.0, 2.0}, numbers{0.0, 3.0, 3.0}) == 1.5, boost::test_tools::tolerance(8 * eps));
+  BOOST_TEST(slope(numbers{0.0, 1.0, 2.0}, numbers{0.0, 3.0, 3.0}) == 1.5,
+             boost::test_tools::tolerance(8 * eps));
 }

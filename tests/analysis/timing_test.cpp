@@ -19,8 +19,7 @@ BOOST_AUTO_TEST_CASE(jobs_take_turns_and_run_once_more_than_they_are_timed) {
 BOOST_AUTO_TEST_CASE(a_longer_job_takes_longer) {
   using namespace std::chrono_literals;
   int calls = 0;
-  const auto medians = interleaved_medians({[] {},
-                                            [] { std::this_thread::sleep_for(2ms); },
+  const auto medians = interleaved_medians({[] {}, [] { std::this_thread::sleep_for(2ms); },
                                             [&] {  // the first round is not counted, however slow
                                               if (calls++ == 0) std::this_thread::sleep_for(100ms);
                                             }},

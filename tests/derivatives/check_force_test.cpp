@@ -18,7 +18,9 @@ force_check check(const S& system, double reach = 0.5, int points = 5) {
   for (int n = 0; n < points; ++n) at.push_back(random.state(system, reach).q);
   return check_force(system, at);
 }
-bool says(const force_check& result, const char* words) { return result.report().find(words) != std::string::npos; }
+bool says(const force_check& result, const char* words) {
+  return result.report().find(words) != std::string::npos;
+}
 
 /// The galaxy with a mistake in the second coordinate.
 struct mistaken : henon_heiles {

@@ -54,8 +54,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
   const henon_heiles system;
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  const auto data =
-      make_flow_map_data(system, starts, fine_steps<>(0.02), {.step = 0.4, .horizon = 2.0, .trajectories = 7});
+  const auto data = make_flow_map_data(system, starts, fine_steps<>(0.02),
+                                       {.step = 0.4, .horizon = 2.0, .trajectories = 7});
   const metric<2> measure(system, data, coordinates::qp);
   const one_step<nystrom, henon_heiles> loss(system, data, measure);
   draws random;
@@ -72,7 +72,8 @@ BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
       auto behind = theta;
       ahead[k] += t;
       behind[k] -= t;
-      fourth = std::max(fourth, norm(exact_hessian(loss, ahead) - 2.0 * exact + exact_hessian(loss, behind)) / (t * t));
+      fourth = std::max(
+          fourth, norm(exact_hessian(loss, ahead) - 2.0 * exact + exact_hessian(loss, behind)) / (t * t));
     }
     const double rounding = 100.0 * eps * block_gradients(loss, theta).cwiseAbs().sum() / s;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
@@ -90,7 +91,8 @@ BOOST_AUTO_TEST_CASE(flat_directions_are_found_and_left_alone) {
   const curvature flat(valley(1e-9), {0, 1});
   BOOST_REQUIRE(flat.flat_directions().size() == 1);
   const Eigen::Vector2d along = flat.flat_directions()[0];
-  BOOST_TEST(std::abs(along[0]) == 2.0 / std::sqrt(5.0), boost::test_tools::tolerance(1e-8));  // eps/1e-9 at most
+  BOOST_TEST(std::abs(along[0]) == 2.0 / std::sqrt(5.0),
+             boost::test_tools::tolerance(1e-8));  // eps/1e-9 at most
   BOOST_TEST(along[0] * along[1] > 0.0);
   BOOST_TEST(flat.condition() == 1.0, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(flat.is_minimum());
@@ -102,7 +104,8 @@ BOOST_AUTO_TEST_CASE(flat_directions_are_found_and_left_alone) {
 BOOST_AUTO_TEST_CASE(a_shallow_valley_is_not_a_flat_one) {
   const curvature shallow(valley(1e-6), {0, 1});
   BOOST_TEST(shallow.flat_directions().empty());
-  BOOST_TEST(shallow.condition() == 1e6, boost::test_tools::tolerance(1e-8));  // eps of the larger in the smaller
+  BOOST_TEST(shallow.condition() == 1e6,
+             boost::test_tools::tolerance(1e-8));  // eps of the larger in the smaller
   const Eigen::Vector2d along(2.0, 1.0);
   BOOST_TEST(norm(shallow.solve(along) - 1e6 * along) <= 1e-8 * 1e6);
 }

@@ -58,7 +58,8 @@ double allowed(const flow_map_data<1>& data, const parameters_of<nystrom>& theta
   const metric<1> measure(exact, data, coordinates::qp);
   const one_step<nystrom, by_force> loss(exact, data, measure);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(nysalt::hessian(loss, theta));
-  const double jacobian = std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more
+  const double jacobian =
+      std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more
   return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / solver.eigenvalues()[0];
 }
 
@@ -82,8 +83,9 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   // A central difference is off by eps^(2/3) of |f|/|q| twice over: its two errors balance.
   const double differences = allowed(data, theta, 2.0 * std::pow(eps, 2.0 / 3.0) + 100.0 * eps);
   BOOST_TEST_CONTEXT(expected.summary.full()) {
-    BOOST_TEST_MESSAGE(distance_of(potential, expected) << ", " << distance_of(derived, expected) << " of " << rounding
-                                                        << "; " << distance_of(boxed, expected) << " of " << differences);
+    BOOST_TEST_MESSAGE(distance_of(potential, expected)
+                       << ", " << distance_of(derived, expected) << " of " << rounding << "; "
+                       << distance_of(boxed, expected) << " of " << differences);
     BOOST_TEST(expected.summary.usable);
     BOOST_TEST(distance_of(potential, expected) <= rounding);
     BOOST_TEST(distance_of(derived, expected) <= rounding);

@@ -58,7 +58,9 @@ struct by_hand {
   Eigen::MatrixXd rounding;
 };
 by_hand gradient_by_hand(const flow_map_data<2>& data, double b1, double beta1) {
-  const auto coordinates = [](const phase_point<double, 2>& x) { return Eigen::Vector4d(x.q[0], x.q[1], x.p[0], x.p[1]); };
+  const auto coordinates = [](const phase_point<double, 2>& x) {
+    return Eigen::Vector4d(x.q[0], x.q[1], x.p[0], x.p[1]);
+  };
   const auto count = static_cast<double>(data.pairs());
   Eigen::Vector4d sigma = Eigen::Vector4d::Zero();
   for (std::size_t n = 0; n < data.pairs(); ++n) {

@@ -28,7 +28,8 @@ linear_chain two_weights_on_springs() {
 flow_map_data<any> data_of(const linear_chain& chain) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(chain.size());
   const normal_around<any> starts({zero, zero}, 0.3, 0.7);
-  return make_flow_map_data(chain, starts, exact_linear(chain), {.step = 0.3, .horizon = 1.5, .trajectories = 9});
+  return make_flow_map_data(chain, starts, exact_linear(chain),
+                            {.step = 0.3, .horizon = 1.5, .trajectories = 9});
 }
 /// Row n: the residuals of the increment of pair n.
 Eigen::MatrixXd increments(const metric<any>& measure, const flow_map_data<any>& data) {
@@ -49,13 +50,15 @@ BOOST_AUTO_TEST_CASE(each_coordinate_is_measured_in_its_mean_square_increment) {
   const auto data = data_of(chain);
   for (const auto which : {coordinates::qp, coordinates::modes}) {
     const metric<any> measure(chain, data, which);
-    const Eigen::VectorXd mean_squares = increments(measure, data).rowwise().squaredNorm() / double(data.pairs());
+    const Eigen::VectorXd mean_squares =
+        increments(measure, data).rowwise().squaredNorm() / double(data.pairs());
     BOOST_TEST(mean_squares.size() == 4);
     // 45 squares are added, twice.
     BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() <= 2 * 45 * eps);
   }
   const metric<any> by_energy(chain, data, coordinates::energy);
-  const Eigen::VectorXd mean_squares = increments(by_energy, data).rowwise().squaredNorm() / double(data.pairs());
+  const Eigen::VectorXd mean_squares =
+      increments(by_energy, data).rowwise().squaredNorm() / double(data.pairs());
   BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() > 1e-3);  // one weight for all
   BOOST_TEST(std::abs(mean_squares.mean() - 1.0) <= 2 * 45 * eps);
 }
@@ -92,7 +95,9 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_left_out) {
   BOOST_TEST(measure.dropped() == (std::vector<std::string>{"q2", "p2"}), boost::test_tools::per_element());
   const metric<any> by_modes(chain, data, coordinates::modes);
   BOOST_TEST(by_modes.dropped() == (std::vector<std::string>{"x1", "y1"}), boost::test_tools::per_element());
-  BOOST_TEST(metric<any>(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp).dropped().empty());
+  BOOST_TEST(metric<any>(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp)
+                 .dropped()
+                 .empty());
 }
 
 // What a trajectory adds to the weights, found by giving it twice: Sigma is a mean over pairs.
@@ -125,18 +130,22 @@ BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights
 BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
   using wrong = std::invalid_argument;
   const fpu_chain<3> chain(50.0);
-  const normal_around<6> starts({Eigen::Vector<double, 6>::Zero(), Eigen::Vector<double, 6>::Zero()}, 0.1, 0.1);
+  const normal_around<6> starts({Eigen::Vector<double, 6>::Zero(), Eigen::Vector<double, 6>::Zero()}, 0.1,
+                                0.1);
   const auto data = make_flow_map_data(chain, starts, fine_steps<>(1e-3), {.step = 0.01, .trajectories = 2});
-  BOOST_TEST(refuses<wrong>([&] { metric<6>(chain, data, coordinates::energy); },
-                            {"energy", "fpu_chain(pairs=3, omega=50)", "mode 1", "frequency zero", "modes or qp"}));
+  BOOST_TEST(
+      refuses<wrong>([&] { metric<6>(chain, data, coordinates::energy); },
+                     {"energy", "fpu_chain(pairs=3, omega=50)", "mode 1", "frequency zero", "modes or qp"}));
   const pendulum swing;
   const normal_around<1> swings({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.1, 0.1);
-  const auto of_swing = make_flow_map_data(swing, swings, fine_steps<>(0.01), {.step = 0.1, .trajectories = 2});
+  const auto of_swing =
+      make_flow_map_data(swing, swings, fine_steps<>(0.01), {.step = 0.1, .trajectories = 2});
   for (const auto which : {coordinates::modes, coordinates::energy}) {
     BOOST_TEST(refuses<wrong>([&] { metric<1>(swing, of_swing, which); },
                               {to_string(which), "pendulum()", "no modes()", "use qp"}));
   }
   const listed<1> at_rest({{vector<double, 1>(0.0), vector<double, 1>(0.0)}});
-  const auto of_nothing = make_flow_map_data(swing, at_rest, fine_steps<>(0.01), {.step = 0.1, .trajectories = 1});
+  const auto of_nothing =
+      make_flow_map_data(swing, at_rest, fine_steps<>(0.01), {.step = 0.1, .trajectories = 1});
   BOOST_TEST(refuses<wrong>([&] { metric<1>(swing, of_nothing, coordinates::qp); }, {"nothing moves"}));
 }

@@ -34,7 +34,8 @@ struct data_sets {
 data_sets made_by(const auto& reference, std::uint64_t first_seed = 1) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
   const auto make = [&](std::uint64_t seed) {
-    return make_flow_map_data(galaxy, starts, reference, {.step = h, .horizon = 2.0, .trajectories = 30, .seed = seed});
+    return make_flow_map_data(galaxy, starts, reference,
+                              {.step = h, .horizon = 2.0, .trajectories = 30, .seed = seed});
   };
   return {make(first_seed), make(first_seed + 1)};
 }
@@ -54,7 +55,8 @@ double recovery_error(const data_sets& sets, const parameters_of<nystrom>& theta
   for (std::size_t n = 0; n < sets.data.pairs(); ++n) {
     const auto& x = sets.data.start[n];
     const auto& y = sets.data.finish[n];
-    squares += Eigen::Vector4d(y.q[0] - x.q[0], y.q[1] - x.q[1], y.p[0] - x.p[0], y.p[1] - x.p[1]).cwiseAbs2();
+    squares +=
+        Eigen::Vector4d(y.q[0] - x.q[0], y.q[1] - x.q[1], y.p[0] - x.p[0], y.p[1] - x.p[1]).cwiseAbs2();
   }
   const double least = std::sqrt(squares.minCoeff() / static_cast<double>(sets.data.pairs()));
   const double residual = std::sqrt(4.0) * 24.0 * eps * magnified / least;
@@ -150,6 +152,7 @@ BOOST_AUTO_TEST_CASE(where_all_is_fixed_nothing_moves) {
   BOOST_TEST(fit.method.parameters()[0] == 0.45);
   BOOST_TEST(fit.method.parameters()[1] == 0.4);
   BOOST_TEST(fit.summary.iterations == 0);
+  BOOST_TEST(fit.summary.usable);
   BOOST_TEST(!fit.summary.parameters[0].free);
   BOOST_TEST(!fit.summary.parameters[1].free);
 }
@@ -167,6 +170,9 @@ BOOST_AUTO_TEST_CASE(every_start_leads_to_the_same_minimum) {
       BOOST_TEST(fit.summary.usable);
     }
   }
+  const auto again = fit_to(sets, {.start = first.method.parameters()});
+  BOOST_TEST(distance_of(again.method.parameters(), first.method.parameters()) <= 1e-9);
+  BOOST_TEST(again.summary.usable);
   // What the agreement is worth: a search that is cut short ends elsewhere.
   const auto cut = fit_to(sets, {.start = {0.35, 0.25}, .max_iterations = 1});
   BOOST_TEST(distance_of(cut.method.parameters(), first.method.parameters()) > 1e-6);

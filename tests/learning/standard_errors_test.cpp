@@ -94,7 +94,8 @@ BOOST_AUTO_TEST_CASE(the_scatter_falls_with_the_root_of_the_number_of_trajectori
   const double error = 1.0 / std::sqrt(2.0 * (repetitions - 1) * spread);
   for (std::size_t k = 0; k < 2; ++k) {
     const double measured = slope(log_count, log_scatter[k]);
-    BOOST_TEST_MESSAGE(nystrom::parameter_names[k] << ": slope " << measured << " +- " << error << ", of the reported errors "
+    BOOST_TEST_MESSAGE(nystrom::parameter_names[k] << ": slope " << measured << " +- " << error
+                                                   << ", of the reported errors "
                                                    << slope(log_count, log_reported[k]));
     BOOST_TEST(std::abs(measured + 0.5) <= 3.0 * error);
     BOOST_TEST(std::abs(measured + 1.0) > 3.0 * error);

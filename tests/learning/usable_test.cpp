@@ -27,12 +27,13 @@ flow_map_data<6> of_chain(const auto& reference, double step, std::uint64_t seed
   return make_flow_map_data(chain, fpu_law<3>(chain), reference,
                             {.step = step, .horizon = 20.0 * step, .trajectories = 50, .seed = seed});
 }
-flow_map_data<any> of_oscillator(double step) {
+flow_map_data<any> of_oscillator(double step, const auto& reference) {
   const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
   const listed<any> two_states({{number(0.5), number(0.0)}, {number(0.0), number(1.0)}});
-  return make_flow_map_data(oscillator, two_states, exact_linear(oscillator),
+  return make_flow_map_data(oscillator, two_states, reference,
                             {.step = step, .horizon = step, .trajectories = 2});
 }
+flow_map_data<any> of_oscillator(double step) { return of_oscillator(step, exact_linear(oscillator)); }
 learned<nystrom> fit_oscillator(double step, const learn_options<nystrom>& options = {}) {
   const auto data = of_oscillator(step);
   return learn(nystrom{}, oscillator, data, data, options);
@@ -85,7 +86,8 @@ BOOST_AUTO_TEST_CASE(a_search_that_is_cut_short_is_flagged) {
       for (const double beta1 : {0.0, 0.1, 0.5}) {
         const auto fit = fit_oscillator(0.5, {.start = {b1, beta1}, .max_iterations = iterations});
         BOOST_CHECK_NO_THROW(require_in_range<nystrom>(fit.method.parameters()));
-        BOOST_TEST_CONTEXT("from " << b1 << ", " << beta1 << " in " << iterations << "\n" << fit.summary.full()) {
+        BOOST_TEST_CONTEXT("from " << b1 << ", " << beta1 << " in " << iterations << "\n"
+                                   << fit.summary.full()) {
           BOOST_TEST((fit.summary.loss <= 1.01 * enough.loss || !fit.summary.usable));
         }
         flagged += says(fit.summary.reason, "did not converge");
@@ -93,6 +95,15 @@ BOOST_AUTO_TEST_CASE(a_search_that_is_cut_short_is_flagged) {
     }
   }
   BOOST_TEST(flagged > 0);
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_hold_on_held_out_data_is_flagged) {
+  const auto other_map = of_oscillator(0.5, fine_steps(0.5, member<nystrom>({0.4, 0.45})));
+  const auto fit = learn(nystrom{}, oscillator, other_map, of_oscillator(0.5));
+  BOOST_TEST_CONTEXT(fit.summary.full()) {
+    BOOST_TEST(!fit.summary.usable);
+    BOOST_TEST(says(fit.summary.reason, "held-out"));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
@@ -120,9 +131,11 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
   const auto alone = fit_oscillator(0.5);
   BOOST_TEST_CONTEXT(fit.summary.full()) {
     BOOST_TEST(fit.summary.usable);
-    BOOST_TEST(fit.summary.dropped == (std::vector<std::string>{"q2", "p2"}), boost::test_tools::per_element());
+    BOOST_TEST(fit.summary.dropped == (std::vector<std::string>{"q2", "p2"}),
+               boost::test_tools::per_element());
     BOOST_TEST(says(fit.summary.full(), "q2, left out of the loss"));
-    for (std::size_t k = 0; k < 2; ++k) {  // Newton's steps end at rounding, magnified by the curvature's condition
+    for (std::size_t k = 0; k < 2;
+         ++k) {  // Newton's steps end at rounding, magnified by the curvature's condition
       BOOST_TEST(std::abs(fit.method.parameters()[k] - alone.method.parameters()[k]) <= 1e-12);
     }
   }
@@ -130,8 +143,9 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   const auto data = of_oscillator(0.5);
-  const auto refused = [&](const linear_chain& system, const flow_map_data<any>& training, const flow_map_data<any>& held_out,
-                           const learn_options<nystrom>& options, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const linear_chain& system, const flow_map_data<any>& training,
+                           const flow_map_data<any>& held_out, const learn_options<nystrom>& options,
+                           std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { learn(nystrom{}, system, training, held_out, options); }, words);
   };
   const linear_chain other(Eigen::MatrixXd::Constant(1, 1, 9.0));

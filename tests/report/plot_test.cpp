@@ -19,12 +19,14 @@ const bool has_gnuplot = std::system("gnuplot --version >/dev/null 2>&1") == 0;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 figure two_panels() {
-  const panel lines{.title = "it's a title", .x_label = "t", .y_label = "I", .curves = {{"a", {0, 1, 2}, {1, 2, 1}}}};
-  const panel points{.title = "errors",
-                     .x_label = "cost",
-                     .y_label = "error",
-                     .log_log = true,
-                     .curves = {{"b", {1, 10}, {1e-2, 1e-4}, {1e-3, nothing}, true}, {"c", {1, 10}, {1e-1, 1e-3}}}};
+  const panel lines{
+      .title = "it's a title", .x_label = "t", .y_label = "I", .curves = {{"a", {0, 1, 2}, {1, 2, 1}}}};
+  const panel points{
+      .title = "errors",
+      .x_label = "cost",
+      .y_label = "error",
+      .log_log = true,
+      .curves = {{"b", {1, 10}, {1e-2, 1e-4}, {1e-3, nothing}, true}, {"c", {1, 10}, {1e-1, 1e-3}}}};
   return {"picture", {lines, points}};
 }
 
@@ -38,14 +40,15 @@ BOOST_AUTO_TEST_CASE(data_and_script_are_written_and_pictures_drawn) {
   BOOST_TEST(data.find("# errors: b\n1 0.01 0.001\n10 0.0001 0\n\n\n") != std::string::npos);
   BOOST_TEST(data.find("# errors: c\n") != std::string::npos);
   const auto script = contents(folder / "picture.gp");
-  for (const char* words : {"'picture.dat' index 0", "'picture.dat' index 1", "'picture.dat' index 2", "logscale xy",
-                            "title 'it''s a title'", "multiplot"}) {
+  for (const char* words : {"'picture.dat' index 0", "'picture.dat' index 1", "'picture.dat' index 2",
+                            "logscale xy", "title 'it''s a title'", "multiplot"}) {
     BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
   }
   if (has_gnuplot) {
     BOOST_TEST(contents(folder / "picture.svg").find("<svg") != std::string::npos);
     BOOST_TEST(contents(folder / "picture.png").starts_with("\x89PNG"));
-    BOOST_TEST((folder.files() == std::set<std::string>{"picture.dat", "picture.gp", "picture.svg", "picture.png"}));
+    BOOST_TEST(
+        (folder.files() == std::set<std::string>{"picture.dat", "picture.gp", "picture.svg", "picture.png"}));
   }
 }
 

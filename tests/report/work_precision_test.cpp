@@ -10,13 +10,14 @@ using namespace nysalt;
 
 namespace {
 
-work_precision_row at_cost(const std::string& method, double evaluations, double error, std::int64_t diverged = 0) {
+work_precision_row at_cost(const std::string& method, double evaluations, double error,
+                           std::int64_t diverged = 0) {
   return {method, 2.0 / evaluations, evaluations, 1e-9 * evaluations, {error, 0.1 * error}, diverged, 40};
 }
 /// Errors that fall with the square of the cost, out of order, beside another method's.
 std::vector<work_precision_row> power_law() {
-  return {at_cost("a", 400, 7 * std::pow(400, -2)), at_cost("b", 200, 99.0), at_cost("a", 100, 7 * std::pow(100, -2)),
-          at_cost("a", 1600, 7 * std::pow(1600, -2))};
+  return {at_cost("a", 400, 7 * std::pow(400, -2)), at_cost("b", 200, 99.0),
+          at_cost("a", 100, 7 * std::pow(100, -2)), at_cost("a", 1600, 7 * std::pow(1600, -2))};
 }
 
 }  // namespace
@@ -25,7 +26,8 @@ BOOST_AUTO_TEST_CASE(between_rows_a_power_law_is_exact) {
   for (const double cost : {100.0, 130.0, 200.0, 399.0, 400.0, 900.0, 1600.0}) {
     const auto error = error_at_cost(power_law(), "a", cost);
     BOOST_REQUIRE(error.has_value());
-    // 1 % of difference in cost counts as none, and changes this error by 2 %; elsewhere only rounding counts.
+    // 1 % of difference in cost counts as none, and changes this error by 2 %; elsewhere only rounding
+    // counts.
     const bool at_a_row = std::abs(cost - 400.0) < 4.0;
     BOOST_TEST(*error == 7 * std::pow(cost, -2), boost::test_tools::tolerance(at_a_row ? 0.02 : 1e-13));
   }
@@ -65,9 +67,11 @@ BOOST_AUTO_TEST_CASE(the_panel_has_a_curve_for_each_method) {
   BOOST_TEST(by_evaluations.curves[0].label == "a");
   BOOST_TEST(!by_evaluations.curves[0].emphasised);
   BOOST_TEST(by_evaluations.curves[1].emphasised);
-  BOOST_TEST(by_evaluations.curves[0].x == (std::vector<double>{400, 100, 1600}), boost::test_tools::per_element());
+  BOOST_TEST(by_evaluations.curves[0].x == (std::vector<double>{400, 100, 1600}),
+             boost::test_tools::per_element());
   BOOST_TEST(by_evaluations.curves[1].y == (std::vector<double>{99}), boost::test_tools::per_element());
   BOOST_TEST(by_evaluations.curves[1].error == (std::vector<double>{9.9}), boost::test_tools::per_element());
-  const auto by_seconds = work_precision_panel(power_law(), "b", "time", &work_precision_row::seconds_per_time);
+  const auto by_seconds =
+      work_precision_panel(power_law(), "b", "time", &work_precision_row::seconds_per_time);
   BOOST_TEST(by_seconds.curves[1].x[0] == 1e-9 * 200);
 }

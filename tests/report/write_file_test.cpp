@@ -25,7 +25,8 @@ BOOST_AUTO_TEST_CASE(where_it_cannot_be_written_nothing_is_left) {
   const scratch folder("write_file");
   write_file(folder / "file", "here");
   const auto refused = [&](const std::filesystem::path& path) {
-    return refuses<std::runtime_error>([&] { write_file(path, "text"); }, {"cannot write", path.string(), "folder"});
+    return refuses<std::runtime_error>([&] { write_file(path, "text"); },
+                                       {"cannot write", path.string(), "folder"});
   };
   BOOST_TEST(refused(folder / "nowhere" / "a.txt"));
   BOOST_TEST(refused(folder / "file" / "a.txt"));

@@ -37,8 +37,8 @@ BOOST_AUTO_TEST_CASE(errors_are_the_known_ones) {
     const auto paths = reference_paths(system, reference, expected.step, steps, starts, observable);
     const auto error = [&](const auto& method) {
       const auto result = path_error(system, method, expected.step, starts, paths, observable);
-      BOOST_TEST_MESSAGE("step " << expected.step << ", " << method.name() << ": " << result.error.mean << " +- "
-                                 << result.error.standard_error);
+      BOOST_TEST_MESSAGE("step " << expected.step << ", " << method.name() << ": " << result.error.mean
+                                 << " +- " << result.error.standard_error);
       BOOST_TEST(result.diverged == 0);
       return result.error.mean;
     };

@@ -25,7 +25,8 @@ learned<nystrom> fit_at(double z, double omega) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_optimum_is_the_closed_one_for_every_frequency) {
-  const std::vector<std::pair<double, double>> closed{{0.5, .402726524}, {1.0, .400581831}, {2.0, .390164224}};
+  const std::vector<std::pair<double, double>> closed{
+      {0.5, .402726524}, {1.0, .400581831}, {2.0, .390164224}};
   for (const auto& [z, beta1] : closed) {
     for (const double omega : {0.03, 1.0, 3.0, 50.0, 1e4}) {
       const auto fit = fit_at(z, omega);
