@@ -27,7 +27,8 @@ using namespace nysalt;
 template <Method M, int Pairs>
 std::size_t allocations_of(const fpu_chain<Pairs>& chain, const M& method, std::int64_t steps) {
   const auto stepper = make_stepper(chain, method, 1e-3);
-  phase_point<double, fpu_chain<Pairs>::dimension> start{make_vector<double>(chain), make_vector<double>(chain)};
+  phase_point<double, fpu_chain<Pairs>::dimension> start{make_vector<double>(chain),
+                                                         make_vector<double>(chain)};
   start.q.setConstant(0.7);
   start.p.setConstant(0.1);
   auto run = stepper.open(start);

@@ -19,10 +19,10 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 /// Names of files without .hpp, and of folders with a slash; from the lowest layer to the highest.
 const std::vector<std::vector<std::string>> layers{
     {"scalar", "scalars/", "phase_point"},
-    {"system", "force", "energy", "systems/", "counted", "noises/"},
+    {"system", "requirements", "force", "energy", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "palindrome", "stepper"},
     {"family", "families/", "method", "methods/"},
-    {"integrate", "observers/", "odeint_stepper"},
+    {"integrate", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "ensemble", "ensembles/", "flow_map_data"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},

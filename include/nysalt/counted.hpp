@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "nysalt/force.hpp"
 
@@ -12,6 +13,7 @@ namespace nysalt {
 /// A system that counts its force evaluations; everything else is the wrapped system's.
 /// Not for several threads at once: each thread counts with its own copy.
 template <System S>
+  requires(!std::is_final_v<S>)
 struct counted : S {
   explicit counted(const S& system) : S(system) {}
 
@@ -19,6 +21,7 @@ struct counted : S {
     requires SystemOver<S, T>
   void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
     ++evaluations;
+    if constexpr (BlackBoxForce<S> && is_dual<T>) evaluations += T::derivatives;  // a directional one each
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 

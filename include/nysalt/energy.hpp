@@ -9,8 +9,6 @@ namespace nysalt {
 /// v = grad K(p): p_i / m_i, or the system's own, or by autodiff from its kinetic energy.
 template <class T, System S>
 void velocity(const S& system, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
-  static_assert(HasVelocity<S, T> || HasKineticEnergy<S, double> || !HasVelocity<S, double>,
-                "nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template");
   if constexpr (HasVelocity<S, T>) {
     system.velocity(p, v);
   } else if constexpr (HasKineticEnergy<S, double>) {

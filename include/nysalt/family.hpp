@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "nysalt/scalars/dual.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
@@ -27,13 +28,19 @@ struct parameter_range {
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
+/// Carries the derivatives by theta, which learning needs.
+template <class F>
+using theta_dual = dual<double, F::parameters>;
+
 /// theta -> coefficients of a fixed word, over double and over derivatives with respect to theta:
 ///   word, name, parameters, parameter_names
 ///   order, symmetric, requires_quadratic_kinetic   what holds for every theta
 ///   ranges(), start()                              where theta may lie, and where a search begins
 ///   coefficients(theta)                            over any scalar
 template <class F>
-concept Family = Word<typename F::word> && requires(const parameters_of<F>& theta) {
+concept Family = Word<typename F::word> &&
+    requires(const parameters_of<F>& theta,
+             const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
   { F::name } -> std::convertible_to<std::string_view>;
   { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
   { F::order } -> std::convertible_to<int>;
@@ -42,6 +49,7 @@ concept Family = Word<typename F::word> && requires(const parameters_of<F>& thet
   { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
   { F::start() } -> std::same_as<parameters_of<F>>;
   { F::coefficients(theta) } -> std::same_as<std::array<double, F::word::length>>;
+  { F::coefficients(lifted) } -> std::same_as<std::array<theta_dual<F>, F::word::length>>;
 };
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.

@@ -16,6 +16,14 @@ struct flow_state {
   vector<T, N> f;
 };
 
+namespace detail {
+/// The least of systems, on which a letter can be tried.
+struct free_particle {
+  static constexpr int dimension = 1;
+  void force(const vector<double, 1>&, vector<double, 1>& f) const { f[0] = 0.0; }
+};
+}  // namespace detail
+
 /// The flow of an exactly solvable part of the Hamiltonian over the time c h:
 ///   letter         its name in words, see docs/notation.md
 ///   reads_force    f = force(q) must hold when it is applied
@@ -24,12 +32,12 @@ struct flow_state {
 ///   prepare(c, h)  folds the step into the coefficient, once per run
 ///   apply(system, prepared, state)
 template <class L>
-concept Flow = requires {
+concept Flow = requires(flow_state<double, 1>& x) {
   { L::letter } -> std::convertible_to<char>;
   { L::reads_force } -> std::convertible_to<bool>;
   { L::moves_q } -> std::convertible_to<bool>;
   { L::additive } -> std::convertible_to<bool>;
-  L::prepare(1.0, 1.0);
+  L::apply(detail::free_particle{}, L::prepare(1.0, 1.0), x);
 };
 
 }  // namespace nysalt

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +38,7 @@ struct flow_map_data {
   double seconds = 0.0;
 
   std::size_t pairs() const { return start.size(); }
-  std::size_t trajectories() const { return first_of.size() - 1; }
+  std::size_t trajectories() const { return first_of.empty() ? 0 : first_of.size() - 1; }
 };
 
 struct data_options {
@@ -47,9 +48,33 @@ struct data_options {
   std::uint64_t seed = 1;
 };
 
+/// Throws std::invalid_argument unless the data are of this system, hold pairs of its size, all finite, and
+/// trajectories that cover them; for data that came from elsewhere.
+template <System S>
+void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
+  if (data.system != describe(system)) {
+    throw std::invalid_argument(
+        fmt::format("the data are of {}, the system is {}", data.system, describe(system)));
+  }
+  const bool covers = !data.first_of.empty() && data.first_of.front() == 0 &&
+                      data.first_of.back() == data.pairs() &&
+                      std::is_sorted(data.first_of.begin(), data.first_of.end());
+  if (data.pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
+    throw std::invalid_argument(fmt::format("the data are not whole: {} starts, {} finishes, {} trajectories",
+                                            data.pairs(), data.finish.size(), data.trajectories()));
+  }
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    for (const auto* x : {&data.start[n], &data.finish[n]}) {
+      if (x->q.size() == size(system) && x->p.size() == size(system) && is_finite(*x)) continue;
+      throw std::invalid_argument(
+          fmt::format("pair {} of the data is not finite or has not the dimension of the system", n));
+    }
+  }
+}
+
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each.
-/// Throws std::invalid_argument if there is not one step or trajectory, std::runtime_error if a state is
-/// not finite. Memory: two states a pair.
+/// Throws std::invalid_argument if there is not one step or trajectory, or if a start does not fit,
+/// std::runtime_error if the reference diverges. Memory: two states a pair.
 template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
 flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
                                                const data_options& options) {
@@ -60,12 +85,18 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
         fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
                     options.step, options.horizon));
   }
-  const auto steps = static_cast<std::int64_t>(std::floor(options.horizon / options.step + 1e-9));
-  if (steps < 1 || options.trajectories < 1) {
+  const double steps_of_each = std::floor(options.horizon / options.step + 1e-9);
+  if (!(steps_of_each >= 1.0) || options.trajectories < 1) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
         options.trajectories, options.horizon, options.step));
   }
+  if (steps_of_each * static_cast<double>(options.trajectories) > 1e9) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
+        options.trajectories, steps_of_each));
+  }
+  const auto steps = static_cast<std::int64_t>(steps_of_each);
   const counted<S> watched(system);
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
   const std::size_t check_every = total / static_cast<std::size_t>(checks) + 1;
@@ -77,6 +108,11 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   for (std::int64_t m = 0; m < options.trajectories; ++m) {
     data.first_of.push_back(data.pairs());
     auto x = ensemble(options.seed, static_cast<std::uint64_t>(m));
+    if (x.q.size() != size(system) || x.p.size() != size(system) || !is_finite(x)) {
+      throw std::invalid_argument(
+          fmt::format("flow_map_data: start {} of {} is not finite or has not the dimension of {}", m,
+                      ensemble.description(), describe(system)));
+    }
     for (std::int64_t n = 0; n < steps; ++n) {
       if (data.pairs() % check_every == 0) {
         data.finer.emplace_back(data.pairs(), x);

@@ -59,6 +59,9 @@ void directional_derivative(const S& system, const vector<double, S::dimension>&
 }
 
 /// f = -grad V(q) over any scalar that the system can serve.
+/// Cost: the system's own force where it has one over T. From the potential that of gradient(), and from a
+/// black box 1 force and T::derivatives directional derivatives; of a dynamic dimension these two allocate at
+/// every call, so that a system that must be fast writes its force as a template.
 template <class T, SystemOver<T> S>
 void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
   if constexpr (HasForce<S, T>) {

@@ -47,10 +47,11 @@ class divergence {
 /// t = n h at n = 0, every, 2 every, ...; what it sees is synchronous, and looking does not change the run.
 ///
 /// Divergence is looked for every 64 steps and at the end, whoever observes what. Where it is found, that
-/// stretch is gone through again to name the first bad step; and so is one with samples inside, which are
-/// shown only when the stretch is known to be good. No observer sees a diverged state. Cost: that of the
-/// steps, up to twice where samples are less than 64 steps apart.
-/// Near the edge of a stability window a bounded motion can swing beyond the criterion too.
+/// stretch is gone through again to name the first bad step, and no observer sees that step or a later one.
+/// A stretch with samples inside is gone through twice as well: they are shown when its end is known to be
+/// good. Cost: that of the steps, up to twice where samples are less than 64 steps apart.
+/// Near the edge of a stability window a bounded motion can swing beyond the criterion and back: that counts
+/// if it is beyond when it is looked at.
 /// Throws std::invalid_argument if steps < 0, every < 1 or the start is not finite or does not fit.
 template <class Stepper, class Observer>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,

@@ -38,8 +38,14 @@ template <Family F, System S>
 std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta,
                       bool converged) {
   if (!converged) return "the search did not converge";
+  // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
+  if (!(fit.held_out_loss < static_cast<double>(fit.coordinates_used))) {
+    return fmt::format("its held-out loss {:.2e} is no better than that of not moving at all",
+                       fit.held_out_loss);
+  }
   // Equal to rounding is no objection: a search may begin at the optimum, or with all parameters fixed.
-  if (!(fit.held_out_loss <= fit.held_out_start_loss * (1.0 + 1e-9)) && fit.held_out_loss > 1e-24) {
+  const double start_loss = fit.held_out_start_loss * (1.0 + 1e-9);
+  if (!(fit.held_out_loss <= start_loss || fit.held_out_loss <= 1e-24)) {
     return "on held-out data it is worse than the parameters that the search began with";
   }
   // A tenth would be too much: what is learned is a small correction, and the reference's error adds to it
@@ -65,18 +71,20 @@ std::string objection(const S& system, const fit_summary& fit, const parameters_
 /// `held_out`, which should come from another seed. Bounds that may be attained are left aside by the
 /// search; where it ends beyond one, that parameter is held there and the others are fitted again.
 ///
-/// Throws std::invalid_argument if the data are of another system or of two steps, or if the coordinates,
-/// the start or a fixed value cannot be. A fit that cannot be trusted is returned with usable = false.
-/// Cost: some 20 to 80 passes over the data, each a plain step with derivatives a pair.
+/// Throws std::invalid_argument if the data are of another system, of two steps or not finite, or if the
+/// coordinates, the start, a fixed value or max_iterations cannot be. A fit that cannot be trusted is
+/// returned with usable = false. Cost: some 20 to 80 passes over the data, each a plain step with derivatives
+/// a pair.
 template <Family F, SeparableSystem S>
 learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& data,
                  const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
   const auto began = std::chrono::steady_clock::now();
-  for (const auto* set : {&data, &held_out}) {
-    if (set->system != describe(system)) {
-      throw std::invalid_argument(
-          fmt::format("learn: the data are of {}, the system is {}", set->system, describe(system)));
-    }
+  require_suited<F, S>();
+  require_valid(data, system);
+  require_valid(held_out, system);
+  if (options.max_iterations < 0) {
+    throw std::invalid_argument(
+        fmt::format("learn: max_iterations must not be negative, got {}", options.max_iterations));
   }
   if (held_out.step != data.step) {
     throw std::invalid_argument(
@@ -129,6 +137,11 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   fit.derivatives = derivative_source<S>();
   fit.step = data.step;
   fit.seed = data.seed;
+  fit.held_out_seed = held_out.seed;
+  fit.held_out_is_new =
+      data.start.front().q != held_out.start.front().q || data.start.front().p != held_out.start.front().p;
+  fit.stability_checked = HasFrequencyBands<S>;
+  fit.coordinates_used = measure.residuals();
   for (std::size_t k = 0; k < theta.size(); ++k) {
     const auto index = static_cast<Eigen::Index>(k);
     const bool is_free = std::find(free.begin(), free.end(), index) != free.end();

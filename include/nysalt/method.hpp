@@ -11,6 +11,7 @@
 #include <string>
 
 #include "nysalt/family.hpp"
+#include "nysalt/requirements.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -93,13 +94,7 @@ class tuned_method {
 /// The stepper of a method on a system. Throws what the method's validity or the stepper refuses.
 template <System S, Method M>
 stepper<S, typename M::word> make_stepper(const S& system, const M& method, double step) {
-  static_assert(
-      SeparableSystem<S>,
-      "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
-      "template or over double; see nysalt/system.hpp");
-  static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
-                "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
-                "kinetic energy of its own");
+  require_suited<M, S>();
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
   }

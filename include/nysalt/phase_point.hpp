@@ -4,8 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
-
 #include "nysalt/scalar.hpp"
 
 namespace nysalt {
@@ -39,10 +37,7 @@ struct phase_point {
 
 template <int N>
 bool is_finite(const phase_point<double, N>& x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x.q[i]) || !std::isfinite(x.p[i])) return false;
-  }
-  return true;
+  return x.q.allFinite() && x.p.allFinite();
 }
 
 }  // namespace nysalt

@@ -19,6 +19,7 @@ concept Scalar = std::copyable<T> && std::constructible_from<T, double> &&
                    { -a } -> std::same_as<T>;
                    { c * a } -> std::same_as<T>;
                    { a * c } -> std::same_as<T>;
+                   { a - c } -> std::same_as<T>;
                    x += b;
                    x -= b;
                  };

@@ -44,15 +44,19 @@ class stepper {
       undo_ = first::prepare(-coefficients[0], step);
     }
   }
-  stepper(S&&, const std::array<C, W::length>&, double) = delete;
+  stepper(const S&&, const std::array<C, W::length>&, double) = delete;  // it would refer to a temporary
 
   double step_size() const { return step_; }
   const S& system() const { return *system_; }
 
-  /// Begins a run at x. Cost: W::evaluations_to_open.
+  /// Begins a run at x. Cost: W::evaluations_to_open. Throws std::invalid_argument if x has not the
+  /// system's dimension.
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x) const {
+    require_size(x);
     open_run<T, dimension> run{{x.q, x.p, make_vector<T>(*system_)}};
+    for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
+      run.state.f[i] = T(0.0);  // a checkpoint has no noise
     if constexpr (W::evaluations_to_open > 0) force<T>(*system_, run.state.q, run.state.f);
     if constexpr (W::merges) {
       W::template letter<0>::apply(*system_, std::get<0>(letters_), run.state);
@@ -60,9 +64,11 @@ class stepper {
     return run;
   }
 
-  /// THE loop. Cost: steps * W::evaluations_per_step; allocates nothing.
+  /// THE loop. Cost: steps * W::evaluations_per_step; allocates nothing that the force does not. Throws
+  /// std::invalid_argument if steps < 0. If the force throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
+    if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));
     // A local state and local coefficients cannot alias the system, so they stay in registers.
     flow_state<T, dimension> x = std::move(run.state);
     const auto letters = letters_;
@@ -95,12 +101,21 @@ class stepper {
   }
   template <Scalar T>
   void step(phase_point<T, dimension>& x) const {
+    require_size(x);
     flow_state<T, dimension> state{std::move(x.q), std::move(x.p), make_vector<T>(*system_)};
     step(state);
     x = {std::move(state.q), std::move(state.p)};
   }
 
  private:
+  template <Scalar T>
+  void require_size(const phase_point<T, dimension>& x) const {
+    if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
+    throw std::invalid_argument(
+        fmt::format("the state has {} positions and {} momenta, the system {} of each", x.q.size(),
+                    x.p.size(), size(*system_)));
+  }
+
   using all_letters = std::make_index_sequence<W::length>;
 
   template <std::size_t... I>

@@ -78,10 +78,6 @@ concept HasFrequencyBands = requires(const S& s) {
   { s.frequency_bands() } -> std::same_as<std::vector<frequency_band>>;
 };
 
-/// A force that is known for double only; its derivatives come from `force_derivative` or differences.
-template <class S>
-concept BlackBoxForce = HasForce<S, double> && !HasForce<S, dual<double, 1>>;
-
 namespace detail {
 template <class T>
 inline constexpr bool is_dual_of_double = false;
@@ -92,6 +88,12 @@ inline constexpr bool is_dual_of_double<dual<double, N>> = true;
 template <int N>
 inline constexpr int sweep = (N == Eigen::Dynamic || N > 16) ? 1 : N;
 }  // namespace detail
+
+/// A force that is known for double only, without a potential that could be differentiated instead; its
+/// derivatives come from `force_derivative` or differences.
+template <class S>
+concept BlackBoxForce = HasForce<S, double> && !HasForce<S, dual<double, 1>> &&
+                        !HasPotential<S, dual<dual<double, 1>, detail::sweep<S::dimension>>>;
 
 // clang-format off
 /// A system whose force can be evaluated over the scalar T.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <boost/test/unit_test.hpp>
 
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/convergence_order.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
@@ -14,6 +16,7 @@ using namespace nysalt::test;
 
 namespace {
 
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 const pendulum swing;
 const phase_point<double, 1> start{vector<double, 1>(1.0), vector<double, 1>(0.5)};
 
@@ -64,4 +67,29 @@ BOOST_AUTO_TEST_CASE(the_order_is_taken_above_the_noise) {
   const auto result = measure(srkn6b(), fine_steps<>(1e-2), 32, 10);
   BOOST_TEST(result.errors.back() < 1e-11);
   BOOST_TEST(std::abs(result.order - 4.0) < 0.15);
+}
+
+// Large steps run away; the order is that of those which do not.
+BOOST_AUTO_TEST_CASE(what_diverged_has_no_error_and_no_part_in_the_order) {
+  const phase_point<double, 2> x{{0.1, 0.2}, {0.25, -0.1}};
+  const auto result = convergence_order(henon_heiles(), verlet(), fine_steps<>(1e-2), x, 40.0, 10, 9);
+  BOOST_REQUIRE(result.errors.size() == 10);
+  BOOST_REQUIRE(result.steps.size() == 10);
+  BOOST_REQUIRE(integrate(henon_heiles(), verlet(), 4.0, x, 10).diverged_at.has_value());
+  BOOST_TEST(result.errors[0] == std::numeric_limits<double>::infinity());
+  BOOST_TEST(result.errors[9] < 1e-3);
+  // Of the eight steps that remain only the two largest are off their power, by less than a third.
+  BOOST_TEST(std::abs(result.order - 2.0) < 0.15);
+}
+
+BOOST_AUTO_TEST_CASE(steps_and_halvings_that_cannot_be_are_refused) {
+  using wrong = std::invalid_argument;
+  const fine_steps<> fine(1e-2);
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 0, 3); }, {"convergence_order", "0 steps"}));
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, -4, 3); }, {"convergence_order", "-4 steps"}));
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 16, -1); }, {"convergence_order", "-1 halvings"}));
+  for (const double horizon : {0.0, nowhere}) {
+    BOOST_TEST(refuses<wrong>([&] { convergence_order(swing, verlet(), fine, start, horizon, 4, 2); },
+                              {"convergence_order", "horizon"}));
+  }
 }

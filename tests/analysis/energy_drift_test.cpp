@@ -2,13 +2,28 @@
 // The energy error of a symplectic method is bounded and has no trend; that of any other grows.
 #include <boost/test/unit_test.hpp>
 
+#include <cstdlib>
 #include <limits>
+#include <new>
+#include <vector>
 
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/energy_drift.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// glibc lets a program wrap malloc only by name.
+extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -76,4 +91,41 @@ BOOST_AUTO_TEST_CASE(without_energy_errors_are_absolute) {
   const auto result = energy_drift(system, verlet(), 0.1, at(0.0, 0.0), 100);
   BOOST_TEST(result.largest == 0.0);
   BOOST_TEST(result.drift == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_drift_is_the_slope_of_least_squares) {
+  const henon_heiles galaxy;
+  const twisted_galaxy twisted;
+  const auto compare = [](const auto& system, std::int64_t steps, std::int64_t every) {
+    std::vector<double> times;
+    std::vector<double> errors;
+    const double initial = energy<double>(system, start);
+    const auto keep = [&](std::int64_t, double t, const auto& x) {
+      times.push_back(t);
+      errors.push_back((energy<double>(system, x) - initial) / std::abs(initial));
+    };
+    integrate(system, verlet(), 0.1, start, steps, keep, every);
+    const auto record = energy_drift(system, verlet(), 0.1, start, steps, every);
+    // Each of n sums rounds once: n eps of the largest error, over a time T.
+    const auto n = static_cast<double>(times.size());
+    BOOST_TEST(std::abs(record.drift - slope(times, errors)) <=
+               8.0 * n * eps * record.largest / times.back());
+    BOOST_TEST(record.drift != 0.0);
+  };
+  compare(galaxy, 20'000, 1);
+  compare(galaxy, 20'000, 7);
+  compare(twisted, 5'000, 1);
+  compare(twisted, 1, 1);
+  BOOST_TEST(energy_drift(galaxy, verlet(), 0.1, start, 5, 10).drift == 0.0);  // one sample has no trend
+}
+
+BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
+  const henon_heiles galaxy;
+  const std::size_t before = allocations;
+  const auto record = energy_drift(galaxy, verlet(), 0.1, start, 10'000);
+  BOOST_TEST(allocations - before == 0U);
+  BOOST_TEST(record.largest > 0.0);
+  std::vector<double> something(8);
+  BOOST_TEST(allocations - before > 0U);  // the count would see it
+  BOOST_TEST(something.size() == 8U);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <boost/test/unit_test.hpp>
 
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/path_error.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
@@ -45,11 +46,11 @@ BOOST_AUTO_TEST_CASE(a_method_has_no_error_against_itself) {
 BOOST_AUTO_TEST_CASE(paths_are_sampled_after_each_step) {
   const auto from = starts(2);
   const auto paths = reference_paths(chain, fine_steps<>(5e-4), .01, 7, from, stiff_energy);
-  BOOST_TEST(paths.size() == 2);
-  BOOST_TEST(paths[1].size() == 7);
+  BOOST_TEST(paths.values.size() == 2);
+  BOOST_TEST(paths.values[1].size() == 7);
   auto x = from[1];
   fine_steps<>(5e-4).advance(chain, x, .07);
-  BOOST_TEST(paths[1][6] == stiff_energy(x),
+  BOOST_TEST(paths.values[1][6] == stiff_energy(x),
              boost::test_tools::tolerance(1e-11));  // rounding of 140 fine steps
 }
 
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(diverged_trajectories_are_counted_and_left_out) {
   const std::vector<state> both{exciting[0], at_rest, exciting[1]};
   const auto paths = reference_paths(chain, reference, step, steps, both, observable);
   const auto of_both = path_error(chain, verlet(), step, both, paths, observable);
-  const auto alone = path_error(chain, verlet(), step, {at_rest}, {paths[1]}, observable);
+  const auto alone = path_error(chain, verlet(), step, {at_rest}, {step, {paths.values[1]}}, observable);
   BOOST_TEST(of_both.diverged == 2);
   BOOST_REQUIRE(of_both.diverged_at.size() == 2);
   for (const auto n : of_both.diverged_at) {
@@ -88,8 +89,21 @@ BOOST_AUTO_TEST_CASE(diverged_trajectories_are_counted_and_left_out) {
   BOOST_TEST(alone.diverged == 0);
   BOOST_TEST(of_both.error.mean == alone.error.mean);
   BOOST_TEST(std::isnan(of_both.error.standard_error));
-  const auto none_left = path_error(chain, verlet(), step, {exciting[0]}, {paths[0]}, observable);
+  const auto none_left =
+      path_error(chain, verlet(), step, {exciting[0]}, {step, {paths.values[0]}}, observable);
   BOOST_TEST(none_left.diverged == 1);
   BOOST_TEST(std::isnan(none_left.error.mean));
-  BOOST_TEST(std::isfinite(none_left.evaluations_per_time));
+  BOOST_TEST(none_left.evaluations_per_time * step * steps == 9.0);  // all the same: one a step, one to begin
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_at_another_step_is_refused) {
+  const auto from = starts(2);
+  const auto paths = reference_paths(chain, fine_steps<>(5e-4), .02, 5, from, stiff_energy);
+  const auto judge = [&](double step, const std::vector<state>& of) {
+    path_error(chain, verlet(), step, of, paths, stiff_energy);
+  };
+  BOOST_CHECK_NO_THROW(judge(.02, from));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(.01, from); }, {"path_error", "0.01", "0.02"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(.02, {from[0]}); }, {"path_error", "1 starts"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { relative_rms({1.0}, {0.0}); }, {"never 0"}));
 }

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 
@@ -62,14 +63,56 @@ struct double_only {
   }
 };
 
-/// A black box that can be differentiated, wrongly.
-struct wrong_derivative {
+/// A black box that can be differentiated, in one entry wrongly.
+struct with_derivative {
   static constexpr int dimension = 2;
+  double factor = 1.0;  // of the derivative
+  double added = 0.0;   // off the diagonal, on both sides
   void force(const vector<double, 2>& q, vector<double, 2>& f) const { f = -q; }
   void force_derivative(const vector<double, 2>&, const vector<double, 2>& v, vector<double, 2>& g) const {
-    g = vector<double, 2>(-v[0] - v[1], -v[1]);
+    g = vector<double, 2>(-v[0] + added * v[1], -v[1] + added * v[0]) * factor;
   }
 };
+
+/// K = sqrt(1 + p^2) with a velocity that may have a mistake, over any scalar.
+struct fast : henon_heiles {
+  double factor = 1.0;  // of the second coordinate
+  double twist = 0.0;
+  template <class T>
+  void velocity(const vector<T, 2>& p, vector<T, 2>& v) const {
+    using std::sqrt;
+    const T energy = sqrt(p[0] * p[0] + p[1] * p[1] + 1.0);
+    v[0] = p[0] / energy - p[1] * twist;
+    v[1] = p[1] / energy * factor + p[0] * twist;
+  }
+};
+struct fast_with_energy : fast {
+  template <class T>
+  T kinetic_energy(const vector<T, 2>& p) const {
+    using std::sqrt;
+    return sqrt(p[0] * p[0] + p[1] * p[1] + 1.0);
+  }
+};
+
+/// The same for double only.
+struct fast_box : henon_heiles {
+  double twist = 0.0;
+  void velocity(const vector<double, 2>& p, vector<double, 2>& v) const {
+    fast mine;
+    mine.twist = twist;
+    mine.velocity(p, v);
+  }
+};
+struct fast_box_with_energy : fast_box {
+  double kinetic_energy(const vector<double, 2>& p) const { return fast_with_energy().kinetic_energy(p); }
+};
+
+template <class System>
+System with(double System::*member, double value) {
+  System system;
+  system.*member = value;
+  return system;
+}
 
 }  // namespace
 
@@ -132,7 +175,7 @@ BOOST_AUTO_TEST_CASE(mistakes_in_black_boxes_are_found) {
 
 BOOST_AUTO_TEST_CASE(forces_that_are_no_gradient_are_found) {
   BOOST_TEST(check(twisted()).passed());
-  for (const auto& result : {check(twisted{1e-3}), check(twisted_box{1e-2}), check(wrong_derivative())}) {
+  for (const auto& result : {check(twisted{1e-3}), check(twisted_box{1e-2})}) {
     BOOST_TEST_CONTEXT(result.report()) {
       BOOST_TEST(!result.passed());
       BOOST_TEST(says(result, "not conservative"));
@@ -140,11 +183,59 @@ BOOST_AUTO_TEST_CASE(forces_that_are_no_gradient_are_found) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(wrong_derivatives_of_right_forces_are_found) {
+  BOOST_TEST(check(with_derivative()).passed());
+  BOOST_TEST(check(black_box_with_derivative()).passed());
+  // The last is symmetric, so that nothing else could tell.
+  for (const auto& result : {check(with_derivative{-1.0}), check(with_derivative{0.0}),
+                             check(with_derivative{1.001}), check(with_derivative{1.0, 1e-3})}) {
+    BOOST_TEST_CONTEXT(result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(says(result, "force_derivative is not f'(q) v"));
+    }
+  }
+  // The difference of a linear force errs by rounding alone: eps/cbrt(eps).
+  BOOST_TEST(std::abs(check(with_derivative{1.001}).derivative_defect - 0.001 / 1.001) <= 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(wrong_velocities_are_found) {
+  for (const auto& result : {check(fast()), check(fast_with_energy()), check(fast_box()),
+                             check(fast_box_with_energy()), check(relativistic_with_velocity())}) {
+    BOOST_TEST_CONTEXT(result.report()) BOOST_TEST(result.passed());
+  }
+  for (const auto& result : {check(with<fast_with_energy>(&fast_with_energy::factor, 1.0001)),
+                             check(with<fast_with_energy>(&fast_with_energy::factor, -1.0)),
+                             check(with<fast_with_energy>(&fast_with_energy::twist, 1e-3)),
+                             check(with<fast_box_with_energy>(&fast_box_with_energy::twist, 1e-2))}) {
+    BOOST_TEST_CONTEXT(result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(says(result, "the velocity is not grad K: coordinate"));
+    }
+  }
+  BOOST_TEST(check(with<fast_with_energy>(&fast_with_energy::factor, 1.01)).velocity_coordinate == 1);
+  for (const auto& result : {check(with<fast>(&fast::twist, 1e-3)), check(with<fast>(&fast::factor, 1.1)),
+                             check(with<fast_box>(&fast_box::twist, 1e-2))}) {
+    BOOST_TEST_CONTEXT(result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(says(result, "the velocity is not the gradient of any K"));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(there_must_be_points_and_they_must_fit) {
+  using wrong = std::invalid_argument;
+  BOOST_TEST(refuses<wrong>([] { check_force(twisted{1.0}, {}); }, {"check_force", "no points"}));
+  const std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Ones(3), Eigen::VectorXd::Ones(2)};
+  BOOST_TEST(refuses<wrong>([&] { check_force(dynamic_potential(), points); },
+                            {"point 2 has 2 coordinates, the system 3"}));
+}
+
 BOOST_AUTO_TEST_CASE(what_is_not_finite_does_not_pass) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   mistaken nowhere;
   nowhere.factor = nothing;
-  for (const auto& result : {check(nowhere), check(twisted{nothing}), check(double_only{nothing})}) {
+  for (const auto& result : {check(nowhere), check(twisted{nothing}), check(double_only{nothing}),
+                             check(with_derivative{nothing}), check(with<fast>(&fast::twist, nothing))}) {
     BOOST_TEST(!result.passed());
     BOOST_TEST(says(result, "not finite"));
   }

@@ -149,3 +149,17 @@ BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
       make_flow_map_data(swing, at_rest, fine_steps<>(0.01), {.step = 0.1, .trajectories = 1});
   BOOST_TEST(refuses<wrong>([&] { metric<1>(swing, of_nothing, coordinates::qp); }, {"nothing moves"}));
 }
+
+BOOST_AUTO_TEST_CASE(motion_below_rounding_is_none) {
+  // Three masses that swing in their first mode: the others move by rounding, and would weigh 1e15.
+  const auto three = linear_chain::between_walls(3, 1.0);
+  const normal_modes modes = three.modes();
+  const listed<any> starts({{modes.basis.col(0), Eigen::VectorXd::Zero(3)}});
+  const auto data = make_flow_map_data(three, starts, exact_linear(three),
+                                       {.step = 0.3, .horizon = 3.0, .trajectories = 1});
+  const metric<any> measure(three, data, coordinates::modes);
+  BOOST_TEST(measure.residuals() == 2);
+  BOOST_TEST(measure.dropped() == (std::vector<std::string>{"x2", "x3", "y2", "y3"}),
+             boost::test_tools::per_element());
+  BOOST_TEST(metric<any>(three, data, coordinates::qp).residuals() == 6);  // there all move
+}

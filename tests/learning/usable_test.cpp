@@ -106,6 +106,38 @@ BOOST_AUTO_TEST_CASE(what_does_not_hold_on_held_out_data_is_flagged) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_no_better_than_not_moving_is_flagged) {
+  // Half a period: the flow is q -> -q, p -> -p, and no member of the family comes near it.
+  const auto fit = fit_oscillator(1.55, {.fixed = {0.5, 0.0}});  // z = 3.1
+  BOOST_TEST_CONTEXT(fit.summary.full()) {
+    BOOST_TEST(fit.summary.held_out_loss >= 2.0);  // what not moving has in two coordinates
+    BOOST_TEST(!fit.summary.usable);
+    BOOST_TEST(says(fit.summary.reason, "not moving"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_held_out_loss_that_is_not_a_number_is_flagged) {
+  auto held_out = of_oscillator(0.5);
+  for (auto& x : held_out.start) x.q[0] = 1e200;  // finite, but its square is not
+  const auto data = of_oscillator(0.5);
+  const auto fit = learn(nystrom{}, oscillator, data, held_out);
+  BOOST_TEST_CONTEXT(fit.summary.full()) {
+    BOOST_TEST(!std::isfinite(fit.summary.held_out_loss));
+    BOOST_TEST(!fit.summary.usable);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_summary_tells_when_held_out_data_are_not_new_and_when_stability_is_not_known) {
+  const auto data = of_chain(fine_steps<>(1e-3), 0.01, 1);
+  const auto same = learn(nystrom{}, chain, data, data).summary;
+  const auto fresh = learn(nystrom{}, chain, data, of_chain(fine_steps<>(1e-3), 0.01, 2)).summary;
+  BOOST_TEST(says(same.full(), "these are the data learned from"));
+  BOOST_TEST(says(same.brief(), "the same data"));
+  BOOST_TEST(!says(fresh.full(), "these are the data learned from"));
+  BOOST_TEST(says(fresh.full(), "seed 1, held out 2"));
+  BOOST_TEST(says(fresh.full(), "on the frequency bands"));
+}
+
 BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
   for (const double step : {0.5, 1.4}) {
     const auto fit = fit_oscillator(step, {.coordinates = coordinates::energy}).summary;
@@ -154,6 +186,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   BOOST_TEST(refused(oscillator, data, data, {.start = {1.2, 0.4}}, {"b1", "(0, 1)", "1.2"}));
   BOOST_TEST(refused(oscillator, data, data, {.start = {0.5, 0.6}}, {"beta1", "[0, 0.5]", "0.6"}));
   BOOST_TEST(refused(oscillator, data, data, {.fixed = {std::nullopt, -0.1}}, {"beta1", "-0.1"}));
+  BOOST_TEST(refused(oscillator, data, data, {.max_iterations = -3}, {"max_iterations", "-3"}));
   const listed<any> at_rest({{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}});
   const auto nothing =
       make_flow_map_data(oscillator, at_rest, exact_linear(oscillator), {.step = 0.5, .trajectories = 1});

@@ -13,7 +13,7 @@ using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(reversible_where_declared_symmetric_and_else_not, M, methods) {
   draws random;
-  for_each<various_systems>([&]<class Model>() {
+  for_each<systems>([&]<class Model>() {
     if constexpr (fits<M, Model>) {
       const auto system = Model::make();
       for (int n = 0; n < 5; ++n) {

@@ -10,7 +10,7 @@ using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, M, methods) {
   draws random;
-  for_each<various_systems>([&]<class Model>() {
+  for_each<systems>([&]<class Model>() {
     if constexpr (fits<M, Model>) {
       const auto system = Model::make();
       for (int n = 0; n < 5; ++n) {

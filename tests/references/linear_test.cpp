@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/counted.hpp"
 #include "nysalt/reference.hpp"
@@ -26,6 +27,23 @@ point after(const auto& reference, const linear_chain& system, point x) {
 /// Rounding of the exact flow: two transforms of n terms each, on numbers magnified by t (free motion), by
 /// the frequencies and by the roots of the masses, all below 6; cos and sin err by eps w t.
 double exact_rounding(const point& x) { return 16.0 * 6.0 * 3.0 * eps * size_of(x); }
+
+/// An oscillator of frequency 1 with a mistake.
+struct flawed {
+  static constexpr int dimension = 1;
+  double cubic = 0.0;
+  double constant = 0.0;
+  double column = 1.0;     // of the modes, which should be a unit vector
+  double frequency = 1.0;  // that it says it has
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = -q[0] - q[0] * q[0] * q[0] * cubic + constant;
+  }
+  normal_modes modes() const {
+    return {Eigen::MatrixXd::Constant(1, 1, column), Eigen::VectorXd::Constant(1, frequency)};
+  }
+  std::string description() const { return "flawed()"; }
+};
 
 }  // namespace
 
@@ -74,6 +92,65 @@ BOOST_AUTO_TEST_CASE(the_centre_of_mass_moves_freely) {
   point x{Eigen::VectorXd::Zero(3), Eigen::Vector3d(1.0, 2.0, 5.0)};  // velocity 1 each
   exact_linear(system).advance(system, x, duration);
   for (int i = 0; i < 3; ++i) BOOST_TEST(std::abs(x.q[i] - duration) <= 5.0 * exact_rounding(x));
+}
+
+BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_linear_systems_only) {
+  using wrong = std::invalid_argument;
+  BOOST_TEST(refuses<wrong>([] { exact_linear{henon_heiles()}; }, {"henon_heiles()", "not linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear{fpu_chain<3>(50.0)}; }, {"fpu_chain(", "not linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear{fpu_chain<>(2, 1e3)}; }, {"fpu_chain(", "not linear"}));
+  exact_linear{flawed{}};
+  for (const flawed& system :
+       {flawed{.cubic = 1e-15}, flawed{.constant = 1e-15}, flawed{.frequency = 1.0 + 1e-13},
+        flawed{.cubic = std::numeric_limits<double>::quiet_NaN()}}) {
+    BOOST_TEST(refuses<wrong>([&] { exact_linear{system}; }, {"flawed()", "not linear", "coordinate 1"}));
+  }
+  // Right as a quadratic form, but not as a transformation.
+  BOOST_TEST(refuses<wrong>([] { exact_linear(flawed{.column = 2.0, .frequency = 0.5}); },
+                            {"flawed()", "orthonormal"}));
+}
+
+BOOST_AUTO_TEST_CASE(linear_systems_of_all_sizes_are_taken) {
+  for (const Eigen::Index n : {1, 2, 17, 100}) {
+    for (const double spring : {1e-6, 1.0, 1e8}) {
+      exact_linear{linear_chain::between_walls(n, spring, 0.3)};
+    }
+  }
+  draws random;
+  const Eigen::Index n = 20;
+  for (int k = 0; k < 5; ++k) {  // without any structure, and masses over six decades
+    const Eigen::MatrixXd root =
+        Eigen::MatrixXd::NullaryExpr(n, n, [&] { return random.uniform(-1.0, 1.0); });
+    const Eigen::VectorXd masses =
+        Eigen::VectorXd::NullaryExpr(n, [&] { return std::pow(10.0, random.uniform(-3.0, 3.0)); });
+    const Eigen::MatrixXd product = root * root.transpose();
+    exact_linear{linear_chain(0.5 * (product + product.transpose()), masses)};
+  }
+  for (const double omega : {1e-5, 0.1, 3.0, 1e5}) exact_linear{harmonic_oscillator(omega)};
+  exact_linear{linear_chain(Eigen::MatrixXd::Zero(3, 3))};  // free
+}
+
+BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_the_system_it_was_made_for) {
+  using wrong = std::invalid_argument;
+  const harmonic_oscillator one(1.0);
+  const harmonic_oscillator two(2.0);
+  const exact_linear exact(one);
+  phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
+  BOOST_TEST(refuses<wrong>([&] { exact.advance(two, x, 1.0); },
+                            {"harmonic_oscillator(omega=1)", "harmonic_oscillator(omega=2)"}));
+  BOOST_TEST(refuses<wrong>([&] { exact.finer().advance(two, x, 1.0); }, {"omega=2"}));
+  BOOST_TEST(refuses<wrong>([&] { reference_error(two, exact, x, 1.0); }, {"omega=2"}));
+  BOOST_TEST(x.q[0] == 1.0);
+  exact.advance(counted<harmonic_oscillator>(one), x, duration);
+  BOOST_TEST(std::abs(x.q[0] - std::cos(duration)) <= 4.0 * eps);
+
+  // Chains of one size and one largest frequency are told apart.
+  const linear_chain chain = free_chain();
+  const linear_chain turned(chain.modes().basis.col(2) * chain.modes().basis.col(2).transpose());
+  const linear_chain other(turned.modes().basis.col(0) * turned.modes().basis.col(0).transpose());
+  point y{Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()};
+  BOOST_TEST(refuses<wrong>([&] { exact_linear(turned).advance(other, y, 1.0); }, {"linear_chain"}));
+  exact_linear(chain).advance(counted<linear_chain>(chain), y, 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(the_exact_flow_reports_no_error_of_its_own) {

@@ -81,3 +81,31 @@ BOOST_AUTO_TEST_CASE(what_gnuplot_cannot_draw_leaves_no_half_picture) {
   BOOST_TEST(!draw({"bad", {bad}}, folder.path()));
   BOOST_TEST((folder.files() == std::set<std::string>{"bad.dat", "bad.gp"}));
 }
+
+BOOST_AUTO_TEST_CASE(no_old_picture_stays_beside_new_data) {
+  const scratch folder("plot");
+  for (const char* name : {"bad.svg", "bad.png", "good.svg"}) write_file(folder / name, "old");
+  panel bad;
+  bad.curves.push_back({"a", {0, 1}, {0, 1}});
+  bad.y_range = "nonsense";
+  BOOST_TEST(!draw({"bad", {bad}}, folder.path()));
+  BOOST_TEST((folder.files() == std::set<std::string>{"bad.dat", "bad.gp", "good.svg"}));
+}
+
+BOOST_AUTO_TEST_CASE(names_hold_nothing_that_a_shell_reads) {
+  const scratch folder("plot");
+  panel one;
+  one.curves.push_back({"a", {0, 1}, {0, 1}});
+  for (const char* name : {"", "a b", "../a", "a.b", "it's", "$(touch x)", "a;b", "a\nb", "\xc3\xa4"}) {
+    BOOST_TEST(refuses<std::invalid_argument>(
+        [&] {
+          draw({name, {one}}, folder.path());
+        },
+        {"name of a figure", "letters, digits", name}));
+  }
+  BOOST_TEST(folder.files().empty());
+  for (const char* name : {"A-z_09", "-V"}) {  // the last would be an option of gnuplot
+    BOOST_TEST(draw({name, {one}}, folder.path()) == has_gnuplot);
+    BOOST_TEST(folder.files().contains(std::string(name) + ".svg") == has_gnuplot);
+  }
+}

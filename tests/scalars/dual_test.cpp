@@ -94,6 +94,39 @@ BOOST_AUTO_TEST_CASE(arithmetic_follows_the_product_and_quotient_rules) {
   }
 }
 
+// Derivatives come for nothing: the values beside them are those of a run without.
+BOOST_AUTO_TEST_CASE(values_follow_the_arithmetic_of_double_to_the_bit) {
+  draws random;
+  for (int n = 0; n < 10'000; ++n) {
+    const double x = random.uniform(-10.0, 10.0);
+    const double c = random.uniform(-10.0, 10.0);
+    const auto same = [&](const char* name, const auto& f) {
+      const double expected = f(x, c);
+      const D a = D::variable(x, 0);
+      const D b = D::variable(c, 0);
+      const DD aa = DD::variable(a, 0);
+      const DD bb = DD::variable(b, 0);
+      const bool all = f(a, b).value == expected && f(a, c).value == expected && f(x, b).value == expected &&
+                       f(aa, bb).value.value == expected && f(aa, c).value.value == expected &&
+                       f(x, bb).value.value == expected;
+      BOOST_TEST(all, x << ' ' << name << ' ' << c << ", seed " << draws::seed);
+    };
+    same("+", [](const auto& a, const auto& b) { return a + b; });
+    same("-", [](const auto& a, const auto& b) { return a - b; });
+    same("*", [](const auto& a, const auto& b) { return a * b; });
+    same("/", [](const auto& a, const auto& b) { return a / b; });
+    const auto compound = [](auto a, const auto& b) {
+      a += b;
+      a /= b;
+      a *= b;
+      a -= b;
+      return -a;
+    };
+    BOOST_TEST(compound(D::variable(x, 0), c).value == compound(x, c));
+    BOOST_TEST((D::variable(x, 0) / c).derivative[0] == 1.0 / c);
+  }
+}
+
 // A central difference errs by s^2 |f'''|/6 + eps |f|/s; with s = 1e-5 and |f'''| < 50 that is below 1e-9.
 BOOST_AUTO_TEST_CASE(a_composite_agrees_with_finite_differences) {
   draws random;

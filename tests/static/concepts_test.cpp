@@ -72,7 +72,10 @@ static_assert(HasInverseMass<mass_by_reference>);  // not silently a unit mass
 struct not_prepared {
   static constexpr char letter = 'N';
 };
-static_assert(Flow<kick> && Flow<drift> && !Flow<not_prepared> && !Flow<int>);
+struct not_applied : kick {
+  static void apply(auto&&...) = delete;
+};
+static_assert(Flow<kick> && Flow<drift> && !Flow<not_prepared> && !Flow<not_applied> && !Flow<int>);
 static_assert(Word<verlet::word> && !Word<kick> && !Word<verlet>);
 
 // Families and methods.
@@ -85,10 +88,14 @@ struct with_too_few_coefficients : nystrom {
     return {};
   }
 };
+struct not_differentiable : nystrom {
+  static std::array<double, 5> coefficients(const std::array<double, 2>&) { return {}; }
+};
 struct without_order : palindromic<kick, drift, 3> {
   static std::string name() { return {}; }
   static std::array<double, 3> coefficients() { return {}; }
 };
+static_assert(!Family<not_differentiable>);
 static_assert(Family<nystrom> && !Family<without_start> && !Family<with_too_few_coefficients> &&
               !Family<verlet>);
 static_assert(Method<verlet> && Method<srkn11b> && Method<member<nystrom>> && Method<tuned_method<nystrom>>);

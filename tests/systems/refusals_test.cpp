@@ -60,6 +60,19 @@ BOOST_AUTO_TEST_CASE(a_chain_between_walls_has_the_known_frequencies) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(between_walls_there_are_masses_and_springs) {
+  for (const Eigen::Index masses : {0, -1, -1'000'000}) {
+    BOOST_TEST(refuses<wrong>([&] { linear_chain::between_walls(masses, 1.0); },
+                              {"at least one mass", std::to_string(masses)}));
+  }
+  for (const double bad : {0.0, -2.0, infinite, not_a_number}) {
+    BOOST_TEST(refuses<wrong>([&] { linear_chain::between_walls(3, bad); }, {"spring and mass", "positive"}));
+    BOOST_TEST(
+        refuses<wrong>([&] { linear_chain::between_walls(3, 1.0, bad); }, {"spring and mass", "positive"}));
+  }
+  BOOST_TEST(linear_chain::between_walls(1, 2.0).modes().frequencies[0] == 2.0);
+}
+
 // The paper's formula, term by term, in the coordinates of the modes.
 BOOST_AUTO_TEST_CASE(the_stiff_energy_is_that_of_the_stiff_modes) {
   const fpu_chain<3> chain(50.0);
@@ -81,5 +94,12 @@ BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
   BOOST_TEST(describe(harmonic_oscillator(2.0)) == "harmonic_oscillator(omega=2)");
   BOOST_TEST(describe(fpu_chain<3>(50.0)) == "fpu_chain(pairs=3, omega=50)");
   BOOST_TEST(describe(fpu_chain<>(3, 50.0)) == describe(fpu_chain<3>(50.0)));
+  // FNV-1a as published, over the bytes of K and the inverse masses, by another program.
+  BOOST_TEST(describe(linear_chain(Eigen::MatrixXd::Constant(1, 1, 4.0))) ==
+             "linear_chain(masses=1, omega_max=2, fingerprint=2668491c07f49808)");
+  Eigen::MatrixXd k(2, 2);
+  k << 2.0, -1.0, -1.0, 2.0;
+  BOOST_TEST(describe(linear_chain(k, Eigen::Vector2d(1.0, 4.0))).find("fingerprint=84492e0f2b897ac5)") !=
+             std::string::npos);
   BOOST_TEST(describe(dynamic_potential{4}).find("4 degrees of freedom") != std::string::npos);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,18 +19,25 @@ namespace nysalt {
 /// Global error at the horizon for steps that are halved, and the order that they show.
 struct order_measurement {
   std::vector<double> steps;
-  std::vector<double> errors;
+  std::vector<double> errors;  // infinite where the run diverged
   double order = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Integrates to the horizon with horizon/n, n = fewest_steps 2^k, and compares with the reference. The
 /// order is the log-log slope over the steps whose error is above the noise: the reference's own error
-/// and the rounding of n steps. NaN if fewer than two are. Use a nonlinear system: on linear ones methods
-/// converge too well.
+/// and the rounding of n steps. NaN if fewer than two are; runs that diverged do not count. Use a nonlinear
+/// system: on linear ones methods converge too well.
+/// Throws std::invalid_argument if fewest_steps < 1, halvings < 0 or the horizon is not finite or 0.
 template <SeparableSystem S, Method M, ReferenceFlow<S> R>
 order_measurement convergence_order(const S& system, const M& method, const R& reference,
                                     const phase_point<double, S::dimension>& start, double horizon,
                                     std::int64_t fewest_steps, int halvings) {
+  if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {
+    throw std::invalid_argument(
+        fmt::format("convergence_order: {} steps at least, {} halvings and a horizon of {}: needs a step, no "
+                    "negative number of halvings and a finite horizon",
+                    fewest_steps, halvings, horizon));
+  }
   auto exact = start;
   reference.advance(system, exact, horizon);
   const double size_of_state = std::max(exact.q.cwiseAbs().maxCoeff(), exact.p.cwiseAbs().maxCoeff());
@@ -38,10 +48,15 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
   std::vector<double> log_errors;
   for (std::int64_t n = fewest_steps, k = 0; k <= halvings; ++k, n *= 2) {
     const double step = horizon / static_cast<double>(n);
-    const auto end = integrate(system, method, step, start, n).finish;
+    const auto run = integrate(system, method, step, start, n);
+    result.steps.push_back(step);
+    if (run.diverged_at) {
+      result.errors.push_back(std::numeric_limits<double>::infinity());
+      continue;
+    }
+    const auto& end = run.finish;
     const double error =
         std::max((end.q - exact.q).cwiseAbs().maxCoeff(), (end.p - exact.p).cwiseAbs().maxCoeff());
-    result.steps.push_back(step);
     result.errors.push_back(error);
     const double rounding = std::numeric_limits<double>::epsilon() * size_of_state * static_cast<double>(n) *
                             static_cast<double>(M::word::length);

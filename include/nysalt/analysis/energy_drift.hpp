@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/integrate.hpp"
 
 namespace nysalt {
@@ -20,6 +18,7 @@ struct energy_record {
 };
 
 /// Runs `steps` steps and looks at the energy every `every` of them. |H_0| below 1e-300 counts as 1.
+/// Memory: none that grows with the steps.
 template <HasEnergy S, Method M>
 energy_record energy_drift(const S& system, const M& method, double step,
                            const phase_point<double, S::dimension>& start, std::int64_t steps,
@@ -27,16 +26,24 @@ energy_record energy_drift(const S& system, const M& method, double step,
   const double initial = energy<double>(system, start);
   const double unit = std::abs(initial) < 1e-300 ? 1.0 : std::abs(initial);
   energy_record result;
-  std::vector<double> times;
-  std::vector<double> errors;
+  // Least squares with running means: sums of products about the means, which lose no digits to cancellation.
+  double samples = 0.0;
+  double mean_t = 0.0;
+  double mean_error = 0.0;
+  double tt = 0.0;
+  double te = 0.0;
   const auto watch = [&](std::int64_t, double t, const auto& x) {
     const double error = (energy<double>(system, x) - initial) / unit;
     result.largest = std::max(result.largest, std::abs(error));
-    times.push_back(t);
-    errors.push_back(error);
+    samples += 1.0;
+    const double from_mean = t - mean_t;
+    mean_t += from_mean / samples;
+    mean_error += (error - mean_error) / samples;
+    tt += from_mean * (t - mean_t);
+    te += from_mean * (error - mean_error);
   };
   result.diverged_at = integrate(system, method, step, start, steps, watch, every).diverged_at;
-  if (times.size() > 1) result.drift = slope(times, errors);
+  if (samples > 1.0) result.drift = te / tt;
   return result;
 }
 

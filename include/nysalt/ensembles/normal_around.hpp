@@ -20,9 +20,10 @@ class normal_around {
   /// Throws std::invalid_argument if the centre is not finite or a deviation is negative or not finite.
   normal_around(phase_point<double, N> centre, double deviation_q, double deviation_p)
       : centre_(std::move(centre)), deviation_q_(deviation_q), deviation_p_(deviation_p) {
-    if (!is_finite(centre_) || !(deviation_q >= 0.0) || !(deviation_p >= 0.0) ||
-        !std::isfinite(deviation_q) || !std::isfinite(deviation_p)) {
-      throw std::invalid_argument("normal_around: needs a finite centre and finite deviations >= 0");
+    if (!is_finite(centre_) || centre_.q.size() != centre_.p.size() || !(deviation_q >= 0.0) ||
+        !(deviation_p >= 0.0) || !std::isfinite(deviation_q) || !std::isfinite(deviation_p)) {
+      throw std::invalid_argument(
+          "normal_around: needs a finite centre, as many q as p, and finite deviations >= 0");
     }
   }
 

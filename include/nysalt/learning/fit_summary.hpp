@@ -26,6 +26,9 @@ struct fit_summary {
   std::string derivatives;  // where the force's derivatives come from
   double step = 0.0;
   std::uint64_t seed = 0;
+  std::uint64_t held_out_seed = 0;
+  bool held_out_is_new = true;     // false: the held-out data are those that were learned from
+  bool stability_checked = false;  // on the system's frequency bands; it may declare none
 
   std::vector<fitted_parameter> parameters;
   double loss = 0.0;                 // mean over pairs of the sum over coordinates of r^2/Sigma
@@ -37,6 +40,7 @@ struct fit_summary {
 
   double condition = 1.0;                            // of the Hessian, flat directions apart
   std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
+  std::int64_t coordinates_used = 0;                 // that the loss sums over
   std::vector<std::string> dropped;                  // coordinates that never move
   int iterations = 0;
   double one_step_error = 0.0;   // root of the loss
@@ -55,8 +59,9 @@ struct fit_summary {
       text += fmt::format(" {} = {:.6f}", p.name, p.value);
       text += p.free ? fmt::format(" +- {:.1e}", p.standard_error) : " (fixed)";
     }
-    text += fmt::format(", loss {:.3e}, held out {:.3e}, {}", loss, held_out_loss,
-                        usable ? "usable" : "NOT usable: " + reason);
+    text +=
+        fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
+                    held_out_is_new ? "" : " (the same data)", usable ? "usable" : "NOT usable: " + reason);
     return text;
   }
 
@@ -71,8 +76,11 @@ struct fit_summary {
     };
     line("usable", usable ? "yes" : "no: " + reason);
     line("loss", fmt::format("{:.6e} on {} pairs of {} trajectories", loss, samples, trajectories));
-    line("held-out loss", fmt::format("{:.6e} on {} pairs; at the start {:.6e}", held_out_loss,
-                                      held_out_samples, held_out_start_loss));
+    line("held-out loss",
+         fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
+                     held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
+    line("stability", stability_checked ? "on the frequency bands of the system"
+                                        : "not checked: the system declares no frequency_bands()");
     line("one-step error",
          fmt::format("{:.3e}, the reference's own {:.3e}", one_step_error, reference_error));
     line("coordinates", coordinates);
@@ -85,7 +93,7 @@ struct fit_summary {
     }
     line("iterations", fmt::format("{}", iterations));
     line("reference", reference);
-    line("starts", fmt::format("{}, seed {}", ensemble, seed));
+    line("starts", fmt::format("{}, seed {}, held out {}", ensemble, seed, held_out_seed));
     line("force derivatives", derivatives);
     line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations,
                              data_seconds, fit_seconds));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -103,12 +104,14 @@ class metric {
     Eigen::MatrixXd squares =
         Eigen::MatrixXd::Zero(2 * size_, static_cast<Eigen::Index>(data.trajectories()));
     Eigen::RowVectorXd shares(squares.cols());
+    Eigen::VectorXd magnitudes = Eigen::VectorXd::Zero(2 * size_);
     const auto total = static_cast<double>(data.pairs());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       const auto column = static_cast<Eigen::Index>(m);
       for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
         residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
         squares.col(column) += increment.cwiseAbs2() / total;
+        magnitudes += sizes_of_terms(data.finish[n]).cwiseAbs2() / total;
       }
       shares[column] = static_cast<double>(data.first_of[m + 1] - data.first_of[m]) / total;
     }
@@ -116,7 +119,9 @@ class metric {
     const Eigen::VectorXd sigma = squares.rowwise().sum();
     active_.clear();
     for (Eigen::Index row = 0; row < 2 * size_; ++row) {
-      if (sigma[row] > 0.0) {
+      // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
+      constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+      if (sigma[row] > rounding * rounding * magnitudes[row]) {
         weight_[row] = 1.0 / std::sqrt(sigma[row]);
         active_.push_back(row);
       } else {
@@ -130,6 +135,15 @@ class metric {
     for (Eigen::Index k = 0; k < residuals(); ++k) {
       deviations_.row(k) = deviations_.row(k) / sigma[active_[static_cast<std::size_t>(k)]] - shares;
     }
+  }
+
+  /// Sum of the absolute terms of each coordinate: what its rounding is relative to.
+  Eigen::VectorXd sizes_of_terms(const phase_point<double, N>& x) const {
+    Eigen::VectorXd result(2 * size_);
+    const bool plain = to_x_.size() == 0;
+    result.head(size_) = plain ? Eigen::VectorXd(x.q.cwiseAbs()) : to_x_.cwiseAbs() * x.q.cwiseAbs();
+    result.tail(size_) = plain ? Eigen::VectorXd(x.p.cwiseAbs()) : to_y_.cwiseAbs() * x.p.cwiseAbs();
+    return result;
   }
 
   Eigen::Index size_;

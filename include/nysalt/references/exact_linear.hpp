@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string>
 
-#include "nysalt/system.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 
 /// The exact flow of a linear system, mode by mode: x(t) = cos(w t) x + sin(w t)/w y,
 /// y(t) = -w sin(w t) x + cos(w t) y with x = U^T M^{1/2} q, y = U^T M^{-1/2} p. Its error is rounding.
-/// The system must be linear (its potential the quadratic form that modes() describes).
+/// It is the flow of one linear system and refuses any other, as nothing else would tell the error.
 class exact_linear {
  public:
-  template <System S>
+  /// Throws std::invalid_argument if the modes are not orthonormal or the force is not the linear one that
+  /// they describe. Cost: 9 forces.
+  template <NystromSystem S>
     requires HasModes<S>
   explicit exact_linear(const S& system)
-      : modes_(system.modes()), root_mass_(Eigen::VectorXd::Ones(size(system))) {
+      : system_(describe(system)), modes_(system.modes()), root_mass_(Eigen::VectorXd::Ones(size(system))) {
     if constexpr (HasInverseMass<S>) {
       for (Eigen::Index i = 0; i < size(system); ++i) root_mass_[i] = 1.0 / std::sqrt(system.inverse_mass(i));
     }
+    require_modes();
+    require_linear(system);
   }
 
+  /// Throws std::invalid_argument if the system's description is not that of the constructor's.
   template <System S>
-  void advance(const S&, phase_point<double, S::dimension>& point, double t) const {
+  void advance(const S& system, phase_point<double, S::dimension>& point, double t) const {
+    if (const std::string other = describe(system); other != system_) {
+      throw std::invalid_argument(
+          fmt::format("exact_linear: made for {}, it cannot advance {}; make one for that", system_, other));
+    }
     Eigen::VectorXd x = modes_.basis.transpose() * root_mass_.cwiseProduct(point.q);
     Eigen::VectorXd y = modes_.basis.transpose() * point.p.cwiseQuotient(root_mass_);
     for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -42,6 +55,53 @@ class exact_linear {
   std::string description() const { return "the exact linear flow"; }
 
  private:
+  static constexpr double eps = std::numeric_limits<double>::epsilon();
+
+  void require_modes() const {
+    const Eigen::Index n = root_mass_.size();
+    const bool fit = modes_.basis.rows() == n && modes_.basis.cols() == n && modes_.frequencies.size() == n;
+    // n products of numbers below 1, and as much again for how the basis was found.
+    if (fit &&
+        (modes_.basis.transpose() * modes_.basis - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <=
+            32.0 * static_cast<double>(n) * eps) {
+      return;
+    }
+    throw std::invalid_argument(fmt::format(
+        "exact_linear: modes() of {} must give {} orthonormal columns with a frequency each", system_, n));
+  }
+
+  /// Compares the force with -M^{1/2} U w^2 U^T M^{1/2} q at points in general position, of sizes so
+  /// different that a term that is not linear cannot be small at all of them.
+  template <System S>
+  void require_linear(const S& system) const {
+    const Eigen::VectorXd squares = modes_.frequencies.cwiseAbs2();
+    auto q = make_vector<double>(system);
+    auto f = q;
+    for (const double length : {1e-2, 1.0, 1e2}) {
+      for (int point = 0; point < 3; ++point) {
+        for (Eigen::Index i = 0; i < q.size(); ++i) {
+          q[i] = length * std::sin(1.0 + 2.0 * point + 1.7 * static_cast<double>(i));
+        }
+        force<double>(system, q, f);
+        const Eigen::VectorXd weighted = root_mass_.cwiseProduct(q);
+        const Eigen::VectorXd x = modes_.basis.transpose() * weighted;
+        const Eigen::VectorXd expected = -root_mass_.cwiseProduct(modes_.basis * squares.cwiseProduct(x));
+        // Both sides sum n terms, together below w^2 |M^{1/2} q|_1, and the modes err by some n eps.
+        const double rounding =
+            32.0 * static_cast<double>(q.size()) * eps * squares.maxCoeff() * weighted.lpNorm<1>();
+        for (Eigen::Index i = 0; i < q.size(); ++i) {
+          if (std::abs(f[i] - expected[i]) <= rounding * root_mass_[i]) continue;  // also refuses NaN
+          throw std::invalid_argument(
+              fmt::format("exact_linear: the force of {} is not linear as modes() says, coordinate {} is off "
+                          "by {:.2e} of {:.2e} at a "
+                          "state of size {}; take fine_steps or odeint_reference",
+                          system_, i + 1, f[i] - expected[i], expected[i], length));
+        }
+      }
+    }
+  }
+
+  std::string system_;
   normal_modes modes_;
   Eigen::VectorXd root_mass_;
 };

@@ -31,7 +31,7 @@ class fine_steps {
   void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     const double ratio = t / step_;
     const double steps = std::round(ratio);
-    if (!(steps >= 1.0) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
+    if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
       throw std::invalid_argument(
           fmt::format("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
     }

@@ -33,7 +33,10 @@ class table {
   std::string csv() const {
     std::string result;
     const auto line = [&](const std::vector<std::string>& cells) {
-      for (std::size_t j = 0; j < cells.size(); ++j) result += (j > 0 ? "," : "") + quoted(cells[j]);
+      for (std::size_t j = 0; j < cells.size(); ++j) {
+        if (j > 0) result += ',';
+        result += quoted(cells[j]);
+      }
       result += '\n';
     };
     line(columns_);

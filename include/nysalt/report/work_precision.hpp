@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,20 +38,27 @@ inline table work_precision_table(const std::vector<work_precision_row>& rows) {
   return result;
 }
 
-/// A method's error at a cost, on straight log-log lines between its rows without diverged trajectories;
-/// nothing outside them.
+/// A method's error at a cost: that of the row nearest to it if that is within 5 % (evaluations to start up
+/// make as much in a short run), else on a straight log-log line between its neighbours; nothing outside.
+/// Rows with diverged trajectories do not count.
 inline std::optional<double> error_at_cost(const std::vector<work_precision_row>& rows,
                                            const std::string& method, double evaluations_per_time) {
   const work_precision_row* below = nullptr;
   const work_precision_row* above = nullptr;
-  constexpr double same = 1e-2;  // start-up evaluations are no difference in cost
   for (const auto& row : rows) {
     if (row.method != method || row.diverged > 0) continue;
     const double cost = row.evaluations_per_time;
-    if (std::abs(cost / evaluations_per_time - 1.0) <= same) return row.error.mean;
-    if (cost < evaluations_per_time && (below == nullptr || cost > below->evaluations_per_time)) below = &row;
-    if (cost > evaluations_per_time && (above == nullptr || cost < above->evaluations_per_time)) above = &row;
+    if (cost <= evaluations_per_time && (below == nullptr || cost > below->evaluations_per_time))
+      below = &row;
+    if (cost >= evaluations_per_time && (above == nullptr || cost < above->evaluations_per_time))
+      above = &row;
   }
+  const auto distance = [&](const work_precision_row* row) {
+    return row == nullptr ? std::numeric_limits<double>::infinity()
+                          : std::abs(row->evaluations_per_time / evaluations_per_time - 1.0);
+  };
+  const auto* nearest = distance(below) <= distance(above) ? below : above;
+  if (distance(nearest) <= 0.05) return nearest->error.mean;
   if (below == nullptr || above == nullptr) return std::nullopt;
   const double s = std::log(evaluations_per_time / below->evaluations_per_time) /
                    std::log(above->evaluations_per_time / below->evaluations_per_time);

@@ -65,7 +65,9 @@ struct dual {
     return combine(a.value * c, a, a, [&](const T& da, const T&) -> T { return da * c; });
   }
   friend dual operator*(double c, const dual& a) { return a * c; }
-  friend dual operator/(const dual& a, double c) { return a * (1.0 / c); }
+  friend dual operator/(const dual& a, double c) {  // not times 1/c, which rounds twice
+    return combine(a.value / c, a, a, [&](const T& da, const T&) -> T { return da / c; });
+  }
   friend dual operator/(double c, const dual& a) { return dual(c) / a; }
 
   // Order is that of the values: a branch is taken as it would be without derivatives.

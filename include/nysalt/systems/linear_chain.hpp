@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -43,10 +44,21 @@ class linear_chain {
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
     modes_ = decompose();
+    description_ = fmt::format("linear_chain(masses={}, omega_max={}, fingerprint={:016x})", n,
+                               modes_.frequencies.maxCoeff(), fingerprint());
   }
 
   /// Equal masses in a row, each joined to its neighbours and the walls by springs of one stiffness.
+  /// Throws std::invalid_argument unless there is a mass, and spring and mass are positive and finite.
   static linear_chain between_walls(Eigen::Index masses, double spring, double mass = 1.0) {
+    if (masses < 1) {
+      throw std::invalid_argument(
+          fmt::format("linear_chain: at least one mass must be between the walls, got {}", masses));
+    }
+    if (!(spring > 0.0) || !(mass > 0.0) || !std::isfinite(spring) || !std::isfinite(mass)) {
+      throw std::invalid_argument(fmt::format(
+          "linear_chain: spring and mass must be positive and finite, got {} and {}", spring, mass));
+    }
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses, masses);
     stiffness.diagonal().setConstant(2.0 * spring);
     stiffness.diagonal(1).setConstant(-spring);
@@ -77,16 +89,18 @@ class linear_chain {
   std::vector<frequency_band> frequency_bands() const {
     return {{modes_.frequencies.minCoeff(), modes_.frequencies.maxCoeff()}};
   }
-  std::string description() const {
-    return fmt::format("linear_chain(masses={}, omega_max={}, fingerprint={:016x})", size(),
-                       modes_.frequencies.maxCoeff(), fingerprint());
-  }
+  /// Made once: references and methods ask for it often, and it takes all entries of K.
+  std::string description() const { return description_; }
 
  private:
-  /// FNV-1a over the bits of K and the inverse masses: what tells one chain from another of its size.
+  /// FNV-1a over the bytes of K, by columns, and the inverse masses, each number's lowest byte first: what
+  /// tells one chain from another of its size.
   std::uint64_t fingerprint() const {
     std::uint64_t hash = 0xcbf29ce484222325U;  // FNV's offset basis and prime for 64 bits
-    const auto add = [&](double x) { hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U; };
+    const auto add = [&](double x) {
+      const auto bits = std::bit_cast<std::uint64_t>(x);
+      for (int shift = 0; shift < 64; shift += 8) hash = (hash ^ ((bits >> shift) & 0xffU)) * 0x100000001b3U;
+    };
     for (const double x : stiffness_.reshaped()) add(x);
     for (const double x : inverse_masses_) add(x);
     return hash;
@@ -112,6 +126,7 @@ class linear_chain {
   Eigen::MatrixXd stiffness_;
   Eigen::VectorXd inverse_masses_;
   normal_modes modes_;
+  std::string description_;
 };
 
 }  // namespace nysalt
