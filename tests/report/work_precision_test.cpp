@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(the_panel_has_a_curve_for_each_method) {
   BOOST_TEST(by_evaluations.curves[0].label == "a");
   BOOST_TEST(!by_evaluations.curves[0].emphasised);
   BOOST_TEST(by_evaluations.curves[1].emphasised);
-  BOOST_TEST(by_evaluations.curves[0].x == (std::vector<double>{400, 100, 1600}),
+  BOOST_TEST(by_evaluations.curves[0].x == (std::vector<double>{100, 400, 1600}),
              boost::test_tools::per_element());
   BOOST_TEST(by_evaluations.curves[1].y == (std::vector<double>{99}), boost::test_tools::per_element());
   BOOST_TEST(by_evaluations.curves[1].error == (std::vector<double>{9.9}), boost::test_tools::per_element());

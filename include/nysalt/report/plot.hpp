@@ -68,10 +68,10 @@ inline std::string plot_data(const figure& f) {
 }
 
 inline std::string plot_script(const figure& f) {
-  // Okabe and Ito's colours, with a point type each, so that the picture reads in grey too.
-  static constexpr const char* colours[] = {"#D55E00", "#0072B2", "#56B4E9", "#009E73",
-                                            "#CC79A7", "#E69F00", "#000000", "#999999"};
-  static constexpr int points[] = {7, 5, 4, 9, 8, 13, 2, 6};
+  // Okabe and Ito's colours and two more, with a point type each, so that the picture reads in grey too.
+  static constexpr const char* colours[] = {"#D55E00", "#0072B2", "#56B4E9", "#009E73", "#CC79A7",
+                                            "#E69F00", "#000000", "#999999", "#661100", "#F0E442"};
+  static constexpr int points[] = {7, 5, 4, 9, 8, 13, 2, 6, 12, 10};
   std::string text = fmt::format(
       "# gnuplot -e \"kind='svg'; target='{0}.svg'\" {0}.gp\n"
       "if (kind eq 'svg') {{ set terminal svg size {1},{2} background 'white' font 'sans,13' noenhanced }}\n"

@@ -65,20 +65,23 @@ inline std::optional<double> error_at_cost(const std::vector<work_precision_row>
   return std::exp((1.0 - s) * std::log(below->error.mean) + s * std::log(above->error.mean));
 }
 
-/// Error against a cost, a curve a method; rows without a finite error are left out.
-inline panel work_precision_panel(const std::vector<work_precision_row>& rows, const std::string& emphasised,
+/// Error against a cost, a curve a method, from cheap to dear; rows without a finite error leave a gap.
+inline panel work_precision_panel(std::vector<work_precision_row> rows, const std::string& emphasised,
                                   const std::string& x_label, double work_precision_row::*cost) {
   panel result;
   result.x_label = x_label;
   result.log_log = true;
+  const auto curve_of = [&](const std::string& method) {
+    return std::find_if(result.curves.begin(), result.curves.end(),
+                        [&](const curve& c) { return c.label == method; });
+  };
+  for (const auto& row : rows) {  // curves in the order of the table
+    if (curve_of(row.method) != result.curves.end()) continue;
+    result.curves.push_back({.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
+  }
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return a.*cost < b.*cost; });
   for (const auto& row : rows) {
-    auto at = std::find_if(result.curves.begin(), result.curves.end(),
-                           [&](const curve& c) { return c.label == row.method; });
-    if (at == result.curves.end()) {
-      result.curves.push_back(
-          {.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
-      at = result.curves.end() - 1;
-    }
+    const auto at = curve_of(row.method);
     at->x.push_back(row.*cost);
     at->y.push_back(row.error.mean);
     at->error.push_back(row.error.standard_error);
