@@ -54,9 +54,17 @@ BOOST_AUTO_TEST_CASE(a_reference_with_an_error_of_its_own_is_flagged) {
     BOOST_TEST(says(fit.summary.reason, "the reference's own error"));
     BOOST_TEST(right.summary.usable);
     BOOST_TEST(right.summary.reason.empty());
+    BOOST_TEST(!says(right.summary.full(), "not measured"));
     const double bias = fit.method.parameters()[1] - right.method.parameters()[1];
     BOOST_TEST(std::abs(bias - 1e-3) < 0.5e-3);  // known to one digit
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_was_not_checked_is_said_so) {
+  auto data = of_chain(fine_steps<>(1e-3), 0.01, 1);
+  data.finer.clear();
+  const auto fit = learn(nystrom{}, chain, data, of_chain(fine_steps<>(1e-3), 0.01, 2)).summary;
+  BOOST_TEST_CONTEXT(fit.full()) BOOST_TEST(says(fit.full(), "the reference's own not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_flagged) {

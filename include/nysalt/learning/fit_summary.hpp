@@ -43,8 +43,9 @@ struct fit_summary {
   std::int64_t coordinates_used = 0;                 // that the loss sums over
   std::vector<std::string> dropped;                  // coordinates that never move
   int iterations = 0;
-  double one_step_error = 0.0;   // root of the loss
-  double reference_error = 0.0;  // the reference's own, in the same measure
+  double one_step_error = 0.0;     // root of the loss
+  double reference_error = 0.0;    // the reference's own, in the same measure
+  bool reference_checked = false;  // false: the data hold no finishes by a finer reference
 
   double data_seconds = 0.0;
   double fit_seconds = 0.0;
@@ -82,7 +83,8 @@ struct fit_summary {
     line("stability", stability_checked ? "on the frequency bands of the system"
                                         : "not checked: the system declares no frequency_bands()");
     line("one-step error",
-         fmt::format("{:.3e}, the reference's own {:.3e}", one_step_error, reference_error));
+         fmt::format("{:.3e}, the reference's own {}", one_step_error,
+                     reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));
     line("coordinates", coordinates);
     for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
     line("condition", fmt::format("{:.3g}", condition));
