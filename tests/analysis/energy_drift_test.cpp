@@ -126,6 +126,6 @@ BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
   BOOST_TEST(allocations - before == 0U);
   BOOST_TEST(record.largest > 0.0);
   std::vector<double> something(8);
-  BOOST_TEST(allocations - before > 0U);  // the count would see it
-  BOOST_TEST(something.size() == 8U);
+  asm volatile("" : : "r"(something.data()) : "memory");  // clang leaves out what nobody can see
+  BOOST_TEST(allocations - before > 0U);                  // the count would see it
 }
