@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 // The loop allocates nothing, however many steps it takes.
 #include <boost/test/unit_test.hpp>
-#include <cstdlib>
-#include <new>
 
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Eigen's storage comes from malloc, which glibc lets a program wrap only by name: count both doors.
-extern "C" void* __libc_malloc(std::size_t);
-extern "C" void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
+#include "support/allocations.hpp"
 
 namespace {
 
 using namespace nysalt;
+using nysalt::test::allocations;
 
 template <Method M, int Pairs>
 std::size_t allocations_of(const fpu_chain<Pairs>& chain, const M& method, std::int64_t steps) {

@@ -7,23 +7,13 @@
 #include <new>
 #include <vector>
 
+#include "../support/allocations.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/energy_drift.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// glibc lets a program wrap malloc only by name.
-extern "C" void* __libc_malloc(std::size_t);
-extern "C" void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -23,6 +23,24 @@ void try_on(auto&& f) {
   });
 }
 
+/// Calls f(system, method, x) five times for each of all systems that the method fits.
+template <Method M>
+void try_on_all(auto&& f) {
+  draws random;
+  for_each<systems>([&]<class Model>() {
+    if constexpr (fits<M, Model>) {
+      const auto system = Model::make();
+      for (int n = 0; n < 5; ++n) {
+        const auto method = any_method<M>(random);
+        const auto x = random.state(system, Model::reach);
+        BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system) << ", draw " << n) {
+          f(system, method, x);
+        }
+      }
+    }
+  });
+}
+
 /// Masses and a dynamic dimension, and neither.
 using two_systems = std::tuple<a_free_chain, a_galaxy>;
 
