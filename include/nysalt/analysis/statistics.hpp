@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "nysalt/tree_sum.hpp"
+
 namespace nysalt {
 
 /// A mean over independent trajectories and its standard error. NaN where there are too few.
@@ -15,14 +17,19 @@ struct estimate {
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// One sample a trajectory, added up by tree_sum; NaN marks a trajectory that does not count.
 inline estimate mean_and_error(std::span<const double> samples) {
-  const auto n = static_cast<double>(samples.size());
-  if (samples.empty()) return {};
-  double mean = 0.0;
-  for (const double x : samples) mean += x / n;
-  if (samples.size() < 2) return {mean, std::numeric_limits<double>::quiet_NaN()};
-  double variance = 0.0;
-  for (const double x : samples) variance += (x - mean) * (x - mean) / (n - 1.0);
+  double n = 0.0;
+  for (const double x : samples) n += std::isnan(x) ? 0.0 : 1.0;
+  if (n == 0.0) return {};
+  const auto mean_of = [&](const auto& term, double divisor) {
+    std::vector<double> terms;
+    for (const double x : samples) terms.push_back(std::isnan(x) ? 0.0 : term(x));
+    return tree_sum(terms) / divisor;
+  };
+  const double mean = mean_of([](double x) { return x; }, n);
+  if (n < 2.0) return {mean, std::numeric_limits<double>::quiet_NaN()};
+  const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); }, n - 1.0);
   return {mean, std::sqrt(variance / n)};
 }
 
