@@ -20,7 +20,7 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 const std::vector<std::vector<std::string>> layers{
     {"scalar", "scalars/", "phase_point"},
     {"system", "requirements", "force", "energy", "systems/", "counted", "noises/"},
-    {"flow", "flows/", "word", "palindrome", "stepper"},
+    {"flow", "flows/", "word", "run_time_word", "prepared_word", "palindrome", "stepper"},
     {"family", "families/", "method", "methods/"},
     {"integrate", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "ensemble", "ensembles/", "ensemble_loop",

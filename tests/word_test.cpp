@@ -43,7 +43,7 @@ static_assert(!word<lonely_kick, drift, lonely_kick>::merges);
 static_assert(word<kick, drift, kick>::first_in_loop == 1);
 static_assert(word<kick, drift>::first_in_loop == 0);
 
-static_assert(Word<word<kick>> && !Word<kick> && !Word<int>);
+static_assert(TypeLevelWord<word<kick>> && !TypeLevelWord<kick> && !TypeLevelWord<int>);
 static_assert(std::is_same_v<alternating_word<kick, drift, 5>, word<kick, drift, kick, drift, kick>>);
 
 BOOST_AUTO_TEST_CASE(a_word_spells_itself) {

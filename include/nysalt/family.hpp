@@ -38,7 +38,7 @@ using theta_dual = dual<double, F::parameters>;
 ///   ranges(), start()                              where theta may lie, and where a search begins
 ///   coefficients(theta)                            over any scalar
 template <class F>
-concept Family = Word<typename F::word> &&
+concept Family = TypeLevelWord<typename F::word> &&
     requires(const parameters_of<F>& theta,
              const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
   { F::name } -> std::convertible_to<std::string_view>;

@@ -16,17 +16,29 @@
 
 namespace nysalt {
 
-///   word, coefficients(), name()
-///   order, symmetric                 as declared; measured in the tests
-///   requires_quadratic_kinetic       the order holds for K = p M^-1 p / 2 only
+///   word, coefficients(), name()      and letters() where the word is a run_time_word
+///   order, symmetric                  as declared; measured in the tests
+///   requires_quadratic_kinetic        the order holds for K = p M^-1 p / 2 only
 template <class M>
 concept Method = Word<typename M::word> && requires(const M& method) {
-  { method.coefficients() } -> std::same_as<std::array<double, M::word::length>>;
+  { method.coefficients() } -> std::same_as<typename M::word::template coefficients<double>>;
   { method.name() } -> std::convertible_to<std::string>;
-  { M::order } -> std::convertible_to<int>;
-  { M::symmetric } -> std::convertible_to<bool>;
-  { M::requires_quadratic_kinetic } -> std::convertible_to<bool>;
-};
+  { method.order } -> std::convertible_to<int>;
+  { method.symmetric } -> std::convertible_to<bool>;
+  { method.requires_quadratic_kinetic } -> std::convertible_to<bool>;
+} &&(TypeLevelWord<typename M::word> || requires(const M& method) {
+  { method.letters() } -> std::convertible_to<run_time_word>;
+});
+
+/// The word of a method, as an object.
+template <Method M>
+typename M::word word_of(const M& method) {
+  if constexpr (TypeLevelWord<typename M::word>) {
+    return {};
+  } else {
+    return method.letters();
+  }
+}
 
 /// A family at a theta, usable at any step.
 template <Family F>
@@ -98,7 +110,12 @@ stepper<S, typename M::word> make_stepper(const S& system, const M& method, doub
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
   }
-  return stepper<S, typename M::word>(system, method.coefficients(), step);
+  if (method.requires_quadratic_kinetic && !NystromSystem<S>) {  // known before only of a type-level method
+    throw std::invalid_argument(
+        fmt::format("the order of {} needs a quadratic kinetic energy, but {} has one of its own",
+                    method.name(), describe(system)));
+  }
+  return stepper<S, typename M::word>(system, word_of(method), method.coefficients(), step);
 }
 template <System S, Method M>
 void make_stepper(const S&& system, const M& method, double step) = delete;  // it would refer to a temporary

@@ -3,6 +3,8 @@
 // ignored in silence, and the system would be another one.
 #pragma once
 
+#include <type_traits>
+
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -72,9 +74,11 @@ constexpr void require_suited() {
   static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,
                 "nysalt: frequency_bands is not of the form "
                 "`std::vector<nysalt::frequency_band> frequency_bands() const`");
-  static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
-                "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
-                "kinetic energy of its own");
+  if constexpr (requires { std::bool_constant<M::requires_quadratic_kinetic>{}; }) {
+    static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
+                  "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
+                  "kinetic energy of its own");
+  }
 }
 
 }  // namespace nysalt

@@ -16,22 +16,36 @@ namespace nysalt {
 namespace detail {
 
 /// Marks where force(q) is at hand before each letter from `first` on, and says whether it is after the last.
-template <std::size_t Length>
-constexpr bool track_force(const std::array<bool, Length>& reads, const std::array<bool, Length>& moves,
-                           std::array<bool, Length>& known, std::size_t first, bool now) {
-  for (std::size_t i = first; i < Length; ++i) {
+/// Works on the facts of letters known at compile time and at run time alike.
+constexpr bool track_force(const auto& reads, const auto& moves, auto& known, std::size_t first, bool now) {
+  for (std::size_t i = first; i < reads.size(); ++i) {
     known[i] = now;
     now = (now || reads[i]) && !moves[i];
   }
   return now;
 }
 
-template <std::size_t Length>
-constexpr int count_evaluations(const std::array<bool, Length>& reads, const std::array<bool, Length>& known,
-                                std::size_t first) {
+/// The same in a loop over letters first..last that has been gone round before.
+constexpr void track_force_in_loop(const auto& reads, const auto& moves, auto& known, std::size_t first) {
+  const bool after_one_step = track_force(reads, moves, known, first, false);
+  track_force(reads, moves, known, first, after_one_step);
+}
+
+constexpr int count_evaluations(const auto& reads, const auto& known, std::size_t first) {
   int count = 0;
-  for (std::size_t i = first; i < Length; ++i) count += reads[i] && !known[i];
+  for (std::size_t i = first; i < reads.size(); ++i) count += reads[i] && !known[i];
   return count;
+}
+
+/// Whether the loop's first reader of the force finds it known, so that opening a run must provide it.
+constexpr int count_evaluations_to_open(const auto& reads, const auto& moves, const auto& known,
+                                        std::size_t first) {
+  if (first > 0 && reads[0]) return 1;  // the first letter itself is applied then
+  for (std::size_t i = first; i < reads.size(); ++i) {
+    if (reads[i]) return known[i] ? 1 : 0;
+    if (moves[i]) return 0;  // what was known is stale before it is read
+  }
+  return 0;
 }
 
 }  // namespace detail
@@ -47,6 +61,8 @@ struct word {
   static constexpr std::size_t length = sizeof...(L);
   template <std::size_t I>
   using letter = std::tuple_element_t<I, std::tuple<L...>>;
+  template <class C>
+  using coefficients = std::array<C, length>;
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =
@@ -54,39 +70,29 @@ struct word {
 
   static std::string letters() { return {L::letter...}; }
 
+  static constexpr std::array<bool, length> reads{L::reads_force...};
+  static constexpr std::array<bool, length> moves{L::moves_q...};
+
   /// force(q) is at hand before each letter of a plain step, which starts from q and p alone.
   static constexpr std::array<bool, length> known_in_step = [] {
     std::array<bool, length> known{};
-    detail::track_force<length>({L::reads_force...}, {L::moves_q...}, known, 0, false);
+    detail::track_force(reads, moves, known, 0, false);
     return known;
   }();
 
   /// The same before each letter of the loop, from first_in_loop on, in the steady state.
   static constexpr std::size_t first_in_loop = merges ? 1 : 0;
   static constexpr std::array<bool, length> known_in_loop = [] {
-    constexpr std::array<bool, length> reads{L::reads_force...};
-    constexpr std::array<bool, length> moves{L::moves_q...};
     std::array<bool, length> known{};
-    const bool after_one_step = detail::track_force(reads, moves, known, first_in_loop, false);
-    detail::track_force(reads, moves, known, first_in_loop, after_one_step);
+    detail::track_force_in_loop(reads, moves, known, first_in_loop);
     return known;
   }();
 
   /// Force evaluations of one step in the loop, of opening a run, and of a plain step.
-  static constexpr int evaluations_per_step =
-      detail::count_evaluations<length>({L::reads_force...}, known_in_loop, first_in_loop);
-  static constexpr int evaluations_to_open = [] {
-    constexpr std::array<bool, length> reads{L::reads_force...};
-    constexpr std::array<bool, length> moves{L::moves_q...};
-    if (merges && reads[0]) return 1;
-    for (std::size_t i = first_in_loop; i < length; ++i) {
-      if (reads[i]) return known_in_loop[i] ? 1 : 0;
-      if (moves[i]) return 0;  // what was known is stale before it is read
-    }
-    return 0;
-  }();
-  static constexpr int evaluations_of_plain_step =
-      detail::count_evaluations<length>({L::reads_force...}, known_in_step, 0);
+  static constexpr int evaluations_per_step = detail::count_evaluations(reads, known_in_loop, first_in_loop);
+  static constexpr int evaluations_to_open =
+      detail::count_evaluations_to_open(reads, moves, known_in_loop, first_in_loop);
+  static constexpr int evaluations_of_plain_step = detail::count_evaluations(reads, known_in_step, 0);
 };
 
 namespace detail {
@@ -96,7 +102,8 @@ template <class... L>
 inline constexpr bool is_word<word<L...>> = true;
 }  // namespace detail
 
+/// Letters known at compile time: what a family's coefficients are for. Beside it stands run_time_word.
 template <class W>
-concept Word = detail::is_word<W>;
+concept TypeLevelWord = detail::is_word<W>;
 
 }  // namespace nysalt

@@ -59,7 +59,7 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
         std::max((end.q - exact.q).cwiseAbs().maxCoeff(), (end.p - exact.p).cwiseAbs().maxCoeff());
     result.errors.push_back(error);
     const double rounding = std::numeric_limits<double>::epsilon() * size_of_state * static_cast<double>(n) *
-                            static_cast<double>(M::word::length);
+                            static_cast<double>(word_of(method).length);
     if (error > 20.0 * (of_reference + rounding)) {  // then they bend the slope by less than .1
       log_steps.push_back(std::log(step));
       log_errors.push_back(std::log(error));

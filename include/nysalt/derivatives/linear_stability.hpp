@@ -40,15 +40,22 @@ struct oscillator_matrix {
 };
 
 template <Word W, Scalar T>
-oscillator_matrix<T> matrix_on_oscillator(const std::array<double, W::length>& coefficients, const T& x) {
+oscillator_matrix<T> matrix_on_oscillator(const W& word, const typename W::template coefficients<double>& c,
+                                          const T& x) {
   const stiffness_probe<T> probe{x};
-  const stepper<stiffness_probe<T>, W> one(probe, coefficients, 1.0);
+  const stepper<stiffness_probe<T>, W> one(probe, word, c, 1.0);
   phase_point<T, 1> from_q{vector<T, 1>(T(1.0)), vector<T, 1>(T(0.0))};
   phase_point<T, 1> from_p{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
   one.step(from_q);
   one.step(from_p);
   return {from_q.q[0], from_p.q[0], from_q.p[0], from_p.p[0]};
 }
+
+/// Degree of trace/2 in x: the number of evaluations at most.
+template <class W>
+inline constexpr int stability_degree = 64;
+template <TypeLevelWord W>
+inline constexpr int stability_degree<W> = static_cast<int>(W::length);
 
 /// Real parts of the nearly real, positive roots of sum_k c[k] x^k, by the companion matrix.
 inline std::vector<double> positive_roots(std::vector<double> c) {
@@ -82,10 +89,16 @@ inline double bisect(const auto& f, double a, double b, double y) {
 
 /// All windows, from small z to large. Their ends are roots of trace/2 = +-1; windows that touch where the
 /// matrix is +-I are one. Cost: some thousand steps on an oscillator.
+/// Throws std::invalid_argument if a run-time word has more than 64 evaluations a step.
 template <Word W>
-std::vector<stability_window> stability_windows(const std::array<double, W::length>& coefficients) {
-  constexpr int degree = static_cast<int>(W::length);
-  const auto matrix = [&](const auto& x) { return detail::matrix_on_oscillator<W>(coefficients, x); };
+std::vector<stability_window> stability_windows(
+    const W& word, const typename W::template coefficients<double>& coefficients) {
+  constexpr int degree = detail::stability_degree<W>;
+  if (word.evaluations_of_plain_step > degree) {
+    throw std::invalid_argument(fmt::format("stability is known for words of at most {} evaluations, not {}",
+                                            degree, word.evaluations_of_plain_step));
+  }
+  const auto matrix = [&](const auto& x) { return detail::matrix_on_oscillator(word, coefficients, x); };
   const auto half_trace = [&](double x) { return matrix(x).half_trace(); };
 
   // trace/2 as a polynomial in x, and the same with nothing cancelling: the measure of its rounding.
@@ -93,8 +106,8 @@ std::vector<stability_window> stability_windows(const std::array<double, W::leng
   for (double& c : magnitudes) c = std::abs(c);
   const auto polynomial = matrix(series<degree>::variable()).half_trace().coefficient;
   const auto bound =
-      detail::matrix_on_oscillator<W>(magnitudes, -series<degree>::variable()).half_trace().coefficient;
-  const double rounding = 8.0 * static_cast<double>(W::length) * std::numeric_limits<double>::epsilon();
+      detail::matrix_on_oscillator(word, magnitudes, -series<degree>::variable()).half_trace().coefficient;
+  const double rounding = 8.0 * static_cast<double>(word.length) * std::numeric_limits<double>::epsilon();
   std::vector<double> slope;
   std::size_t terms = 0;
   for (std::size_t k = 1; k < polynomial.size(); ++k) {
@@ -150,7 +163,7 @@ std::vector<stability_window> stability_windows(const std::array<double, W::leng
 
 template <Method M>
 std::vector<stability_window> stability_windows(const M& method) {
-  return stability_windows<typename M::word>(method.coefficients());
+  return stability_windows(word_of(method), method.coefficients());
 }
 
 /// End of the window that begins at z = 0; 0 where there is none.

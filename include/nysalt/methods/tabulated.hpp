@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/method.hpp"
+
+namespace nysalt {
+
+/// What a method promises beside its coefficients.
+struct method_properties {
+  int order;
+  bool symmetric;
+  bool requires_quadratic_kinetic;
+};
+
+/// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
+/// other method can be made one, so that a program need not be compiled for each.
+/// A step costs what that of the type-level method does, and one decision a letter.
+class tabulated : public method_properties {
+ public:
+  using word = run_time_word;
+
+  /// Throws std::invalid_argument unless there is a finite coefficient for each letter.
+  tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
+            const method_properties& properties)
+      : method_properties(properties),
+        name_(std::move(name)),
+        letters_(std::move(letters)),
+        coefficients_(std::move(coefficients)) {
+    if (coefficients_.size() != letters_.length) {
+      throw std::invalid_argument(fmt::format("{}: {} coefficients for the {} letters {}", name_,
+                                              coefficients_.size(), letters_.length, letters_.letters()));
+    }
+    for (std::size_t i = 0; i < coefficients_.size(); ++i) {
+      if (std::isfinite(coefficients_[i])) continue;
+      throw std::invalid_argument(
+          fmt::format("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
+    }
+  }
+
+  /// A method whose word is a type. A tuned one guards its step and system: take its anywhere().
+  template <Method M>
+    requires TypeLevelWord<typename M::word>
+  explicit tabulated(const M& method)
+      : tabulated(method.name(), run_time_word(typename M::word{}), to_vector(method.coefficients()),
+                  {method.order, method.symmetric, method.requires_quadratic_kinetic}) {
+    static_assert(
+        !requires { method.require_validity(std::string(), 1.0); },
+        "nysalt: a tuned method is valid at one step and for one system, which a table cannot guard; "
+        "take its anywhere()");
+  }
+
+  const run_time_word& letters() const { return letters_; }
+  std::vector<double> coefficients() const { return coefficients_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  static std::vector<double> to_vector(const auto& c) { return {c.begin(), c.end()}; }
+
+  std::string name_;
+  run_time_word letters_;
+  std::vector<double> coefficients_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSL-1.0
+// A word as data knows of itself what the type-level word knows.
+#include "nysalt/run_time_word.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "laws/models.hpp"
+#include "nysalt/palindrome.hpp"
+#include "support/refusal.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <TypeLevelWord W>
+void compare() {
+  const run_time_word as_data{W{}};
+  BOOST_TEST_CONTEXT(W::letters()) {
+    BOOST_TEST(as_data.letters() == W::letters());
+    BOOST_TEST(as_data.length == W::length);
+    BOOST_TEST(as_data.merges == W::merges);
+    BOOST_TEST(as_data.first_in_loop() == W::first_in_loop);
+    BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
+    BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
+    BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
+    for (std::size_t i = 0; i < W::length; ++i) {
+      BOOST_TEST(as_data.known_in_step[i] == W::known_in_step[i]);
+      if (i >= W::first_in_loop) BOOST_TEST(as_data.known_in_loop[i] == W::known_in_loop[i]);
+    }
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(it_knows_what_the_type_knows, M, methods) { compare<typename M::word>(); }
+
+BOOST_AUTO_TEST_CASE(also_of_odd_words) {
+  compare<word<kick>>();
+  compare<word<drift>>();
+  compare<word<drift, kick>>();
+  compare<word<kick, drift>>();
+  compare<word<kick, kick, drift>>();
+  compare<word<drift, kick, kick, drift>>();
+  compare<word<kick, drift, kick, kick>>();
+}
+
+BOOST_AUTO_TEST_CASE(letters_that_are_not_known_are_refused) {
+  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(""); }, {"at least one letter"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B"}));
+  BOOST_TEST(!refuses<std::invalid_argument>([] { run_time_word("AB"); }, {}));
+}
