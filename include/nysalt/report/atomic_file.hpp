@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace nysalt {
+
+/// A file that is there whole or not at all: what is written goes into NAME.part, and commit() renames it.
+/// Without a commit nothing of it is left.
+class atomic_file {
+ public:
+  /// Throws std::runtime_error if it cannot be made.
+  explicit atomic_file(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
+    part_ += ".part";
+    stream_.open(part_, std::ios::binary | std::ios::trunc);
+    if (!stream_) fail();
+  }
+  ~atomic_file() {
+    if (committed_) return;
+    stream_.close();
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+  }
+  atomic_file(const atomic_file&) = delete;
+  atomic_file& operator=(const atomic_file&) = delete;
+
+  /// Throws std::runtime_error if it cannot be written.
+  void write(std::string_view text) {
+    if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
+  }
+
+  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was.
+  void commit() {
+    stream_.close();
+    std::error_code failure;
+    if (stream_) std::filesystem::rename(part_, path_, failure);
+    if (!stream_ || failure) fail();
+    committed_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw std::runtime_error(
+        fmt::format("cannot write {}: is the folder there, writable, and not full?", path_.string()));
+  }
+
+  std::filesystem::path path_;
+  std::filesystem::path part_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+}  // namespace nysalt

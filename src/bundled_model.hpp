@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSL-1.0
+// What any system with a law of starts can do for the commands.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "bundled_system.hpp"
+#include "catalogue.hpp"
+#include "json.hpp"
+#include "number.hpp"
+#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/learner.hpp"
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "observables.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+struct model_facts {
+  std::string name;  // as typed
+  json parameters;   // as scheme files hold them
+  double frequency;  // times a fine step it is 5e-3 at most: the error of srkn11b is rounding then
+  std::string default_observable;
+};
+
+/// Systems whose flow is known exactly: it is the reference unless a fine step is asked for.
+template <class S>
+inline constexpr bool has_exact_flow =
+    std::is_same_v<S, harmonic_oscillator> || std::is_same_v<S, linear_chain>;
+
+/// "b1=0.5" into the options. Throws refusal for what is not of that form, not a parameter, or named twice.
+template <Family F>
+void fix_parameter(const std::string& text, learn_options<F>& options) {
+  const auto equals = text.find('=');
+  const auto name = text.substr(0, equals);
+  const auto value = equals == std::string::npos ? std::nullopt : number_from(text.substr(equals + 1));
+  if (!value) refuse("--fix takes name=number, such as {}=0.5, not '{}'", F::parameter_names[0], text);
+  const auto at = std::find(F::parameter_names.begin(), F::parameter_names.end(), name);
+  if (at == F::parameter_names.end()) {
+    refuse("--fix: the family {} has no parameter '{}': it has {}", F::name, name,
+           listed(F::parameter_names));
+  }
+  auto& fixed = options.fixed[static_cast<std::size_t>(at - F::parameter_names.begin())];
+  if (fixed) refuse("--fix: the parameter {} is fixed twice", name);
+  fixed = value;
+}
+
+template <class S, Ensemble<S> E>
+class bundled_model final : public bundled_system {
+  using state = phase_point<double, S::dimension>;
+
+ public:
+  bundled_model(S system, E law, model_facts facts)
+      : system_(std::move(system)), law_(std::move(law)), facts_(std::move(facts)) {}
+
+  std::string name() const override { return facts_.name; }
+  std::string description() const override { return describe(system_); }
+  nlohmann::ordered_json parameters() const override { return facts_.parameters; }
+  std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
+  std::vector<std::string> observables() const override { return observable_names(system_); }
+  std::string default_observable() const override { return facts_.default_observable; }
+  std::string law() const override { return law_.description(); }
+
+  learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
+    std::optional<learned_scheme> result;
+    const auto with_reference = [&](const auto& reference) {
+      const auto pairs = [&](std::uint64_t seed) {
+        return make_flow_map_data(system_, law_, reference,
+                                  {.step = plan.step,
+                                   .horizon = plan.how.horizon,
+                                   .trajectories = plan.how.trajectories,
+                                   .seed = seed,
+                                   .threads = plan.threads,
+                                   .progress = progress});
+      };
+      const auto data = pairs(plan.seed);
+      const auto held_out = pairs(plan.held_out_seed);
+      with_family(plan.family, [&]<class F>(F family) {
+        auto [method, fit] = nysalt::learn(family, system_, data, held_out, options_for<F>(plan.how));
+        result.emplace(learned_scheme{std::move(fit), tabulated(method.anywhere()), data.energy_range});
+      });
+    };
+    reference_for(plan.step, plan.how.fine_step, with_reference);
+    return std::move(*result);
+  }
+
+  void require_measure(const std::string& metric, const std::string& name) const override {
+    measure_named(metric, name);
+  }
+
+  trajectory_errors_result errors(const std::vector<tabulated>& methods, const trajectories_plan& plan,
+                                  const std::string& metric, const std::string& name,
+                                  std::optional<double> fine_step, const counter& progress) const override {
+    const auto measure = measure_named(metric, name);
+    trajectory_errors_result result;
+    reference_for(plan.step, fine_step, [&](const auto& reference) {
+      result = trajectory_errors(system_, reference, law_, methods, measure,
+                                 {.step = plan.step,
+                                  .steps = plan.steps,
+                                  .trajectories = plan.count,
+                                  .seed = plan.seed,
+                                  .threads = plan.threads,
+                                  .progress = progress});
+    });
+    return result;
+  }
+
+  void run(const tabulated& method, const trajectories_plan& plan,
+           const std::vector<std::string>& observables, std::int64_t sample_every,
+           const std::function<void(std::int64_t, const record&)>& take,
+           const counter& progress) const override {
+    std::vector<std::function<double(const state&)>> watched;
+    for (const auto& name : observables) watched.push_back(observable(system_, name));
+    const auto stepper = make_stepper(system_, method, plan.step);
+    const std::int64_t block = 4 * static_cast<std::int64_t>(plan.threads);  // in memory at a time
+    for (std::int64_t first = 0; first < plan.count; first += block) {
+      std::vector<record> records(static_cast<std::size_t>(std::min(block, plan.count - first)));
+      for_each_trajectory(std::ssize(records), plan.threads, [&](std::int64_t i) {
+        record& its = records[static_cast<std::size_t>(i)];
+        const auto look = [&](std::int64_t, double, const state& x) {
+          for (const auto& value : watched) its.values.push_back(value(x));
+        };
+        const auto start = law_(plan.seed, static_cast<std::uint64_t>(first + i));
+        const auto end = integrate(stepper, start, plan.steps, look, sample_every);
+        its.steps = end.steps;
+        its.diverged_at = end.diverged_at;
+      });
+      for (std::int64_t i = 0; i < std::ssize(records); ++i) {
+        take(first + i, records[static_cast<std::size_t>(i)]);
+      }
+      if (progress) progress(std::min(first + block, plan.count));
+    }
+  }
+
+  std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
+    const counted<S> watched(system_);
+    const auto stepper = make_stepper(watched, method, plan.step);
+    auto run = stepper.open(law_(plan.seed, 0));
+    stepper.advance(run, plan.steps);
+    return watched.evaluations;
+  }
+
+  std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
+    std::vector<state> starts;
+    for (std::int64_t m = 0; m < plan.count; ++m) {
+      starts.push_back(law_(plan.seed, static_cast<std::uint64_t>(m)));
+    }
+    const auto stepper = make_stepper(system_, method, plan.step);
+    return [stepper, starts = std::move(starts), steps = plan.steps] {
+      for (const auto& start : starts) {
+        auto run = stepper.open(start);
+        stepper.advance(run, steps);
+        end_of_run = stepper.synchronous(run).q[0];
+      }
+    };
+  }
+
+ private:
+  inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
+
+  /// Calls f(reference) with the reference for a step: the exact flow of a linear system, else fine steps.
+  void reference_for(double step, std::optional<double> fine_step, const auto& f) const {
+    if constexpr (has_exact_flow<S>) {
+      if (!fine_step) return f(exact_linear(system_));
+    }
+    const double fine = fine_step.value_or(step / std::ceil(step * facts_.frequency / 5e-3));
+    const double ratio = step / fine;
+    if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
+      refuse(
+          "the step {} is not an integer multiple of the fine step {}: choose a --fine-step that divides it",
+          step, fine);
+    }
+    f(fine_steps<>(fine));
+  }
+
+  template <Family F>
+  learn_options<F> options_for(const learn_settings& how) const {
+    learn_options<F> options;
+    options.coordinates = coordinates_named(how.coordinates);
+    for (const auto& text : how.fix) fix_parameter<F>(text, options);
+    return options;
+  }
+
+  error_measure<S::dimension> measure_named(const std::string& metric, const std::string& name) const {
+    if (metric == "path") return path_measure(system_, observable(system_, name));
+    if (metric == "state") return state_measure(system_);
+    if (metric == "energy") return energy_measure(system_);
+    if (metric != "exchange") {
+      refuse("unknown metric '{}': it is one of path, state, exchange, energy", metric);
+    }
+    if constexpr (HasStiffEnergies<S>) {
+      return exchange_measure(system_);
+    } else {
+      refuse("the metric exchange is of stiff springs, which {} has not: take path, state or energy",
+             description());
+    }
+  }
+
+  S system_;
+  E law_;
+  model_facts facts_;
+};
+
+}  // namespace nysalt::program

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSL-1.0
+// A bundled system behind a name: what the commands do with it, whatever its type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "settings.hpp"
+
+namespace nysalt::program {
+
+using counter = std::function<void(std::int64_t)>;
+
+/// Trajectories from the system's law: `count` of them, `steps` steps each.
+struct trajectories_plan {
+  double step;
+  std::int64_t steps;
+  std::int64_t count;
+  std::uint64_t seed;
+  int threads;
+};
+
+struct learn_plan {
+  std::string family;
+  double step;
+  learn_settings how;
+  std::uint64_t seed;
+  std::uint64_t held_out_seed;
+  int threads;
+};
+
+struct learned_scheme {
+  fit_summary fit;
+  tabulated method;
+  std::optional<std::array<double, 2>> energy_range;  // of the training data
+};
+
+/// Samples of a trajectory: values of all observables at steps 0, every, 2 every, ...
+struct record {
+  std::vector<double> values;
+  std::int64_t steps;
+  std::optional<std::int64_t> diverged_at;
+};
+
+class bundled_system {
+ public:
+  virtual ~bundled_system() = default;
+
+  virtual std::string name() const = 0;
+  virtual std::string description() const = 0;
+  /// Name and parameters, as scheme files hold them.
+  virtual nlohmann::ordered_json parameters() const = 0;
+  virtual std::vector<frequency_band> frequency_bands() const = 0;
+  virtual std::vector<std::string> observables() const = 0;
+  virtual std::string default_observable() const = 0;
+  virtual std::string law() const = 0;
+
+  virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
+
+  /// Throws refusal if there is no such measure of this system, before any work is done.
+  virtual void require_measure(const std::string& metric, const std::string& observable) const = 0;
+
+  /// Errors of several methods at one step against one reference.
+  virtual trajectory_errors_result errors(const std::vector<tabulated>& methods,
+                                          const trajectories_plan& plan, const std::string& metric,
+                                          const std::string& observable, std::optional<double> fine_step,
+                                          const counter& progress) const = 0;
+
+  /// Hands the records over in the order of the trajectories; few are in memory at a time.
+  virtual void run(const tabulated& method, const trajectories_plan& plan,
+                   const std::vector<std::string>& observables, std::int64_t sample_every,
+                   const std::function<void(std::int64_t, const record&)>& take,
+                   const counter& progress) const = 0;
+
+  /// Force evaluations of one whole trajectory, start-up included, counted while it runs.
+  virtual std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const = 0;
+
+  /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.
+  virtual std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const = 0;
+};
+
+/// Highest angular frequency that the system declares.
+double highest_frequency(const bundled_system& system);
+
+/// The system that the settings name. Throws refusal for what it does not have.
+std::unique_ptr<bundled_system> make_system(const system_settings& settings);
+
+/// Names of all systems with their options, for `list` and messages.
+struct system_entry {
+  std::string name;
+  std::string options;
+  std::string hamiltonian;
+};
+const std::vector<system_entry>& system_entries();
+
+}  // namespace nysalt::program

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "bundled_systems.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+struct option {
+  const char* name;
+  bool given;
+};
+
+/// A system, the options that it takes, and how it is made of them.
+struct maker {
+  system_entry entry;
+  std::vector<std::string> takes;
+  std::function<std::unique_ptr<bundled_system>(const system_settings&)> make;
+};
+
+const std::vector<maker>& makers() {
+  static const std::vector<maker> all{
+      {{"fpu", "--pairs 3 --omega 50",
+        "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"},
+       {"--pairs", "--omega"},
+       [](const auto& s) { return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0)); }},
+      {{"oscillator", "--omega 50", "p^2/2 + omega^2 q^2/2"},
+       {"--omega"},
+       [](const auto& s) { return make_oscillator(s.omega.value_or(50.0)); }},
+      {{"linear_chain", "--masses 8 --spring 1", "equal masses between walls, joined by linear springs"},
+       {"--masses", "--spring"},
+       [](const auto& s) { return make_linear_chain(s.masses.value_or(8), s.spring.value_or(1.0)); }},
+      {{"pendulum", "", "p^2/2 - cos q"}, {}, [](const auto&) { return make_pendulum(); }},
+      {{"henon_heiles", "", "two degrees of freedom in a cubic potential, bounded below energy 1/6"},
+       {},
+       [](const auto&) { return make_henon_heiles(); }},
+  };
+  return all;
+}
+
+}  // namespace
+
+const std::vector<system_entry>& system_entries() {
+  static const std::vector<system_entry> all = [] {
+    std::vector<system_entry> entries;
+    for (const auto& known : makers()) entries.push_back(known.entry);
+    return entries;
+  }();
+  return all;
+}
+
+std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
+  const auto found = std::find_if(makers().begin(), makers().end(),
+                                  [&](const maker& known) { return known.entry.name == settings.name; });
+  if (found == makers().end()) {
+    std::vector<std::string> names;
+    for (const auto& known : makers()) names.push_back(known.entry.name);
+    refuse("unknown system '{}': it is one of {}", settings.name, listed(names));
+  }
+  for (const auto& [name, given] :
+       {option{"--pairs", settings.pairs.has_value()}, option{"--omega", settings.omega.has_value()},
+        option{"--masses", settings.masses.has_value()}, option{"--spring", settings.spring.has_value()}}) {
+    if (!given || std::find(found->takes.begin(), found->takes.end(), name) != found->takes.end()) continue;
+    refuse("the system {} has no {}: it takes {}", settings.name, name,
+           found->takes.empty() ? "no option" : listed(found->takes));
+  }
+  return found->make(settings);
+}
+
+double highest_frequency(const bundled_system& system) {
+  double highest = 0.0;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  return highest;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catalogue.hpp"
+
+#include "nysalt/methods/bcss.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+std::vector<std::string> family_names() {
+  std::vector<std::string> names;
+  std::apply([&](auto... family) { (names.emplace_back(family.name), ...); }, families{});
+  return names;
+}
+
+tabulated family_member(const std::string& family, const std::vector<double>& parameters) {
+  std::optional<tabulated> result;
+  const bool known = with_family(family, [&]<class F>(F) {
+    parameters_of<F> theta;
+    if (parameters.size() != theta.size()) {
+      refuse("the family {} has {} parameters ({}), got {}", family, theta.size(), listed(F::parameter_names),
+             parameters.size());
+    }
+    std::copy(parameters.begin(), parameters.end(), theta.begin());
+    result.emplace(member<F>(theta));
+  });
+  if (!known) refuse("unknown family '{}': it is one of {}", family, listed(family_names()));
+  return *result;
+}
+
+const std::vector<classical_method>& classical_methods() {
+  static const std::vector<classical_method> all{
+      {tabulated(verlet{}), "verlet_1967"},
+      {tabulated(verlet_aba{}), "verlet_1967"},
+      {tabulated(verlet_2x{}), "verlet_1967"},
+      {tabulated(mclachlan2{}), "mclachlan_1995"},
+      {tabulated(bcss2{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(bcss3{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(pefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
+      {tabulated(srkn6b{}), "blanes_moan_2002"},
+      {tabulated(srkn11b{}), "blanes_moan_2002"},
+  };
+  return all;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& known : classical_methods()) names.push_back(known.method.name());
+  names.emplace_back(adaptive_method);
+  return names;
+}
+
+coordinates coordinates_named(const std::string& name) {
+  for (const auto known : {coordinates::qp, coordinates::modes, coordinates::energy}) {
+    if (to_string(known) == name) return known;
+  }
+  refuse("unknown coordinates '{}': they are one of qp, modes, energy", name);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+// What every command asks of its numbers.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+inline void require_positive(const char* option, double value) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  refuse("{} must be a positive, finite number, got {}", option, value);
+}
+
+inline void require_at_least_one(const char* option, std::int64_t value) {
+  if (value < 1) refuse("{} must be at least 1, got {}", option, value);
+}
+
+/// floor(horizon/step + 1e-9). Throws refusal if that is no step, or more than can be counted.
+inline std::int64_t steps_within(const char* option, double horizon, double step) {
+  require_positive(option, horizon);
+  const double steps = std::floor(horizon / step + 1e-9);
+  if (steps < 1.0) refuse("{} {} is shorter than one step of {}: take a longer one", option, horizon, step);
+  if (!(steps < 0x1p53)) refuse("{} {} holds more steps of {} than can be counted", option, horizon, step);
+  return static_cast<std::int64_t>(steps);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "build_info.hpp"
+#include "commands.hpp"
+#include "number.hpp"
+#include "output.hpp"
+#include "refusal.hpp"
+#include "seeds.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr const char* three_commands =
+    "nysalt: learned symplectic integrators. Three commands to try:\n\n"
+    "  nysalt list\n"
+    "  nysalt learn --system fpu --step 0.03\n"
+    "  nysalt compare --system fpu --steps 0.02,0.03 --methods "
+    "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
+    "nysalt --help tells of all.\n";
+
+/// A file of options: those that stand in no [section] belong to the command that runs.
+class options_file : public CLI::ConfigTOML {
+ public:
+  explicit options_file(const CLI::App& app) : app_(app) {}
+
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    auto items = CLI::ConfigTOML::from_config(input);
+    const auto running = app_.get_subcommands();
+    for (auto& item : items) {
+      if (item.parents.empty() && !running.empty()) item.parents = {running.front()->get_name()};
+    }
+    return items;
+  }
+
+ private:
+  const CLI::App& app_;
+};
+
+/// "a,b" and "c" become a, b, c.
+std::vector<std::string> split(const std::vector<std::string>& texts, const char* option) {
+  std::vector<std::string> parts;
+  for (const auto& text : texts) {
+    std::size_t from = 0;
+    for (std::size_t comma = 0; comma != std::string::npos; from = comma + 1) {
+      comma = text.find(',', from);
+      parts.push_back(text.substr(from, comma - from));
+      if (parts.back().empty()) refuse("{}: there is an empty entry in '{}'", option, text);
+    }
+  }
+  return parts;
+}
+
+std::vector<double> numbers(const std::vector<std::string>& texts, const char* option) {
+  std::vector<double> values;
+  for (const auto& part : split(texts, option)) {
+    const auto value = number_from(part);
+    if (!value) refuse("{}: '{}' is not a finite number", option, part);
+    values.push_back(*value);
+  }
+  return values;
+}
+
+/// Options as they are typed; lists are taken apart when all is read.
+struct typed {
+  common_settings common;
+  learn_command learn;
+  run_command run;
+  compare_command compare;
+  stability_command stability;
+  system_settings stability_system;
+  std::vector<std::string> methods, steps, observables, parameters;
+};
+
+void add_common(CLI::App& command, common_settings& common) {
+  command.add_option("--seed", common.seed, "of all random numbers")->capture_default_str();
+  command.add_option("--threads", common.threads, "at most so many; results do not depend on it")
+      ->default_str("all cores");
+  command.add_flag("--json", common.json, "one JSON document on standard output");
+  command.fallthrough();  // for --config, which belongs to the program
+}
+
+void add_force(CLI::App& command, common_settings& common, const char* what) {
+  command.add_flag("--force", common.force, what);
+}
+
+void add_system(CLI::App& command, system_settings& system) {
+  command.add_option("--system", system.name, "nysalt list shows all")->capture_default_str();
+  command.add_option("--pairs", system.pairs, "fpu: pairs of masses [3]");
+  command.add_option("--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
+  command.add_option("--masses", system.masses, "linear_chain [8]");
+  command.add_option("--spring", system.spring, "linear_chain [1]");
+}
+
+void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
+  command.add_option("--fine-step", how.fine_step,
+                     "of the reference; must divide the step [omega h <= 5e-3]");
+  command.add_option(prefix + "trajectories", how.trajectories, "to learn from")->capture_default_str();
+  command.add_option(prefix + "horizon", how.horizon, "length of each")->capture_default_str();
+  command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
+      ->capture_default_str();
+  command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
+}
+
+void add_list(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("list", "systems, methods, families and metrics");
+  add_common(command, to.common);
+  command.footer("Examples:\n  nysalt list\n  nysalt list --json");
+}
+
+void add_learn(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("learn", "fit a family to a system at a step");
+  add_system(command, to.learn.system);
+  command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
+  command.add_option("--step", to.learn.step, "to learn for")->required();
+  add_learning(command, to.learn.learning, "--");
+  command.add_option("--output", to.learn.output, "write a scheme file");
+  add_common(command, to.common);
+  add_force(command, to.common, "write the scheme even if the fit is not usable");
+  command.footer(
+      "Examples:\n"
+      "  nysalt learn --system fpu --step 0.03 --output scheme.json\n"
+      "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json");
+}
+
+void add_run(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
+  add_system(command, to.run.system);
+  command.add_option("--method", to.run.method, "a name of nysalt list, or the file of a scheme or table")
+      ->required();
+  command.add_option("--step", to.run.step, "of the method")->required();
+  command.add_option("--horizon", to.run.horizon, "length of each trajectory")->required();
+  command.add_option("--trajectories", to.run.trajectories, "how many")->capture_default_str();
+  command.add_option("--observables", to.observables, "what to sample [that of the system]");
+  command.add_option("--sample-every", to.run.sample_every, "so many steps")->capture_default_str();
+  command.add_option("--output", to.run.output, "CSV file [standard output]");
+  command.add_flag("--plot", to.run.plot, "draw the first trajectory beside the output");
+  add_common(command, to.common);
+  add_force(command, to.common, "run a scheme at another step or system than it was learned for");
+  command.footer(
+      "Examples:\n"
+      "  nysalt run --system fpu --method verlet --step 0.01 --horizon 1 --sample-every 10\n"
+      "  nysalt run --system pendulum --method srkn6b --step 0.5 --horizon 100 --trajectories 8 "
+      "--observables energy,q1 --output out.csv");
+}
+
+void add_compare(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
+  add_system(command, to.compare.system);
+  command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas")->required();
+  command.add_option("--steps", to.steps, "joined by commas")->required();
+  command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
+  command.add_option("--horizon", to.compare.horizon, "length of each trajectory")->capture_default_str();
+  command.add_option("--trajectories", to.compare.trajectories, "to compare on")->capture_default_str();
+  command.add_option("--metric", to.compare.metric, "path, state, exchange or energy")->capture_default_str();
+  command.add_option("--observable", to.compare.observable, "of the metric path [that of the system]");
+  add_learning(command, to.compare.learning, "--learn-");
+  command.add_option("--output", to.compare.output, "folder for tables and pictures");
+  add_common(command, to.common);
+  add_force(command, to.common, "use a scheme at another step or system than it was learned for");
+  command.footer(
+      "Examples:\n"
+      "  nysalt compare --system fpu --methods verlet,bcss2,learned:nystrom --steps 0.02,0.03 "
+      "--trajectories 100\n"
+      "  nysalt compare --system fpu --methods verlet,mclachlan2,srkn6b --steps 0.005,0.01 --equal-cost "
+      "--metric state --json");
+}
+
+void add_stability(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("stability", "for which z = h omega a method is stable");
+  command.add_option("--method", to.stability.method, "a name, or the file of a scheme or table");
+  command.add_option("--family", to.stability.family, "with --parameters");
+  command.add_option("--parameters", to.parameters, "of the family, joined by commas");
+  add_system(command, to.stability_system);
+  command.add_option("--step", to.stability.step, "with --system: is the system stable there?");
+  add_common(command, to.common);
+  command.footer(
+      "Examples:\n"
+      "  nysalt stability --family nystrom --parameters 0.5,0.4\n"
+      "  nysalt stability --method bcss3 --system fpu --step 0.04");
+}
+
+bool given(const CLI::App& command, const std::string& option) { return command.count(option) > 0; }
+
+int run_parsed(const CLI::App& command, typed& to) {
+  const std::string name = command.get_name();
+  if (to.common.threads < 1) refuse("--threads must be at least 1, got {}", to.common.threads);
+  if (to.common.seed >= seed_limit) {
+    refuse("--seed must be below 2^62 = {}, got {}", seed_limit, to.common.seed);
+  }
+  if (name == "list") return list(to.common);
+  if (name == "learn") return learn(to.learn, to.common);
+  if (name == "run") {
+    to.run.observables = split(to.observables, "--observables");
+    return run(to.run, to.common);
+  }
+  if (name == "compare") {
+    to.compare.methods = split(to.methods, "--methods");
+    to.compare.steps = numbers(to.steps, "--steps");
+    const bool of_path = to.compare.metric == "path";
+    if (!of_path && given(command, "--observable")) {
+      refuse("--observable belongs to the metric path, not to {}", to.compare.metric);
+    }
+    return compare(to.compare, to.common);
+  }
+  to.stability.parameters = numbers(to.parameters, "--parameters");
+  if (given(command, "--system")) to.stability.system = to.stability_system;
+  return stability(to.stability, to.common);
+}
+
+/// As a shell would take it again.
+std::string as_typed(int argc, char** argv) {
+  std::string text;
+  for (int i = 0; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain =
+        !argument.empty() && argument.find_first_of(" '\"\\$&|;<>()*?#~\n\t") == std::string::npos;
+    if (i > 0) text += ' ';
+    if (plain) {
+      text += argument;
+    } else {
+      text += '\'';
+      for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+      text += '\'';
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  typed to;
+  to.common.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  to.common.command = as_typed(argc, argv);
+  CLI::App app("Learned symplectic integrators: learn one for a system and a step, run it, compare it.",
+               "nysalt");
+  app.set_version_flag("--version", version);
+  app.require_subcommand(0, 1);
+  app.get_formatter()->column_width(34);
+  app.set_config("--config", "", "TOML file of options, as typed without the dashes");
+  app.config_formatter(std::make_shared<options_file>(app));
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_list(app, to);
+  add_learn(app, to);
+  add_run(app, to);
+  add_compare(app, to);
+  add_stability(app, to);
+  app.footer(
+      "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
+      "the fit is not usable.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto asked = app.get_subcommands();
+    print(asked.empty() ? app.help() : asked.front()->help());
+    return done;
+  } catch (const CLI::CallForVersion&) {
+    print(fmt::format("nysalt {}\n", version));
+    return done;
+  } catch (const CLI::ParseError& problem) {
+    const auto asked = app.get_subcommands();
+    const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();
+    refuse("{}; {} --help tells what it takes", problem.what(), where);
+  }
+  const auto asked = app.get_subcommands();
+  if (asked.empty()) {
+    print(three_commands);
+    return done;
+  }
+  return run_parsed(*asked.front(), to);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSL-1.0
+// The five subcommands. Each prints its results and returns the program's exit code.
+#pragma once
+
+#include "settings.hpp"
+
+namespace nysalt::program {
+
+inline constexpr int done = 0;
+inline constexpr int bad_input = 2;
+inline constexpr int no_result = 3;  // every trajectory diverged, or the fit is not usable
+
+int list(const common_settings& common);
+int learn(const learn_command& command, const common_settings& common);
+int run(const run_command& command, const common_settings& common);
+int compare(const compare_command& command, const common_settings& common);
+int stability(const stability_command& command, const common_settings& common);
+
+}  // namespace nysalt::program

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "../checks.hpp"
+#include "../commands.hpp"
+#include "../method_source.hpp"
+#include "../output.hpp"
+#include "../progress.hpp"
+#include "../seeds.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/report/atomic_file.hpp"
+#include "nysalt/report/plot.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+void warn_of_instability(const tabulated& method, const bundled_system& system, double step,
+                         std::vector<std::string>& warnings) {
+  const auto windows = stability_windows(method);
+  for (const auto& [low, high] : system.frequency_bands()) {
+    if (is_stable(windows, step * low, step * high)) continue;
+    warnings.push_back(
+        fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
+                    method.name(), step, low, high, system.description()));
+  }
+}
+
+/// Where the samples go: lines of CSV into a file or onto standard output, or rows of the JSON document.
+class samples {
+ public:
+  samples(const run_command& command, bool as_json) : command_(command), as_json_(as_json) {
+    if (!command.output.empty()) file_.emplace(command.output);
+    for (const auto& name : command.observables) columns_.push_back(name);
+    if (is_csv()) {
+      for (const auto& name : columns_) text_ += (text_.empty() ? "" : ",") + name.get<std::string>();
+      text_ += '\n';
+    }
+  }
+
+  void take(std::int64_t trajectory, const record& its) {
+    const std::size_t width = command_.observables.size();
+    for (std::size_t i = 0; i < its.values.size(); i += width) {
+      const std::int64_t n = static_cast<std::int64_t>(i / width) * command_.sample_every;
+      add(trajectory, n, std::span(its.values).subspan(i, width));
+    }
+    if (its.diverged_at) {
+      const double t = static_cast<double>(*its.diverged_at) * command_.step;
+      diverged_.push_back({{"trajectory", trajectory}, {"step", *its.diverged_at}, {"t", t}});
+    }
+    flush();
+  }
+
+  /// What is written becomes the file.
+  void commit() {
+    flush();
+    if (file_) file_->commit();
+  }
+
+  const json& columns() const { return columns_; }
+  const json& rows() const { return rows_; }
+  const json& diverged() const { return diverged_; }
+
+ private:
+  bool is_csv() const { return file_ || !as_json_; }
+
+  void add(std::int64_t trajectory, std::int64_t n, std::span<const double> values) {
+    const double t = static_cast<double>(n) * command_.step;
+    if (is_csv()) {
+      text_ += fmt::format("{},{},{},{}\n", trajectory, n, t, fmt::join(values, ","));
+      if (text_.size() > 1U << 20U) flush();
+    } else {
+      json& row = rows_.emplace_back(json{trajectory, n, t});
+      for (const double x : values) row.push_back(x);
+    }
+  }
+
+  void flush() {
+    if (file_) {
+      file_->write(text_);
+    } else if (!text_.empty()) {
+      print(text_);
+    }
+    text_.clear();
+  }
+
+  const run_command& command_;
+  bool as_json_;
+  std::optional<atomic_file> file_;
+  std::string text_;
+  json columns_{"trajectory", "step", "t"};
+  json rows_ = json::array();
+  json diverged_ = json::array();
+};
+
+/// An observable along the first trajectory, in some 2000 points.
+panel picture_of(const record& first, std::size_t column, const run_command& command) {
+  const std::size_t columns = command.observables.size();
+  const std::size_t samples = first.values.size() / columns;
+  const std::size_t every = samples / 2000 + 1;
+  curve its{.label = command.observables[column], .x = {}, .y = {}, .emphasised = true};
+  for (std::size_t i = 0; i < samples; i += every) {
+    its.x.push_back(static_cast<double>(i * static_cast<std::size_t>(command.sample_every)) * command.step);
+    its.y.push_back(first.values[i * columns + column]);
+  }
+  return {.title = fmt::format("{}, step {:g}", command.method, command.step),
+          .x_label = "t",
+          .y_label = command.observables[column],
+          .curves = {its}};
+}
+
+/// NAME.svg and NAME.png beside the output NAME.csv.
+void draw_run(const record& first, const run_command& command) {
+  const std::filesystem::path output(command.output);
+  figure picture{.name = output.stem().string(), .panels = {}};
+  for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  for (std::size_t k = 0; k < command.observables.size(); ++k) {
+    picture.panels.push_back(picture_of(first, k, command));
+  }
+  picture.width = 300 + 500 * static_cast<int>(picture.panels.size());
+  if (!draw(picture, folder_of(output))) warn("gnuplot could not draw the picture: is it installed?");
+}
+
+json document(const run_command& command, const bundled_system& system, const samples& taken) {
+  json result{{"system", system.description()},
+              {"method", command.method},
+              {"step", command.step},
+              {"trajectories", command.trajectories},
+              {"sample_every", command.sample_every},
+              {"starts", system.law()},
+              {"diverged", taken.diverged()},
+              {"columns", taken.columns()}};
+  if (command.output.empty()) {
+    result["rows"] = taken.rows();
+  } else {
+    result["output"] = command.output;
+  }
+  return result;
+}
+
+}  // namespace
+
+int run(const run_command& asked, const common_settings& common) {
+  run_command command = asked;
+  require_positive("--step", command.step);
+  require_at_least_one("--trajectories", command.trajectories);
+  require_at_least_one("--sample-every", command.sample_every);
+  const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
+  if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
+  if (!command.output.empty()) require_writable(command.output);
+  const auto system = make_system(command.system);
+  if (command.observables.empty()) command.observables = {system->default_observable()};
+
+  std::vector<std::string> warnings;
+  const tabulated method =
+      coefficients_at(find_method(command.method), *system, command.step, common.force, warnings);
+  warn_of_instability(method, *system, command.step, warnings);
+  if (!common.json) {
+    for (const auto& text : warnings) warn(text);
+  }
+
+  samples taken(command, common.json);
+  std::optional<record> first;
+  const auto take = [&](std::int64_t m, const record& its) {
+    taken.take(m, its);
+    if (command.plot && m == 0) first = its;
+  };
+  const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
+                               common.threads};
+  progress shown;
+  shown.part("running");
+  const auto began = std::chrono::steady_clock::now();
+  system->run(method, plan, command.observables, command.sample_every, take,
+              shown.counter(command.trajectories));
+  taken.commit();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  shown.clear();
+  if (!command.output.empty()) write_manifest(command.output, common);
+  if (first) draw_run(*first, command);
+
+  const std::int64_t evaluations = system->count_evaluations(method, plan);
+  if (common.json) {
+    json result = document(command, *system, taken);
+    result["steps"] = steps;
+    result["seed"] = common.seed;
+    result["evaluations"] = evaluations;
+    result["seconds"] = seconds;
+    result["warnings"] = warnings;
+    print(result.dump(2) + "\n");
+  } else {
+    if (!command.output.empty()) {
+      print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",
+                        command.trajectories, steps, evaluations, seconds, command.output));
+    }
+    for (const auto& one : taken.diverged()) {
+      warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one["trajectory"].get<std::int64_t>(),
+                       one["step"].get<std::int64_t>(), one["t"].get<double>()));
+    }
+  }
+  return std::ssize(taken.diverged()) == command.trajectories ? no_result : done;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "learning.hpp"
+
+#include <algorithm>
+
+#include "catalogue.hpp"
+#include "checks.hpp"
+
+namespace nysalt::program {
+
+void require_sound(const learn_settings& how, double step, const std::string& prefix) {
+  const std::string trajectories = prefix + "trajectories";
+  const std::string horizon = prefix + "horizon";
+  require_at_least_one(trajectories.c_str(), how.trajectories);
+  steps_within(horizon.c_str(), how.horizon, step);
+  if (how.fine_step) require_positive("--fine-step", *how.fine_step);
+  coordinates_named(how.coordinates);
+}
+
+learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
+  const auto names = family_names();
+  if (std::find(names.begin(), names.end(), plan.family) == names.end()) {
+    refuse("unknown family '{}': it is one of {}", plan.family, listed(names));
+  }
+  shown.part(fmt::format("learning {} at step {:g}", plan.family, plan.step));
+  return system.learn(plan, shown.counter(plan.how.trajectories));
+}
+
+json fit_json(const fit_summary& fit) {
+  json parameters = json::object();
+  json errors = json::object();
+  for (const auto& p : fit.parameters) {
+    parameters[p.name] = p.value;
+    errors[p.name] = p.standard_error;
+  }
+  return {{"family", fit.family},
+          {"parameters", parameters},
+          {"standard_errors", errors},
+          {"step", fit.step},
+          {"loss", fit.loss},
+          {"held_out_loss", fit.held_out_loss},
+          {"samples", fit.samples},
+          {"usable", fit.usable},
+          {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
+          {"seconds", fit.data_seconds + fit.fit_seconds},
+          {"data_seconds", fit.data_seconds},
+          {"fit_seconds", fit.fit_seconds},
+          {"learning_evaluations", fit.learning_evaluations}};
+}
+
+}  // namespace nysalt::program

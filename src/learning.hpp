@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSL-1.0
+// Learning as `learn` does it, and `compare` for its learned rows.
+#pragma once
+
+#include <string>
+
+#include "bundled_system.hpp"
+#include "json.hpp"
+#include "progress.hpp"
+
+namespace nysalt::program {
+
+/// Throws refusal for settings that cannot be; `prefix` is that of the option names.
+void require_sound(const learn_settings& how, double step, const std::string& prefix);
+
+/// Throws refusal for an unknown family, before any work is done.
+learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
+
+/// What both commands tell of a fit.
+json fit_json(const fit_summary& fit);
+
+}  // namespace nysalt::program

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+
+namespace {
+
+/// Bad input is told in one line, whatever the message was made of.
+int refused(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  fmt::print(stderr, "nysalt: {}\n", text);
+  return nysalt::program::bad_input;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_DFL);  // a reader who has seen enough ends us quietly
+  try {
+    return nysalt::program::run_command_line(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return refused(
+        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");
+  } catch (const std::exception& problem) {
+    return refused(problem.what());
+  }
+}

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "method_file.hpp"
+
+#include <boost/crc.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "build_info.hpp"
+#include "catalogue.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr int known_version = 1;
+constexpr const char* scheme_format = "nysalt scheme";
+constexpr const char* table_format = "nysalt table";
+
+/// Of everything but itself, as it would be written without spaces.
+std::string checksum(json document) {
+  document.erase("checksum");
+  const std::string text = document.dump();
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("crc32:{:08x}", crc.checksum());
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, ignored)) {
+    refuse("cannot read {}: is it there, a file, and readable?", path.string());
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Members of a JSON object, each of its type, or a refusal that names file and member.
+class reader {
+ public:
+  reader(const json& document, std::string file) : document_(document), file_(std::move(file)) {}
+
+  const json& member(const char* key) const {
+    if (!document_.contains(key)) refuse("{}: the member \"{}\" is missing", file_, key);
+    return document_[key];
+  }
+  std::string text(const char* key) const {
+    if (!member(key).is_string()) refuse("{}: \"{}\" must be a text", file_, key);
+    return member(key).get<std::string>();
+  }
+  double number(const char* key) const { return number(member(key), key); }
+  double number(const json& value, const char* key) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      refuse("{}: \"{}\" must hold finite numbers", file_, key);
+    }
+    return value.get<double>();
+  }
+  bool flag(const char* key) const {
+    if (!member(key).is_boolean()) refuse("{}: \"{}\" must be true or false", file_, key);
+    return member(key).get<bool>();
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  const json& document_;
+  std::string file_;
+};
+
+/// Runs f; what the library refuses in it gets the file's name.
+auto in_file(const std::string& file, const auto& f) {
+  try {
+    return f();
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}: {}", file, problem.what());
+  }
+}
+
+scheme scheme_in(const json& document, const reader& read) {
+  if (read.text("checksum") != checksum(document)) {
+    refuse(
+        "{}: its checksum does not fit its contents, so it was edited or damaged; learn it again, or write "
+        "coefficients of your own as a table",
+        read.file());
+  }
+  const json& parameters = read.member("parameters");
+  if (!parameters.is_object()) refuse("{}: \"parameters\" must hold numbers by name", read.file());
+  std::vector<double> theta;
+  for (const auto& [name, value] : parameters.items()) theta.push_back(read.number(value, "parameters"));
+  const double step = read.number("step");
+  if (!(step > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), step);
+  const reader of_system(read.member("system"), read.file());
+  const std::string family = read.text("family");
+  return in_file(read.file(), [&] {
+    return scheme{family_member(family, theta), step, of_system.text("description"), read.flag("usable"),
+                  read.text("reason")};
+  });
+}
+
+tabulated table_in(const json& document, const reader& read) {
+  const std::string letters = read.text("letters");
+  const json& list = read.member("coefficients");
+  if (!list.is_array()) refuse("{}: \"coefficients\" must be a list of numbers", read.file());
+  std::vector<double> coefficients;
+  for (const auto& value : list) coefficients.push_back(read.number(value, "coefficients"));
+  return in_file(read.file(), [&] {
+    const run_time_word word(letters);
+    const std::string name = document.contains("name") ? read.text("name") : "table";
+    const tabulated bare(name, word, coefficients, {1, false, false});
+    for (const char letter : {'A', 'B'}) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < letters.size(); ++i) sum += letters[i] == letter ? coefficients[i] : 0.0;
+      // Tables are printed with ten digits or more.
+      if (std::abs(sum - 1.0) <= 1e-9) continue;
+      refuse("{}: the coefficients of the letter {} add up to {}, but to be consistent they must add up to 1",
+             read.file(), letter, sum);
+    }
+    const auto found = taylor_order(bare);
+    if (document.contains("order")) {
+      const double declared = read.number("order");
+      if (!(declared <= found.quadratic_kinetic)) {
+        refuse(
+            "{}: it declares the order {}, but its steps agree with the flow to order {} only; is a "
+            "coefficient mistyped?",
+            read.file(), declared, found.quadratic_kinetic);
+      }
+    }
+    if (stability_limit(bare) == 0.0) {
+      refuse("{}: it is not linearly stable at any small step", read.file());
+    }
+    const auto palindrome = [](const auto& x) { return std::equal(x.begin(), x.end(), x.rbegin()); };
+    return tabulated(name, word, coefficients,
+                     {found.quadratic_kinetic, palindrome(letters) && palindrome(coefficients),
+                      found.any_kinetic < found.quadratic_kinetic});
+  });
+}
+
+}  // namespace
+
+std::string scheme_text(const learned_scheme& learned, const bundled_system& system, const learn_plan& plan) {
+  const fit_summary& fit = learned.fit;
+  json parameters = json::object();
+  json errors = json::object();
+  for (const auto& p : fit.parameters) {
+    parameters[p.name] = p.value;
+    errors[p.name] = p.standard_error;
+  }
+  json of_system = system.parameters();
+  of_system["description"] = system.description();
+  json document{{"format", scheme_format},
+                {"version", known_version},
+                {"family", fit.family},
+                {"parameters", parameters},
+                {"standard_errors", errors},
+                {"step", fit.step},
+                {"system", of_system},
+                {"energy_range", nullptr},
+                {"loss", fit.loss},
+                {"held_out_loss", fit.held_out_loss},
+                {"usable", fit.usable},
+                {"reason", fit.reason},
+                {"coordinates", fit.coordinates},
+                {"reference", fit.reference},
+                {"starts", fit.ensemble},
+                {"trajectories", fit.trajectories},
+                {"horizon", plan.how.horizon},
+                {"seed", fit.seed},
+                {"held_out_seed", fit.held_out_seed},
+                {"versions", {{"nysalt", version}}}};
+  if (learned.energy_range) document["energy_range"] = *learned.energy_range;
+  document["checksum"] = checksum(document);
+  return document.dump(2) + "\n";
+}
+
+method_file read_method_file(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string text = text_of(path);
+  json document;
+  try {
+    document = json::parse(text);
+  } catch (const json::parse_error& problem) {
+    refuse("{}: this is not whole JSON (it ends or breaks at byte {}); was it cut off?", file, problem.byte);
+  }
+  const bool is_ours = document.is_object() && document.contains("format") && document["format"].is_string();
+  const std::string format = is_ours ? document["format"].get<std::string>() : "";
+  if (format != scheme_format && format != table_format) {
+    refuse("{}: this is neither a scheme nor a table: its \"format\" must be \"{}\" or \"{}\"", file,
+           scheme_format, table_format);
+  }
+  const reader read(document, file);
+  const double file_version = read.number("version");
+  if (file_version > known_version) {
+    refuse("{}: it has version {}, and this nysalt knows {} only: take a newer nysalt, or learn it again",
+           file, file_version, known_version);
+  }
+  if (file_version != known_version) refuse("{}: there is no version {}", file, file_version);
+  method_file result;
+  if (format == scheme_format) {
+    result.learned = scheme_in(document, read);
+  } else {
+    result.table = table_in(document, read);
+  }
+  return result;
+}
+
+}  // namespace nysalt::program

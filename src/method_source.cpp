@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "method_source.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "catalogue.hpp"
+#include "nysalt/methods/s_aia.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr std::string_view to_learn = "learned:";
+
+bool is_file_name(const std::string& text) {
+  std::error_code ignored;
+  return text.ends_with(".json") || text.find('/') != std::string::npos ||
+         std::filesystem::is_regular_file(text, ignored);
+}
+
+}  // namespace
+
+method_source find_method(const std::string& text) {
+  method_source source{.typed = text};
+  for (const auto& known : classical_methods()) {
+    if (known.method.name() == text) source.fixed = known.method;
+  }
+  if (source.fixed) {
+    source.evaluations_per_step = source.fixed->letters().evaluations_per_step;
+  } else if (text == adaptive_method) {
+    source.evaluations_per_step = s_aia2::word::evaluations_per_step;
+  } else if (text.starts_with(to_learn)) {
+    source.family = text.substr(to_learn.size());
+    const bool known = with_family(
+        *source.family, [&]<class F>(F) { source.evaluations_per_step = F::word::evaluations_per_step; });
+    if (!known) {
+      refuse("unknown family '{}' in '{}': it is one of {}", *source.family, text, listed(family_names()));
+    }
+  } else if (is_file_name(text)) {
+    method_file file = read_method_file(text);
+    source.learned = std::move(file.learned);
+    source.fixed = std::move(file.table);
+    const auto& method = source.learned ? source.learned->method : *source.fixed;
+    source.evaluations_per_step = method.letters().evaluations_per_step;
+  } else {
+    refuse("unknown method '{}': it is one of {}, learned:FAMILY with a family of {}, or a file NAME.json",
+           text, listed(method_names()), listed(family_names()));
+  }
+  return source;
+}
+
+std::string out_of_place(const scheme& learned, const bundled_system& system, double step) {
+  if (!(std::abs(step - learned.step) <= 1e-9 * learned.step)) {
+    return fmt::format("it was learned for the step {}, not {}", learned.step, step);
+  }
+  if (learned.system != system.description()) {
+    return fmt::format("it was learned for {}, not {}", learned.system, system.description());
+  }
+  if (!learned.usable) return "its fit was not usable: " + learned.reason;
+  return {};
+}
+
+tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
+                          std::vector<std::string>& warnings) {
+  if (source.fixed) return *source.fixed;
+  if (source.learned) {
+    const std::string why = out_of_place(*source.learned, system, step);
+    if (why.empty()) return source.learned->method;
+    if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
+    warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
+    return source.learned->method;
+  }
+  if (source.is_adaptive()) return tabulated(s_aia2(step * highest_frequency(system)));
+  refuse("{} must be learned first: nysalt learn --family {} --step {} --output scheme.json", source.typed,
+         *source.family, step);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+// Functions of a state, by name.
+#pragma once
+
+#include <charconv>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/energy.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+/// As people read them: families of names once.
+template <System S>
+std::vector<std::string> observable_names(const S& system) {
+  std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy"};
+  const auto range = [&](const char* stem, Eigen::Index last) {
+    names.push_back(last == 1 ? fmt::format("{}1", stem) : fmt::format("{0}1..{0}{1}", stem, last));
+  };
+  range("q", size(system));
+  range("p", size(system));
+  if constexpr (HasStiffEnergies<S>) {
+    names.insert(names.begin(), "stiff_energy");
+    range("stiff_energy_", system.pairs());
+  }
+  return names;
+}
+
+/// The number after a stem, 1..last; 0 if the name is not of that kind.
+inline Eigen::Index index_after(std::string_view name, std::string_view stem, Eigen::Index last) {
+  if (!name.starts_with(stem)) return 0;
+  const std::string_view digits = name.substr(stem.size());
+  Eigen::Index index = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  const bool is_number = error == std::errc{} && end == digits.data() + digits.size();
+  return is_number && 1 <= index && index <= last ? index : 0;
+}
+
+/// Throws refusal, listing the names, if there is none of that name.
+template <System S>
+std::function<double(const phase_point<double, S::dimension>&)> observable(const S& system,
+                                                                           const std::string& name) {
+  using state = phase_point<double, S::dimension>;
+  if (name == "energy") return [&system](const state& x) { return energy<double>(system, x); };
+  if (name == "kinetic_energy") {
+    return [&system](const state& x) { return kinetic_energy<double>(system, x.p); };
+  }
+  if (name == "potential_energy") return [&system](const state& x) { return system.potential(x.q); };
+  if (const auto i = index_after(name, "q", size(system))) return [i](const state& x) { return x.q[i - 1]; };
+  if (const auto i = index_after(name, "p", size(system))) return [i](const state& x) { return x.p[i - 1]; };
+  if constexpr (HasStiffEnergies<S>) {
+    if (name == "stiff_energy") return [&system](const state& x) { return system.stiff_energy(x); };
+    if (const auto j = index_after(name, "stiff_energy_", system.pairs())) {
+      return [&system, j](const state& x) { return system.stiff_energy(x, j - 1); };
+    }
+  }
+  refuse("unknown observable '{}' of {}: it is one of {}", name, describe(system),
+         listed(observable_names(system)));
+}
+
+}  // namespace nysalt::program

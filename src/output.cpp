@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "output.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <ceres/version.h>
+#include <Eigen/Core>
+#include <boost/version.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+
+#include "build_info.hpp"
+#include "nysalt/report/write_file.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+void print(std::string_view text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
+  refuse("the standard output cannot be written: is the disk full?");
+}
+
+void write_manifest(const std::filesystem::path& file, const common_settings& common) {
+  const auto eigen = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+  const auto boost =
+      fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);
+  const auto of_fmt =
+      fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+  const json manifest{{"file", file.filename().string()},
+                      {"command", common.command},
+                      {"seed", common.seed},
+                      {"versions",
+                       {{"nysalt", version},
+                        {"Eigen", eigen},
+                        {"Boost", boost},
+                        {"Ceres", CERES_VERSION_STRING},
+                        {"fmt", of_fmt}}},
+                      {"compiler", compiler},
+                      {"flags", compiler_flags},
+                      {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+  auto path = file;
+  path += ".manifest.json";
+  write_file(path, manifest.dump(2) + "\n");
+}
+
+void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
+  write_file(file, text);
+  write_manifest(file, common);
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+void require_writable(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) refuse("cannot write {}: it is a folder; name a file", file.string());
+  const fs::path folder = folder_of(file);
+  if (!fs::is_directory(folder, ignored)) {
+    refuse("cannot write {}: there is no folder {}; make it first", file.string(), folder.string());
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    refuse("cannot write {}: the folder {} is not writable", file.string(), folder.string());
+  }
+}
+
+void warn(std::string_view text) { fmt::print(stderr, "nysalt: warning: {}\n", text); }
+
+}  // namespace nysalt::program

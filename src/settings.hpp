@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a command line asks for, as typed: plain values, not yet judged.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nysalt::program {
+
+struct common_settings {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  bool json = false;
+  bool force = false;
+  std::string command;  // the whole command line, for manifests
+};
+
+struct system_settings {
+  std::string name = "fpu";
+  std::optional<std::int64_t> pairs;
+  std::optional<double> omega;
+  std::optional<std::int64_t> masses;
+  std::optional<double> spring;
+};
+
+/// How to learn; the step comes from elsewhere.
+struct learn_settings {
+  std::optional<double> fine_step;
+  std::int64_t trajectories = 100;
+  double horizon = 0.5;
+  std::string coordinates = "qp";
+  std::vector<std::string> fix;  // name=value
+};
+
+struct learn_command {
+  system_settings system;
+  learn_settings learning;
+  std::string family = "nystrom";
+  double step = 0.0;
+  std::string output;
+};
+
+struct run_command {
+  system_settings system;
+  std::string method;
+  double step = 0.0;
+  double horizon = 0.0;
+  std::int64_t trajectories = 1;
+  std::vector<std::string> observables;
+  std::int64_t sample_every = 1;
+  std::string output;
+  bool plot = false;
+};
+
+struct compare_command {
+  system_settings system;
+  learn_settings learning;
+  std::vector<std::string> methods;
+  std::vector<double> steps;
+  bool equal_cost = false;
+  double horizon = 0.5;
+  std::int64_t trajectories = 400;
+  std::string metric = "path";
+  std::string observable;
+  std::string output;
+};
+
+struct stability_command {
+  std::optional<std::string> family;
+  std::vector<double> parameters;
+  std::optional<std::string> method;
+  std::optional<system_settings> system;
+  std::optional<double> step;
+};
+
+}  // namespace nysalt::program

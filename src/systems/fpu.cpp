@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/ensembles/fpu_law.hpp"
+
+#include "../bundled_model.hpp"
+#include "../bundled_systems.hpp"
+
+namespace nysalt::program {
+
+namespace {
+template <int Pairs>
+std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain) {
+  using model = bundled_model<fpu_chain<Pairs>, fpu_law<Pairs>>;
+  const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
+  return std::make_unique<model>(chain, fpu_law<Pairs>(chain),
+                                 model_facts{"fpu", parameters, chain.omega(), "stiff_energy"});
+}
+}  // namespace
+
+std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega) {
+  if (pairs == 3) return make(fpu_chain<3>(omega));  // the paper's, of a size known to the compiler
+  return make(fpu_chain<>(pairs, omega));
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/systems/linear_chain.hpp"
+
+#include "../bundled_model.hpp"
+#include "../bundled_systems.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+
+namespace nysalt::program {
+
+std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring) {
+  const auto chain = linear_chain::between_walls(masses, spring);
+  const double fastest = chain.frequency_bands().back().high;
+  using law = normal_around<Eigen::Dynamic>;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
+  const json parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
+  return std::make_unique<bundled_model<linear_chain, law>>(
+      chain, law({rest, rest}, 1.0 / fastest, 1.0),
+      model_facts{"linear_chain", parameters, fastest, "energy"});
+}
+
+}  // namespace nysalt::program

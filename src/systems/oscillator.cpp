@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "../bundled_model.hpp"
+#include "../bundled_systems.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+
+namespace nysalt::program {
+
+std::unique_ptr<bundled_system> make_oscillator(double omega) {
+  const harmonic_oscillator oscillator(omega);
+  // Of energy kT = 1 in the mean.
+  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0 / omega, 1.0);
+  const json parameters{{"name", "oscillator"}, {"omega", omega}};
+  return std::make_unique<bundled_model<harmonic_oscillator, normal_around<1>>>(
+      oscillator, law, model_facts{"oscillator", parameters, omega, "energy"});
+}
+
+}  // namespace nysalt::program

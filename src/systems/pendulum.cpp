@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/systems/pendulum.hpp"
+
+#include "../bundled_model.hpp"
+#include "../bundled_systems.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+
+namespace nysalt::program {
+
+std::unique_ptr<bundled_system> make_pendulum() {
+  // Swings: it goes over the top from |p| = 2 at the bottom.
+  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
+  return std::make_unique<bundled_model<pendulum, normal_around<1>>>(
+      pendulum(), law, model_facts{"pendulum", {{"name", "pendulum"}}, 1.0, "energy"});
+}
+
+}  // namespace nysalt::program
