@@ -12,6 +12,7 @@
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/reversibility.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+// The order of a method, exactly: where the Taylor expansion of one step leaves that of the flow.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "nysalt/derivatives/order_probe.hpp"
+#include "nysalt/method.hpp"
+
+namespace nysalt {
+
+/// The orders of a method where K = p M^-1 p / 2, and where K(p) may be anything. 0: not consistent;
+/// highest_taylor_order: this or more.
+struct taylor_orders {
+  int quadratic_kinetic;
+  int any_kinetic;
+  friend bool operator==(const taylor_orders&, const taylor_orders&) = default;
+};
+
+namespace detail {
+
+/// |x - y| coordinate by coordinate, power by power.
+inline std::array<taylor, 6> distances(const phase_point<taylor, 3>& x, const phase_point<taylor, 3>& y) {
+  std::array<taylor, 6> result{x.q[0] - y.q[0], x.q[1] - y.q[1], x.q[2] - y.q[2],
+                               x.p[0] - y.p[0], x.p[1] - y.p[1], x.p[2] - y.p[2]};
+  for (taylor& distance : result) {
+    for (double& c : distance.coefficient) c = std::abs(c);
+  }
+  return result;
+}
+
+/// Tables are printed to ten digits or more. Hence a power of h agrees if errors of 1e-10 in the coefficients
+/// of the letters, at their worst, explain the difference: sum_i |dx/dc_i| 1e-10. This is sharp where large
+/// terms cancel, and rounding stays far below: it acts like errors of some 1e-16.
+template <class Coefficients>
+int order_on(const order_probe& system, Coefficients coefficients, const auto& one_step) {
+  const auto x = one_step(system, coefficients);
+  const auto error = distances(x, system.flow());
+  std::array<taylor, 6> tolerance;
+  for (double& c : coefficients) {
+    const double as_given = c;
+    c += 1e-10;
+    const auto change = distances(one_step(system, coefficients), x);
+    for (std::size_t i = 0; i < 6; ++i) tolerance[i] += change[i];
+    c = as_given;
+  }
+  for (std::size_t k = 1; k < taylor::terms; ++k) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const bool agrees = error[i].coefficient[k] <= tolerance[i].coefficient[k];
+      if (!agrees) return static_cast<int>(k) - 1;  // nor does what is not a number
+    }
+  }
+  return highest_taylor_order;
+}
+
+}  // namespace detail
+
+/// The orders of a composition of any kind. The coefficients are a container of double that can be copied;
+/// one_step(system, coefficients) is the phase_point after a step of length 1 from system.start().
+template <class Coefficients>
+taylor_orders taylor_order(const Coefficients& coefficients, const auto& one_step) {
+  return {detail::order_on(order_probe(true), coefficients, one_step),
+          detail::order_on(order_probe(false), coefficients, one_step)};
+}
+
+/// The orders of a word with coefficients that are known to ten decimals: one step on a generic system, and
+/// its flow, are expanded in powers of h and compared. Cost: as many steps in series as there are letters,
+/// some 2 ms for 23.
+template <Word W>
+taylor_orders taylor_order(const std::array<double, W::length>& coefficients) {
+  return taylor_order(coefficients, [](const order_probe& system, const auto& c) {
+    auto x = system.start();
+    stepper<order_probe, W>(system, c, 1.0).step(x);
+    return x;
+  });
+}
+
+template <Method M>
+taylor_orders taylor_order(const M& method) {
+  return taylor_order<typename M::word>(method.coefficients());
+}
+
+}  // namespace nysalt

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSL-1.0
+// Orders by Taylor expansion are those that are declared, proved or published, and mistakes lower them.
+#include <boost/test/unit_test.hpp>
+
+#include <ostream>
+
+#include "../laws/models.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace nysalt {
+static std::ostream& operator<<(std::ostream& out, const taylor_orders& orders) {
+  return out << orders.quadratic_kinetic << " and " << orders.any_kinetic;
+}
+}  // namespace nysalt
+
+namespace {
+
+/// Order 6 for quadratic K, 14 evaluations [blanes_moan_2002, SRKN_14^a].
+using drift_first_29 = alternating_word<drift, kick, 29>;
+std::array<double, 29> srkn14a() {
+  return palindrome<29>({0.0378593198406116, 0.09171915262446165,    //
+                         0.102635633102435, 0.183983170005006,       //
+                         -0.0258678882665587, -0.05653436583288827,  //
+                         0.314241403071447, 0.004914688774712854,    //
+                         -0.130144459517415, 0.143761127168358,      //
+                         0.106417700369543, 0.328567693746804,       //
+                         -0.00879424312851058});
+}
+
+/// Order 4 for quadratic K, four evaluations, not symmetric [mclachlan_atela_1992].
+using kick_drift_4 = word<kick, drift, kick, drift, kick, drift, kick, drift>;
+constexpr std::array<double, 8> mclachlan_atela_4{0.1344961992774310892,  0.5153528374311229364,  //
+                                                  -0.2248198030794208058, -0.085782019412973646,  //
+                                                  0.7563200005156682911,  0.4415830236164665242,  //
+                                                  0.3340036032863214255,  0.1288461583653841854};
+
+/// Lengths of Verlet steps, composed so that the leading error vanishes: order n becomes n + 2
+/// [hairer_lubich_wanner_2006, section II.4].
+std::vector<double> triple_jump(const std::vector<double>& lengths, int n) {
+  const double outer = 1.0 / (2.0 - std::pow(2.0, 1.0 / (n + 1.0)));
+  std::vector<double> result;
+  for (const double scale : {outer, 1.0 - 2.0 * outer, outer}) {
+    for (const double length : lengths) result.push_back(scale * length);
+  }
+  return result;
+}
+
+taylor_orders of_verlet_steps(const std::vector<double>& lengths) {
+  return taylor_order(lengths, [](const auto& system, const auto& steps) {
+    auto x = system.start();
+    for (const double h : steps) make_stepper(system, verlet(), h).step(x);
+    return x;
+  });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(methods_have_the_order_that_they_declare, M, methods) {
+  draws random;
+  const auto method = any_method<M>(random);
+  const auto found = taylor_order(method);
+  BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
+    BOOST_TEST(found.quadratic_kinetic == M::order);
+    BOOST_TEST((found.any_kinetic == M::order) == !M::requires_quadratic_kinetic);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_a_quadratic_kinetic_energy_gains) {
+  BOOST_TEST(taylor_order(srkn11b()) == (taylor_orders{6, 4}));
+  BOOST_TEST(taylor_order<drift_first_29>(srkn14a()) == (taylor_orders{6, 4}));
+  BOOST_TEST(taylor_order<kick_drift_4>(mclachlan_atela_4) == (taylor_orders{4, 3}));
+  BOOST_TEST(taylor_order(srkn6b()) == (taylor_orders{4, 4}));
+  BOOST_TEST(taylor_order(blanes_moan_s6()) == (taylor_orders{4, 4}));
+}
+
+// Consistency for every theta, and beta1 + beta2 = 1/2 is the condition of order 2. For order 3 the c_i must
+// have the variance b1 b2 (c2 - c1)^2 = 1/12 and, the method being symplectic, b1 b2 (c2 - c1) = 1/6: hence
+// b1 b2 = 1/3, which no b1 gives.
+BOOST_AUTO_TEST_CASE(two_stages_have_order_two_at_every_theta) {
+  draws random;
+  for (int n = 0; n < 20; ++n) {
+    const auto theta = random_theta<nystrom>(random);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
+      BOOST_TEST(taylor_order(member<nystrom>(theta)) == (taylor_orders{2, 2}));
+      BOOST_TEST(taylor_order(member<nystrom>({0.5, theta[1]})) == (taylor_orders{2, 2}));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(low_orders) {
+  using symplectic_euler = word<kick, drift>;
+  BOOST_TEST(taylor_order<symplectic_euler>(std::array{1.0, 1.0}) == (taylor_orders{1, 1}));
+  BOOST_TEST(taylor_order<symplectic_euler>(std::array{1.0, 0.9}) == (taylor_orders{0, 0}));
+  BOOST_TEST(taylor_order<word<drift>>(std::array{1.0}) == (taylor_orders{0, 0}));
+}
+
+// Compositions of any kind, with coefficients known at run time; and high orders, where terms cancel that are
+// far larger than their sum.
+BOOST_AUTO_TEST_CASE(triple_jumps_gain_two_orders_each) {
+  std::vector<double> lengths{1.0};
+  for (const int order : {2, 4, 6, 8}) {
+    BOOST_TEST(of_verlet_steps(lengths) == (taylor_orders{order, order}));
+    lengths = triple_jump(lengths, order);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_highest_order_means_this_or_more) {
+  const auto exact = [](const auto& system, const auto&) { return system.flow(); };
+  const int highest = highest_taylor_order;
+  BOOST_TEST(taylor_order(std::array{1.0}, exact) == (taylor_orders{highest, highest}));
+}
+
+// A slip in the sixth decimal: the order that is left depends on what the slip spares.
+BOOST_AUTO_TEST_CASE(a_wrong_digit_lowers_the_order) {
+  const double slip = 1e-6;
+  auto c = srkn11b::coefficients();
+  c[3] += slip;  // the drifts no longer add up to 1
+  BOOST_TEST(taylor_order<srkn11b::word>(c) == (taylor_orders{0, 0}));
+  c[9] -= slip;  // they do, but the word is not symmetric
+  BOOST_TEST(taylor_order<srkn11b::word>(c) == (taylor_orders{1, 1}));
+  c[19] += slip;
+  c[13] -= slip;  // it is again, and of even order
+  BOOST_TEST(taylor_order<srkn11b::word>(c) == (taylor_orders{2, 2}));
+}
+
+// As in a table of ten or more digits.
+BOOST_AUTO_TEST_CASE(rounded_tables_keep_their_order) {
+  const auto rounded = [](auto coefficients, double digits) {
+    for (double& c : coefficients) c = std::round(c * digits) / digits;
+    return coefficients;
+  };
+  for (const double digits : {1e10, 1e12, 1e14}) {
+    BOOST_TEST(taylor_order<srkn11b::word>(rounded(srkn11b::coefficients(), digits)) ==
+               (taylor_orders{6, 4}));
+    BOOST_TEST(taylor_order<drift_first_29>(rounded(srkn14a(), digits)) == (taylor_orders{6, 4}));
+  }
+  BOOST_TEST(taylor_order<srkn11b::word>(rounded(srkn11b::coefficients(), 1e7)) == (taylor_orders{0, 0}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_consistent) {
+  using limits = std::numeric_limits<double>;
+  for (const double wrong : {limits::quiet_NaN(), limits::infinity(), limits::max()}) {
+    BOOST_TEST(taylor_order<verlet::word>(std::array{0.5, wrong, 0.5}) == (taylor_orders{0, 0}));
+    BOOST_TEST(taylor_order<verlet::word>(std::array{wrong, 1.0, -wrong}) == (taylor_orders{0, 0}));
+  }
+}
+
+// On the oscillator this one has order 6 (see methods/order_test.cpp).
+BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
+  const auto c = palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
+                                 0.5520581660514783, -0.23936270217732913});
+  using kick_first_11 = alternating_word<kick, drift, 11>;
+  BOOST_TEST(taylor_order<kick_first_11>(c) == (taylor_orders{4, 4}));
+}
