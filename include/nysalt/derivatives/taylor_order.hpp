@@ -68,17 +68,17 @@ taylor_orders taylor_order(const Coefficients& coefficients, const auto& one_ste
 /// its flow, are expanded in powers of h and compared. Cost: as many steps in series as there are letters,
 /// some 2 ms for 23.
 template <Word W>
-taylor_orders taylor_order(const std::array<double, W::length>& coefficients) {
-  return taylor_order(coefficients, [](const order_probe& system, const auto& c) {
+taylor_orders taylor_order(const W& word, const typename W::template coefficients<double>& coefficients) {
+  return taylor_order(coefficients, [&](const order_probe& system, const auto& c) {
     auto x = system.start();
-    stepper<order_probe, W>(system, c, 1.0).step(x);
+    stepper<order_probe, W>(system, word, c, 1.0).step(x);
     return x;
   });
 }
 
 template <Method M>
 taylor_orders taylor_order(const M& method) {
-  return taylor_order<typename M::word>(method.coefficients());
+  return taylor_order(word_of(method), method.coefficients());
 }
 
 }  // namespace nysalt
