@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// Eight oscillators on two threads, which take TBB.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+
+int main() {
+  using namespace nysalt;
+  const harmonic_oscillator system(1.0);
+  std::array<bool, 8> bounded{};
+  for_each_trajectory(8, 2, [&](std::int64_t m) {
+    const phase_point<double, 1> start{vector<double, 1>(1.0 + static_cast<double>(m)),
+                                       vector<double, 1>(0.0)};
+    bounded[static_cast<std::size_t>(m)] = !integrate(system, verlet{}, 0.1, start, 1000).diverged_at;
+  });
+  fmt::print("{} of 8 are bounded\n", std::count(bounded.begin(), bounded.end(), true));
+}
+
+// Expected output:
+// 8 of 8 are bounded
