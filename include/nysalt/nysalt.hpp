@@ -25,6 +25,7 @@
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"

@@ -12,6 +12,7 @@
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
@@ -58,8 +59,8 @@ using systems =
 /// One of each kind, for laws about methods rather than systems.
 using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;
 
-using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, pefrl, blanes_moan_s6,
-                           srkn6b, srkn11b, member<nystrom>>;
+using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, pefrl,
+                           blanes_moan_s6, srkn6b, srkn11b, member<nystrom>>;
 
 /// A theta well inside the ranges, where coefficients are of moderate size.
 template <Family F>
@@ -72,11 +73,13 @@ parameters_of<F> random_theta(draws& random) {
   return theta;
 }
 
-/// The method itself, or a random member of its family.
+/// The method itself, or a random member of its family (s_aia2's where it is not yet Verlet).
 template <Method M>
 M any_method(draws& random) {
   if constexpr (requires { typename M::family; }) {
     return M(random_theta<typename M::family>(random));
+  } else if constexpr (std::same_as<M, s_aia2>) {
+    return M(random.uniform(0.1, 2.8));
   } else {
     return M{};
   }
