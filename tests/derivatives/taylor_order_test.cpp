@@ -6,6 +6,7 @@
 
 #include "../laws/models.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/methods/tabulated.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -49,7 +50,7 @@ std::vector<double> triple_jump(const std::vector<double>& lengths, int n) {
 }
 
 taylor_orders of_verlet_steps(const std::vector<double>& lengths) {
-  return taylor_order(lengths, [](const auto& system, const auto& steps) {
+  return taylor_order_of(lengths, [](const auto& system, const auto& steps) {
     auto x = system.start();
     for (const double h : steps) make_stepper(system, verlet(), h).step(x);
     return x;
@@ -111,7 +112,7 @@ BOOST_AUTO_TEST_CASE(triple_jumps_gain_two_orders_each) {
 BOOST_AUTO_TEST_CASE(the_highest_order_means_this_or_more) {
   const auto exact = [](const auto& system, const auto&) { return system.flow(); };
   const int highest = highest_taylor_order;
-  BOOST_TEST(taylor_order(std::array{1.0}, exact) == (taylor_orders{highest, highest}));
+  BOOST_TEST(taylor_order_of(std::array{1.0}, exact) == (taylor_orders{highest, highest}));
 }
 
 // A slip in the sixth decimal: the order that is left depends on what the slip spares.

@@ -59,7 +59,7 @@ int order_on(const order_probe& system, Coefficients coefficients, const auto& o
 /// The orders of a composition of any kind. The coefficients are a container of double that can be copied;
 /// one_step(system, coefficients) is the phase_point after a step of length 1 from system.start().
 template <class Coefficients>
-taylor_orders taylor_order(const Coefficients& coefficients, const auto& one_step) {
+taylor_orders taylor_order_of(const Coefficients& coefficients, const auto& one_step) {
   return {detail::order_on(order_probe(true), coefficients, one_step),
           detail::order_on(order_probe(false), coefficients, one_step)};
 }
@@ -69,7 +69,7 @@ taylor_orders taylor_order(const Coefficients& coefficients, const auto& one_ste
 /// some 2 ms for 23.
 template <Word W>
 taylor_orders taylor_order(const W& word, const typename W::template coefficients<double>& coefficients) {
-  return taylor_order(coefficients, [&](const order_probe& system, const auto& c) {
+  return taylor_order_of(coefficients, [&](const order_probe& system, const auto& c) {
     auto x = system.start();
     stepper<order_probe, W>(system, word, c, 1.0).step(x);
     return x;
