@@ -23,7 +23,8 @@ bool is_file_name(const std::string& text) {
 }  // namespace
 
 method_source find_method(const std::string& text) {
-  method_source source{.typed = text};
+  method_source source;
+  source.typed = text;
   for (const auto& known : classical_methods()) {
     if (known.method.name() == text) source.fixed = known.method;
   }

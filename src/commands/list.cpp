@@ -22,7 +22,9 @@ constexpr std::array metrics{
 json systems_json() {
   json all = json::array();
   for (const auto& entry : system_entries()) {
-    const auto system = make_system({.name = entry.name});
+    system_settings settings;
+    settings.name = entry.name;
+    const auto system = make_system(settings);
     all.push_back({{"name", entry.name},
                    {"options", entry.options},
                    {"hamiltonian", entry.hamiltonian},
@@ -49,7 +51,7 @@ json methods_json() {
                  {"order", s_aia2::order},
                  {"evaluations_per_step", s_aia2::word::evaluations_per_step},
                  {"limit_per_evaluation", nullptr},
-                 {"source", "radivojevic_2018"}});
+                 {"source", "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024"}});
   return all;
 }
 

@@ -36,8 +36,7 @@ class samples {
     if (!command.output.empty()) file_.emplace(command.output);
     for (const auto& name : command.observables) columns_.push_back(name);
     if (is_csv()) {
-      for (const auto& name : columns_) text_ += (text_.empty() ? "" : ",") + name.get<std::string>();
-      text_ += '\n';
+      text_ = fmt::format("trajectory,step,t,{}\n", fmt::join(command.observables, ","));
     }
   }
 
