@@ -2,14 +2,23 @@
 // The pairs that are learned from: made as told, and refused when they are not whole.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <limits>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
 
 #include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "support/refusal.hpp"
+#include "support/rounding.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -22,6 +31,44 @@ const fpu_law<3> law(chain);
 flow_map_data<6> made(const data_options& options) {
   return make_flow_map_data(chain, law, fine_steps<>(1e-3), options);
 }
+
+bool same_bits(const flow_map_data<6>& a, const flow_map_data<6>& b) {
+  const auto same = [](const auto& x, const auto& y) { return test::same_bits(x, y); };
+  const auto same_check = [](const auto& x, const auto& y) {
+    return x.first == y.first && test::same_bits(x.second, y.second);
+  };
+  return std::equal(a.start.begin(), a.start.end(), b.start.begin(), b.start.end(), same) &&
+         std::equal(a.finish.begin(), a.finish.end(), b.finish.begin(), b.finish.end(), same) &&
+         std::equal(a.finer.begin(), a.finer.end(), b.finer.begin(), b.finer.end(), same_check) &&
+         a.first_of == b.first_of && a.evaluations == b.evaluations && a.energies->low == b.energies->low &&
+         a.energies->high == b.energies->high;
+}
+
+/// No force, and then one without bounds.
+struct cliff {
+  static constexpr int dimension = 1;
+  static void force(const vector<double, 1>& q, vector<double, 1>& f) {
+    f[0] = q[0] > 1.1 ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+};
+
+/// Starts of which 3 and every eighth after it are not finite. The third waits for a later one to be asked
+/// for, so that with several threads it is not the first to fail.
+struct third_fails_late {
+  std::atomic<bool>* later_failed;
+  bool waits;
+  phase_point<double, 6> operator()(std::uint64_t seed, std::uint64_t n) const {
+    auto x = law(seed, n);
+    if (n % 8 != 3) return x;
+    if (n > 3) *later_failed = true;
+    for (int ms = 0; waits && n == 3 && !*later_failed && ms < 5000; ++ms) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    x.q[0] = std::numeric_limits<double>::quiet_NaN();
+    return x;
+  }
+  static std::string description() { return "starts"; }
+};
 
 }  // namespace
 
@@ -81,4 +128,103 @@ BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
   BOOST_TEST(refused([](auto& d) { d = {}; }, {"the data are of"}));
   BOOST_TEST(refused([](auto& d) { d.first_of.back() = 3; }, {"not whole"}));
   BOOST_TEST(refuses<wrong>([&] { require_valid(whole, fpu_chain<3>(49.0)); }, {"omega=50", "omega=49"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
+  const auto with = [](int threads, std::uint64_t seed) {
+    return made({.step = 0.02, .horizon = 0.1, .trajectories = 41, .seed = seed, .threads = threads});
+  };
+  const auto one = with(1, 7);
+  require_valid(one, chain);
+  for (const int threads : {2, 5}) {
+    const auto data = with(threads, 7);
+    BOOST_TEST(same_bits(data, one));
+    BOOST_TEST(!same_bits(data, with(threads, 8)));
+  }
+  BOOST_TEST(refuses<wrong>([&] { with(0, 7); }, {"at least one thread", "0"}));
+}
+
+BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
+  // 16 of the 205 pairs: every thirteenth.
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 41, .threads = 3});
+  std::set<std::size_t> checked;
+  for (const auto& [pair, finish] : data.finer) {
+    BOOST_TEST(checked.insert(pair).second);
+    BOOST_TEST(pair % 13 == 0U);
+    auto x = data.start[pair];
+    fine_steps<>(5e-4).advance(chain, x, 0.02);
+    BOOST_TEST((x.q == finish.q));
+    BOOST_TEST((x.q != data.finish[pair].q));  // that is another step
+  }
+  BOOST_TEST(checked.size() == 16U);
+}
+
+BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<bool> later_failed = false;
+    const auto make = [&] {
+      make_flow_map_data(chain, third_fails_late{&later_failed, threads > 1}, fine_steps<>(1e-3),
+                         {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
+    };
+    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "not finite"}));
+    BOOST_TEST(later_failed == (threads > 1));  // so whoever throws first would have named another
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajectory_and_the_step) {
+  // Trajectory n starts at n/4 - 10 with velocity 1: in ten steps of 1/2 it passes the cliff if n >= 25.
+  std::vector<phase_point<double, 1>> starts;
+  for (int n = 0; n < 40; ++n) starts.push_back({vector<double, 1>(0.25 * n - 10.0), vector<double, 1>(1.0)});
+  const auto make = [&](std::int64_t trajectories, int threads) {
+    return make_flow_map_data(
+        cliff(), listed<1>(starts), fine_steps<>(0.05),
+        {.step = 0.5, .horizon = 5.0, .trajectories = trajectories, .threads = threads});
+  };
+  for (const int threads : {1, 2, 5}) {
+    BOOST_TEST(refuses<std::runtime_error>([&] { make(40, threads); },
+                                           {"trajectory 25 ", "at step 10:", "srkn11b", "diverged"}));
+    BOOST_TEST(make(25, threads).pairs() == 250U);
+  }
+  // Whatever is thrown: of the starts that the list does not hold, the first.
+  BOOST_TEST(refuses<std::out_of_range>(
+      [&] {
+        make_flow_map_data(cliff(), listed<1>({starts[0], starts[1]}), fine_steps<>(0.05),
+                           {.step = 0.5, .trajectories = 40, .threads = 5});
+      },
+      {"start 3 was asked for"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .threads = 2});
+  energy_range all;
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    all.include(energy<double>(chain, data.start[n]));
+    all.include(energy<double>(chain, data.finish[n]));
+  }
+  BOOST_REQUIRE(data.energies.has_value());
+  BOOST_TEST(data.energies->low == all.low);
+  BOOST_TEST(data.energies->high == all.high);
+  BOOST_TEST(all.low < all.high);
+  const listed<1> at_rest({{vector<double, 1>(0.0), vector<double, 1>(0.0)}});
+  const auto without =
+      make_flow_map_data(cliff(), at_rest, fine_steps<>(0.05), {.step = 0.5, .trajectories = 1});
+  BOOST_TEST(!without.energies.has_value());  // a force alone has no energy
+}
+
+BOOST_AUTO_TEST_CASE(progress_counts_to_the_number_of_trajectories) {
+  for (const int threads : {1, 3}) {
+    std::mutex guard;
+    std::vector<std::int64_t> told;
+    made({.step = 0.02,
+          .horizon = 0.02,
+          .trajectories = 30,
+          .threads = threads,
+          .progress = [&](std::int64_t done) {
+            const std::lock_guard lock(guard);
+            told.push_back(done);
+          }});
+    std::sort(told.begin(), told.end());  // several threads tell in any order
+    BOOST_REQUIRE(told.size() == 30U);
+    for (std::size_t n = 0; n < told.size(); ++n) BOOST_TEST(told[n] == static_cast<std::int64_t>(n + 1));
+  }
 }

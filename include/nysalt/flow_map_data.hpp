@@ -5,18 +5,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nysalt/counted.hpp"
+#include "nysalt/energy.hpp"
 #include "nysalt/ensemble.hpp"
+#include "nysalt/ensemble_loop.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {
+
+/// From the least to the largest H that was seen.
+struct energy_range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double energy) {
+    low = std::min(low, energy);
+    high = std::max(high, energy);
+  }
+};
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory.
 template <int N>
@@ -36,6 +56,7 @@ struct flow_map_data {
   std::uint64_t seed = 0;
   std::int64_t evaluations = 0;  // force evaluations that it took, checks included
   double seconds = 0.0;
+  std::optional<energy_range> energies;  // of all starts and finishes; none where H is not known
 
   std::size_t pairs() const { return start.size(); }
   std::size_t trajectories() const { return first_of.empty() ? 0 : first_of.size() - 1; }
@@ -46,6 +67,9 @@ struct data_options {
   double horizon = 0.5;             // length of each trajectory
   std::int64_t trajectories = 100;  // independent starts
   std::uint64_t seed = 1;
+  int threads = 1;  // changes no bit of the data
+  // Told after each trajectory how many are done; from any thread, several at once, in no certain order.
+  std::function<void(std::int64_t done)> progress{};
 };
 
 /// Throws std::invalid_argument unless the data are of this system, hold pairs of its size, all finite, and
@@ -72,69 +96,127 @@ void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
   }
 }
 
-/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each.
-/// Throws std::invalid_argument if there is not one step or trajectory, or if a start does not fit,
-/// std::runtime_error if the reference diverges. Memory: two states a pair.
-template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
-flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
-                                               const data_options& options) {
-  constexpr std::int64_t checks = 16;  // enough for the size of an error
-  const auto began = std::chrono::steady_clock::now();
+namespace detail {
+
+/// floor(horizon/step), if that and the number of trajectories can be.
+inline std::int64_t steps_of_each(const data_options& options) {
   if (!(options.step > 0.0) || !std::isfinite(options.step) || !std::isfinite(options.horizon)) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
                     options.step, options.horizon));
   }
-  const double steps_of_each = std::floor(options.horizon / options.step + 1e-9);
-  if (!(steps_of_each >= 1.0) || options.trajectories < 1) {
+  const double steps = std::floor(options.horizon / options.step + 1e-9);
+  if (!(steps >= 1.0) || options.trajectories < 1) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
         options.trajectories, options.horizon, options.step));
   }
-  if (steps_of_each * static_cast<double>(options.trajectories) > 1e9) {
+  if (steps * static_cast<double>(options.trajectories) > 1e9) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
-        options.trajectories, steps_of_each));
+        options.trajectories, steps));
   }
-  const auto steps = static_cast<std::int64_t>(steps_of_each);
-  const counted<S> watched(system);
+  return static_cast<std::int64_t>(steps);
+}
+
+/// for_each_trajectory, but of the exceptions it is that of the lowest trajectory which leaves the loop: the
+/// one that a single thread meets first.
+template <class Body>
+void for_each_trajectory_or_first_failure(std::int64_t count, int threads, const Body& body) {
+  std::atomic<std::int64_t> failed = count;  // the lowest so far
+  std::exception_ptr failure;
+  std::mutex guard;
+  for_each_trajectory(count, threads, [&](std::int64_t m) {
+    if (m > failed) return;
+    try {
+      body(m);
+    } catch (...) {
+      const std::lock_guard lock(guard);
+      if (m < failed) {
+        failed = m;
+        failure = std::current_exception();
+      }
+    }
+  });
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace detail
+
+/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each. Threads share the
+/// ensemble and the reference; each trajectory has its own copy of the system.
+///
+/// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
+/// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
+/// Memory: two states a pair. Cost: that of the reference, and one energy a pair.
+template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
+flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
+                                               const data_options& options) {
+  constexpr std::size_t checks = 16;  // enough for the size of an error
+  const auto began = std::chrono::steady_clock::now();
+  const std::int64_t steps = detail::steps_of_each(options);
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
-  const std::size_t check_every = total / static_cast<std::size_t>(checks) + 1;
+  const std::size_t check_every = total / checks + 1;
   const R finer = reference.finer();
 
   flow_map_data<S::dimension> data;
-  data.start.reserve(total);
-  data.finish.reserve(total);
-  for (std::int64_t m = 0; m < options.trajectories; ++m) {
-    data.first_of.push_back(data.pairs());
+  for (std::int64_t m = 0; m <= options.trajectories; ++m) {
+    data.first_of.push_back(static_cast<std::size_t>(m * steps));
+  }
+  data.start.resize(total);
+  data.finish.resize(total);
+  data.finer.resize((total - 1) / check_every + 1);
+  std::vector<energy_range> energies(data.trajectories());
+  std::atomic<std::int64_t> evaluations = 0;
+  std::atomic<std::int64_t> done = 0;
+
+  const auto follow = [&](std::int64_t m) {
+    const auto index = static_cast<std::size_t>(m);
+    const counted<S> watched(system);
     auto x = ensemble(options.seed, static_cast<std::uint64_t>(m));
     if (x.q.size() != size(system) || x.p.size() != size(system) || !is_finite(x)) {
       throw std::invalid_argument(
           fmt::format("flow_map_data: start {} of {} is not finite or has not the dimension of {}", m,
                       ensemble.description(), describe(system)));
     }
-    for (std::int64_t n = 0; n < steps; ++n) {
-      if (data.pairs() % check_every == 0) {
-        data.finer.emplace_back(data.pairs(), x);
-        finer.advance(watched, data.finer.back().second, options.step);
+    energy_range seen;
+    if constexpr (HasEnergy<S>) seen.include(energy<double>(system, x));
+    for (std::size_t pair = data.first_of[index]; pair < data.first_of[index + 1]; ++pair) {
+      if (pair % check_every == 0) {
+        auto& check = data.finer[pair / check_every];
+        check = {pair, x};
+        finer.advance(watched, check.second, options.step);
       }
-      data.start.push_back(x);
+      data.start[pair] = x;
       reference.advance(watched, x, options.step);
       if (!is_finite(x)) {
         throw std::runtime_error(
             fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged",
-                        m, n + 1, reference.description()));
+                        m, pair - data.first_of[index] + 1, reference.description()));
       }
-      data.finish.push_back(x);
+      data.finish[pair] = x;
+      if constexpr (HasEnergy<S>) seen.include(energy<double>(system, x));
+    }
+    energies[index] = seen;
+    evaluations += watched.evaluations;
+    const std::int64_t so_far = ++done;
+    if (options.progress) options.progress(so_far);
+  };
+  detail::for_each_trajectory_or_first_failure(options.trajectories, options.threads, follow);
+
+  if constexpr (HasEnergy<S>) {
+    data.energies.emplace();
+    for (const auto& seen : energies) {
+      data.energies->include(seen.low);
+      data.energies->include(seen.high);
     }
   }
-  data.first_of.push_back(data.pairs());
   data.step = options.step;
   data.system = describe(system);
   data.ensemble = ensemble.description();
   data.reference = reference.description();
   data.seed = options.seed;
-  data.evaluations = watched.evaluations;
+  data.evaluations = evaluations;
   data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return data;
 }

@@ -2,6 +2,7 @@
 // Fits a family to the flow map of a system at a step.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -9,11 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/learning/minimise.hpp"
+#include "nysalt/learning/objection.hpp"
 #include "nysalt/losses/one_step.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
@@ -33,36 +35,33 @@ struct learned {
 
 namespace detail {
 
-/// Why a fit should not be used; empty if it may be.
-template <Family F, System S>
-std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta,
-                      bool converged) {
-  if (!converged) return "the search did not converge";
-  // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
-  if (!(fit.held_out_loss < static_cast<double>(fit.coordinates_used))) {
-    return fmt::format("its held-out loss {:.2e} is no better than that of not moving at all",
-                       fit.held_out_loss);
-  }
-  // Equal to rounding is no objection: a search may begin at the optimum, or with all parameters fixed.
-  const double start_loss = fit.held_out_start_loss * (1.0 + 1e-9);
-  if (!(fit.held_out_loss <= start_loss || fit.held_out_loss <= 1e-24)) {
-    return "on held-out data it is worse than the parameters that the search began with";
-  }
-  // A tenth would be too much: what is learned is a small correction, and the reference's error adds to it
-  // like a bias, however many the data.
-  if (fit.reference_checked && !(fit.reference_error <= 0.01 * fit.one_step_error)) {
-    return fmt::format("the reference's own error {:.2e} is not small against the one-step error {:.2e}",
-                       fit.reference_error, fit.one_step_error);
-  }
-  if constexpr (HasFrequencyBands<S>) {
-    const auto windows = stability_windows(member<F>(theta));
-    for (const auto& band : system.frequency_bands()) {
-      if (is_stable(windows, fit.step * band.low, fit.step * band.high)) continue;
-      return fmt::format("it is not linearly stable for the frequencies {:g} to {:g} of the system", band.low,
-                         band.high);
+/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
+/// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
+/// counts less by that part. Without this the standard errors are two to three times too small.
+template <class Loss, int N>
+std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, const theta_of<Loss>& theta) {
+  auto result = block_gradients(loss, theta);
+  const Eigen::MatrixXd by_coordinate = coordinate_gradients(loss, theta, measure.residuals());
+  for (std::size_t m = 0; m < result.size(); ++m) {
+    for (Eigen::Index k = 0; k < measure.residuals(); ++k) {
+      result[m] -= by_coordinate.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
     }
   }
-  return {};
+  return result;
+}
+
+/// The root mean square error of the reference, where it was checked.
+template <int N>
+double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure) {
+  std::vector<double> squares(data.trajectories(), 0.0);
+  Eigen::VectorXd r(measure.residuals());
+  for (const auto& [pair, finish] : data.finer) {
+    const auto next = std::upper_bound(data.first_of.begin(), data.first_of.end(), pair);
+    double& of_trajectory = squares[static_cast<std::size_t>(next - data.first_of.begin()) - 1];
+    measure.residual(finish.q, finish.p, data.finish[pair], r.data());
+    for (const double x : r) of_trajectory += x * x;
+  }
+  return std::sqrt(tree_sum(squares) / static_cast<double>(data.finer.size()));
 }
 
 }  // namespace detail
@@ -123,12 +122,7 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   }
 
   const curvature bend(hessian(loss, theta), free);
-  // The weights are 1/Sigma, and Sigma is estimated: a coordinate whose Sigma comes out larger by some part
-  // counts less by that part. Without this the errors are two to three times too small.
-  const Eigen::MatrixXd by_coordinate =
-      coordinate_gradients(loss, theta, static_cast<std::size_t>(measure.residuals()));
-  const Eigen::VectorXd errors =
-      bend.standard_errors(block_gradients(loss, theta) - by_coordinate * measure.weight_deviations());
+  const Eigen::VectorXd errors = bend.standard_errors(detail::scores(loss, measure, theta));
   fit.family = F::name;
   fit.system = data.system;
   fit.reference = data.reference;
@@ -158,14 +152,8 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   for (const auto& flat : bend.flat_directions()) fit.flat_directions.emplace_back(flat.begin(), flat.end());
   fit.dropped = measure.dropped();
   fit.one_step_error = std::sqrt(fit.loss);
-  Eigen::VectorXd r(measure.residuals());
-  double of_reference = 0.0;
-  for (const auto& [pair, finish] : data.finer) {
-    measure.residual(finish.q, finish.p, data.finish[pair], r.data());
-    of_reference += r.squaredNorm() / static_cast<double>(data.finer.size());
-  }
   fit.reference_checked = !data.finer.empty();
-  fit.reference_error = std::sqrt(of_reference);
+  if (fit.reference_checked) fit.reference_error = detail::error_of_reference(data, measure);
   fit.data_seconds = data.seconds + held_out.seconds;
   fit.learning_evaluations = data.evaluations + held_out.evaluations + watched.evaluations;
   fit.reason = detail::objection<F>(system, fit, theta, converged);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
@@ -18,53 +19,71 @@ inline constexpr int parameters_v = Loss::family::parameters;
 template <class Loss>
 using theta_of = std::array<double, static_cast<std::size_t>(parameters_v<Loss>)>;
 
+/// What each block adds to the loss.
 template <class Loss>
-double loss_value(const Loss& loss, const theta_of<Loss>& theta) {
-  double sum = 0.0;
+std::vector<double> block_losses(const Loss& loss, const theta_of<Loss>& theta) {
+  std::vector<double> result;
   std::vector<double> r;
   for (std::size_t block = 0; block < loss.blocks(); ++block) {
     r.resize(loss.residuals(block));
     loss.template evaluate<double>(block, theta, r.data());
-    double of_block = 0.0;
-    for (const double x : r) of_block += x * x;
-    sum += of_block;
+    double sum = 0.0;
+    for (const double x : r) sum += x * x;
+    result.push_back(sum);
   }
-  return sum;
+  return result;
+}
+template <class Loss>
+double loss_value(const Loss& loss, const theta_of<Loss>& theta) {
+  return tree_sum(block_losses(loss, theta));
 }
 
-/// The exact gradient, spread over columns: residual i of block b counts in column(b, i).
+/// Calls visit(block, i, the exact gradient of the square of residual i), in order.
 /// Cost: one pass over duals.
 template <class Loss>
-Eigen::MatrixXd gradients(const Loss& loss, const theta_of<Loss>& theta, std::size_t columns, auto&& column) {
+void visit_gradients(const Loss& loss, const theta_of<Loss>& theta, const auto& visit) {
   constexpr std::size_t count = static_cast<std::size_t>(parameters_v<Loss>);
   using D = dual<double, parameters_v<Loss>>;
   std::array<D, count> lifted;
   for (std::size_t k = 0; k < count; ++k) lifted[k] = D::variable(theta[k], static_cast<int>(k));
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parameters_v<Loss>, static_cast<Eigen::Index>(columns));
+  Eigen::VectorXd gradient(parameters_v<Loss>);
   std::vector<D> r;
   for (std::size_t block = 0; block < loss.blocks(); ++block) {
     r.resize(loss.residuals(block));
     loss.template evaluate<D>(block, lifted, r.data());
     for (std::size_t i = 0; i < r.size(); ++i) {
-      const auto j = static_cast<Eigen::Index>(column(block, i));
       for (std::size_t k = 0; k < count; ++k) {
-        result(static_cast<Eigen::Index>(k), j) += 2.0 * r[i].value * r[i].derivative[k];
+        gradient[static_cast<Eigen::Index>(k)] = 2.0 * r[i].value * r[i].derivative[k];
       }
+      visit(block, i, gradient);
     }
   }
+}
+
+/// What each block adds to the gradient of the loss.
+template <class Loss>
+std::vector<Eigen::VectorXd> block_gradients(const Loss& loss, const theta_of<Loss>& theta) {
+  std::vector<Eigen::VectorXd> result(loss.blocks(), Eigen::VectorXd::Zero(parameters_v<Loss>));
+  visit_gradients(loss, theta, [&](std::size_t block, std::size_t, const Eigen::VectorXd& gradient) {
+    result[block] += gradient;
+  });
   return result;
 }
-
-/// One column a block: the gradient of the loss is their sum.
 template <class Loss>
-Eigen::MatrixXd block_gradients(const Loss& loss, const theta_of<Loss>& theta) {
-  return gradients(loss, theta, loss.blocks(), [](std::size_t block, std::size_t) { return block; });
+Eigen::VectorXd loss_gradient(const Loss& loss, const theta_of<Loss>& theta) {
+  return tree_sum(block_gradients(loss, theta));
 }
 
-/// One column a coordinate of the metric: the same sum.
+/// What each coordinate of the metric adds to the gradient of the loss: a column each.
 template <class Loss>
-Eigen::MatrixXd coordinate_gradients(const Loss& loss, const theta_of<Loss>& theta, std::size_t coordinates) {
-  return gradients(loss, theta, coordinates, [=](std::size_t, std::size_t i) { return i % coordinates; });
+Eigen::MatrixXd coordinate_gradients(const Loss& loss, const theta_of<Loss>& theta,
+                                     Eigen::Index coordinates) {
+  std::vector<Eigen::MatrixXd> of_block(loss.blocks(),
+                                        Eigen::MatrixXd::Zero(parameters_v<Loss>, coordinates));
+  visit_gradients(loss, theta, [&](std::size_t block, std::size_t i, const Eigen::VectorXd& gradient) {
+    of_block[block].col(static_cast<Eigen::Index>(i) % coordinates) += gradient;
+  });
+  return tree_sum(of_block);
 }
 
 /// The full Hessian (not Gauss-Newton's: residuals do not vanish at the minimum) by central differences of
@@ -79,8 +98,7 @@ Eigen::MatrixXd hessian(const Loss& loss, const theta_of<Loss>& theta) {
     ahead[k] += s;
     behind[k] -= s;
     result.col(static_cast<Eigen::Index>(k)) =
-        (block_gradients(loss, ahead).rowwise().sum() - block_gradients(loss, behind).rowwise().sum()) /
-        (ahead[k] - behind[k]);
+        (loss_gradient(loss, ahead) - loss_gradient(loss, behind)) / (ahead[k] - behind[k]);
   }
   return 0.5 * (result + result.transpose());
 }
@@ -123,11 +141,11 @@ class curvature {
   /// H^+ (sum_b g_b g_b^T) H^+ B/(B - 1), where g_b is what block b adds to the gradient, by its residuals
   /// and by its part in the weights. It holds for a misspecified model, as a learned map is one.
   /// NaN with a single block; infinite along flat directions.
-  Eigen::VectorXd standard_errors(const Eigen::MatrixXd& scores) const {
-    const auto blocks = static_cast<double>(scores.cols());
-    Eigen::MatrixXd spread(size_, scores.cols());
-    for (Eigen::Index b = 0; b < scores.cols(); ++b) spread.col(b) = solve(scores.col(b));
-    Eigen::VectorXd result = (spread.rowwise().squaredNorm() * (blocks / (blocks - 1.0))).cwiseSqrt();
+  Eigen::VectorXd standard_errors(const std::vector<Eigen::VectorXd>& scores) const {
+    const auto blocks = static_cast<double>(scores.size());
+    std::vector<Eigen::VectorXd> squares;
+    for (const auto& score : scores) squares.push_back(solve(score).cwiseAbs2());
+    Eigen::VectorXd result = (tree_sum(squares) * (blocks / (blocks - 1.0))).cwiseSqrt();
     if (blocks < 2.0) result.setConstant(std::numeric_limits<double>::quiet_NaN());
     for (const auto& flat : flat_directions()) {
       for (Eigen::Index i = 0; i < size_; ++i) {

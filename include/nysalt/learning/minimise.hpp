@@ -113,7 +113,7 @@ minimum<Loss> minimise(const Loss& loss, const theta_of<Loss>& start, const std:
   const curvature bend(hessian(loss, theta), free);
   if (!bend.is_minimum()) return result;
   const auto newton_step = [&](const theta_of<Loss>& at, double& decrease) {
-    const Eigen::VectorXd gradient = block_gradients(loss, at).rowwise().sum();
+    const Eigen::VectorXd gradient = loss_gradient(loss, at);
     const Eigen::VectorXd step = bend.solve(gradient);
     decrease = 0.5 * gradient.dot(step);
     return step;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
@@ -100,23 +101,21 @@ class metric {
   void weigh(const flow_map_data<N>& data, coordinates which) {
     weight_ = Eigen::VectorXd::Ones(2 * size_);
     for (Eigen::Index row = 0; row < 2 * size_; ++row) active_.push_back(row);
-    Eigen::VectorXd increment(2 * size_);
-    Eigen::MatrixXd squares =
-        Eigen::MatrixXd::Zero(2 * size_, static_cast<Eigen::Index>(data.trajectories()));
-    Eigen::RowVectorXd shares(squares.cols());
-    Eigen::VectorXd magnitudes = Eigen::VectorXd::Zero(2 * size_);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2 * size_);
+    Eigen::VectorXd increment = zero;
+    std::vector<Eigen::VectorXd> squares(data.trajectories(), zero);  // a term a trajectory
+    std::vector<Eigen::VectorXd> sizes(data.trajectories(), zero);
     const auto total = static_cast<double>(data.pairs());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
-      const auto column = static_cast<Eigen::Index>(m);
       for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
         residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
-        squares.col(column) += increment.cwiseAbs2() / total;
-        magnitudes += sizes_of_terms(data.finish[n]).cwiseAbs2() / total;
+        squares[m] += increment.cwiseAbs2() / total;
+        sizes[m] += sizes_of_terms(data.finish[n]).cwiseAbs2() / total;
       }
-      shares[column] = static_cast<double>(data.first_of[m + 1] - data.first_of[m]) / total;
+      if (which == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
     }
-    if (which == coordinates::energy) squares = squares.colwise().mean().replicate(2 * size_, 1).eval();
-    const Eigen::VectorXd sigma = squares.rowwise().sum();
+    const Eigen::VectorXd sigma = tree_sum(squares);
+    const Eigen::VectorXd magnitudes = tree_sum(sizes);
     active_.clear();
     for (Eigen::Index row = 0; row < 2 * size_; ++row) {
       // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
@@ -131,19 +130,36 @@ class metric {
     }
     if (active_.empty())
       throw std::invalid_argument("nothing moves in the data: there is nothing to learn from");
-    deviations_ = squares(active_, Eigen::all);
-    for (Eigen::Index k = 0; k < residuals(); ++k) {
-      deviations_.row(k) = deviations_.row(k) / sigma[active_[static_cast<std::size_t>(k)]] - shares;
+    deviations_.resize(residuals(), static_cast<Eigen::Index>(data.trajectories()));
+    for (std::size_t m = 0; m < data.trajectories(); ++m) {
+      const double share = static_cast<double>(data.first_of[m + 1] - data.first_of[m]) / total;
+      for (Eigen::Index k = 0; k < residuals(); ++k) {
+        const Eigen::Index row = active_[static_cast<std::size_t>(k)];
+        deviations_(k, static_cast<Eigen::Index>(m)) = squares[m][row] / sigma[row] - share;
+      }
     }
+  }
+
+  static double mean_of(const Eigen::VectorXd& values) {
+    double sum = 0.0;
+    for (const double x : values) sum += x;
+    return sum / static_cast<double>(values.size());
   }
 
   /// Sum of the absolute terms of each coordinate: what its rounding is relative to.
   Eigen::VectorXd sizes_of_terms(const phase_point<double, N>& x) const {
     Eigen::VectorXd result(2 * size_);
-    const bool plain = to_x_.size() == 0;
-    result.head(size_) = plain ? Eigen::VectorXd(x.q.cwiseAbs()) : to_x_.cwiseAbs() * x.q.cwiseAbs();
-    result.tail(size_) = plain ? Eigen::VectorXd(x.p.cwiseAbs()) : to_y_.cwiseAbs() * x.p.cwiseAbs();
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      result[i] = size_of_terms(to_x_, i, x.q);
+      result[size_ + i] = size_of_terms(to_y_, i, x.p);
+    }
     return result;
+  }
+  static double size_of_terms(const Eigen::MatrixXd& to, Eigen::Index i, const vector<double, N>& a) {
+    if (to.size() == 0) return std::abs(a[i]);
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < a.size(); ++j) sum += std::abs(to(i, j) * a[j]);
+    return sum;
   }
 
   Eigen::Index size_;
