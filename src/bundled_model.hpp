@@ -88,7 +88,7 @@ class bundled_model final : public bundled_system {
       const auto held_out = pairs(plan.held_out_seed);
       with_family(plan.family, [&]<class F>(F family) {
         auto [method, fit] = nysalt::learn(family, system_, data, held_out, options_for<F>(plan.how));
-        result.emplace(learned_scheme{std::move(fit), tabulated(method.anywhere()), data.energy_range});
+        result.emplace(learned_scheme{std::move(fit), tabulated(method.anywhere()), data.energies});
       });
     };
     reference_for(plan.step, plan.how.fine_step, with_reference);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/flow_map_data.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
@@ -41,7 +42,7 @@ struct learn_plan {
 struct learned_scheme {
   fit_summary fit;
   tabulated method;
-  std::optional<std::array<double, 2>> energy_range;  // of the training data
+  std::optional<energy_range> energies;  // of the training data
 };
 
 /// Samples of a trajectory: values of all observables at steps 0, every, 2 every, ...

@@ -171,7 +171,7 @@ std::string scheme_text(const learned_scheme& learned, const bundled_system& sys
                 {"seed", fit.seed},
                 {"held_out_seed", fit.held_out_seed},
                 {"versions", {{"nysalt", version}}}};
-  if (learned.energy_range) document["energy_range"] = *learned.energy_range;
+  if (learned.energies) document["energy_range"] = {learned.energies->low, learned.energies->high};
   document["checksum"] = checksum(document);
   return document.dump(2) + "\n";
 }

@@ -24,7 +24,7 @@ std::function<void(std::int64_t)> progress::counter(std::int64_t total) {
   auto last = std::make_shared<std::atomic<std::int64_t>>(0);
   return [this, last, total](std::int64_t done) {
     const std::int64_t percent = 100 * done / total;
-    if (last->exchange(percent) != percent) show(fmt::format("{}: {} %", what_, percent));
+    if (last->exchange(percent) < percent) show(fmt::format("{}: {} %", what_, percent));
   };
 }
 
@@ -35,6 +35,7 @@ void progress::clear() {
 
 void progress::show(const std::string& text) {
   if (!visible_) return;
+  const std::lock_guard lock(showing_);
   shown_ = true;
   fmt::print(stderr, "\r\033[K{}", text);
   std::fflush(stderr);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 
 namespace nysalt::program {
@@ -18,7 +19,7 @@ class progress {
 
   /// Begins a part of the work.
   void part(std::string what);
-  /// To be called with the number of units done, out of `total`; from any thread, one at a time.
+  /// To be called with the number of units done, out of `total`; from any thread.
   std::function<void(std::int64_t)> counter(std::int64_t total);
   /// Takes the line away.
   void clear();
@@ -26,6 +27,7 @@ class progress {
  private:
   void show(const std::string& text);
 
+  std::mutex showing_;
   bool visible_;
   bool shown_ = false;
   std::string what_;
