@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+namespace detail {
+
+/// Entries of a matrix that are not zero, row by row: modes often touch but a few masses.
+struct matrix_entry {
+  std::size_t row;
+  Eigen::Index column;
+  double value;
+};
+inline std::vector<matrix_entry> entries_of(const Eigen::MatrixXd& a) {
+  std::vector<matrix_entry> result;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+      if (a(i, j) != 0.0) result.push_back({static_cast<std::size_t>(i), j, a(i, j)});
+    }
+  }
+  return result;
+}
+
+/// The maps from q to w_k x_k and from p to y_k.
+struct weighted_modes {
+  std::vector<matrix_entry> to_x;
+  std::vector<matrix_entry> to_y;
+};
+
+/// Throws std::invalid_argument if the system's modes are not as many as its degrees of freedom.
+template <System S>
+weighted_modes modes_with_weights(const S& system) {
+  const Eigen::Index n = size(system);
+  Eigen::MatrixXd to_modes = Eigen::MatrixXd::Identity(n, n);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
+  if constexpr (HasModes<S>) {
+    const normal_modes modes = system.modes();
+    if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n) {
+      throw std::invalid_argument(
+          fmt::format("the state error needs {} modes of {}, each with a frequency", n, describe(system)));
+    }
+    to_modes = modes.basis.transpose();
+    weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
+  }
+  Eigen::VectorXd root_mass = Eigen::VectorXd::Ones(n);
+  if constexpr (HasInverseMass<S>) {
+    for (Eigen::Index i = 0; i < n; ++i) root_mass[i] = 1.0 / std::sqrt(system.inverse_mass(i));
+  }
+  const Eigen::MatrixXd to_x = weights.asDiagonal() * to_modes * root_mass.asDiagonal();
+  const Eigen::MatrixXd to_y = to_modes * root_mass.cwiseInverse().asDiagonal();
+  return {entries_of(to_x), entries_of(to_y)};
+}
+
+}  // namespace detail
+
+/// The error of the state in the energy norm, e^2 = sum_k w_k^2 dx_k^2 + dy_k^2 in the system's modes
+/// x = U^T M^{1/2} q, y = U^T M^{-1/2} p: sqrt(mean over trajectories and times of e^2), absolute. A mode of
+/// frequency zero has weight 1; a system without modes() is measured in mass-weighted coordinates, all
+/// weights 1. Throws std::invalid_argument if modes() has not the system's size. Cost of a sample: a product
+/// with each entry of 2 N modes that is not zero.
+template <System S>
+error_measure<S::dimension> state_measure(const S& system) {
+  using numbers = std::span<const double>;
+  const auto n = static_cast<std::size_t>(size(system));
+  const auto read = [n, modes = detail::modes_with_weights(system)](const auto& x, std::span<double> result) {
+    std::fill(result.begin(), result.end(), 0.0);
+    for (const auto& [k, i, value] : modes.to_x) result[k] += value * x.q[i];
+    for (const auto& [k, i, value] : modes.to_y) result[n + k] += value * x.p[i];
+  };
+  const auto error = [](numbers seen, numbers expected, numbers) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      sum += (seen[k] - expected[k]) * (seen[k] - expected[k]);
+    }
+    return sum;
+  };
+  return {"state", 2 * n, read, error, averaging::root_of_all};
+}
+
+}  // namespace nysalt
