@@ -8,7 +8,6 @@
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
-#include "nysalt/analysis/path_error.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
