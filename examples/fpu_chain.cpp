@@ -6,8 +6,6 @@
 // this step from a hundred short trajectories, and let it run against methods of the same cost.
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "nysalt/learner.hpp"
 #include "nysalt/nysalt.hpp"
 
@@ -35,14 +33,14 @@ int main() {
   fmt::print("{}\n\n", end.diverged_at ? "diverged" : "did not diverge");
 
   // Compare, each at the cost of two force evaluations per step of 0.03.
-  std::vector<phase_point<double, 6>> starts;
-  for (std::uint64_t n = 0; n < 100; ++n) starts.push_back(law(3, n));
-  const auto observable = [&](const auto& x) { return chain.stiff_energy(x); };
+  const auto measure = path_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
   const auto report = [&](const auto& other, double its_step, std::int64_t steps) {
-    const auto paths = reference_paths(chain, reference, its_step, steps, starts, observable);
-    const auto result = path_error(chain, other, its_step, starts, paths, observable);
+    const auto result = trajectory_errors(chain, reference, law, other, measure,
+                                          {.step = its_step, .steps = steps, .trajectories = 100, .seed = 3});
+    const auto& of_method = result.methods[0];
     fmt::print("{:<16} step {:.3f} {:5.1f} evaluations/time  error {:.1e} +- {:.0e}\n", other.name(),
-               its_step, result.evaluations_per_time, result.error.mean, result.error.standard_error);
+               its_step, of_method.evaluations_per_time, of_method.error.mean,
+               of_method.error.standard_error);
   };
   report(method, step, 16);
   report(mclachlan2{}, step, 16);

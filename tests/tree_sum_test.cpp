@@ -4,14 +4,18 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "nysalt/ensemble_loop.hpp"
+#include "support/refusal.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE(it_adds_every_term_once) {
   for (std::size_t n = 1; n < 200; ++n) {
@@ -47,11 +51,20 @@ BOOST_AUTO_TEST_CASE(every_trajectory_is_visited_once_by_any_number_of_threads) 
   BOOST_CHECK_THROW(for_each_trajectory(1, 0, [](std::int64_t) {}), std::invalid_argument);
 }
 
-BOOST_AUTO_TEST_CASE(an_exception_leaves_the_loop) {
-  for (const int threads : {1, 3}) {
-    const auto body = [](std::int64_t m) {
-      if (m == 17) throw std::runtime_error("17");
+// The later one is thrown long before the earlier one can be.
+BOOST_AUTO_TEST_CASE(the_first_exception_leaves_the_loop) {
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<bool> later = false;
+    const auto body = [&](std::int64_t m) {
+      if (m == 90) {
+        later = true;
+        throw std::runtime_error("90");
+      }
+      if (m != 17) return;
+      const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+      while (threads > 1 && !later && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
+      throw std::runtime_error("17");
     };
-    BOOST_CHECK_THROW(for_each_trajectory(100, threads, body), std::runtime_error);
+    BOOST_TEST(refuses<std::runtime_error>([&] { for_each_trajectory(100, threads, body); }, {"17"}));
   }
 }

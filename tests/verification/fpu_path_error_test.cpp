@@ -2,7 +2,8 @@
 // Errors of the total stiff energy on short trajectories of the FPU chain, learned against Verlet.
 #include <boost/test/unit_test.hpp>
 
-#include "nysalt/analysis/path_error.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learner.hpp"
@@ -26,20 +27,20 @@ BOOST_AUTO_TEST_CASE(errors_are_the_known_ones) {
   const fpu_chain<3> system(50.0);
   const fpu_law<3> law(system);
   const fine_steps<> reference(2.5e-4);
-  std::vector<phase_point<double, 6>> starts;
-  for (std::uint64_t m = 0; m < 400; ++m) starts.push_back(law(3, m));
-  const auto observable = [&](const auto& x) { return system.stiff_energy(x); };
+  const auto measure = path_measure(system, [&](const auto& x) { return system.stiff_energy(x); });
   for (const auto& expected : known) {
     const auto data = make_flow_map_data(system, law, reference, {.step = expected.step, .seed = 1});
     const auto held_out = make_flow_map_data(system, law, reference, {.step = expected.step, .seed = 2});
     const auto fit = learn(nystrom{}, system, data, held_out);
     const auto steps = static_cast<std::int64_t>(0.5 / expected.step + 1e-9);
-    const auto paths = reference_paths(system, reference, expected.step, steps, starts, observable);
+    const trajectory_options options{.step = expected.step, .steps = steps, .trajectories = 400, .seed = 3};
     const auto error = [&](const auto& method) {
-      const auto result = path_error(system, method, expected.step, starts, paths, observable);
+      const auto judged = trajectory_errors(system, reference, law, method, measure, options);
+      const auto& result = judged.methods[0];
       BOOST_TEST_MESSAGE("step " << expected.step << ", " << method.name() << ": " << result.error.mean
                                  << " +- " << result.error.standard_error);
       BOOST_TEST(result.diverged == 0);
+      BOOST_TEST(judged.reference_error->mean < 1e-3 * result.error.mean);
       return result.error.mean;
     };
     BOOST_TEST_CONTEXT("step " << expected.step << ", " << fit.summary.brief()) {

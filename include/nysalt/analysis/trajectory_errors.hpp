@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/analysis/error_along.hpp"
+#include "nysalt/analysis/method_error.hpp"
 #include "nysalt/counted.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
@@ -33,24 +33,16 @@ struct trajectory_options {
   std::function<void(std::int64_t done)> progress = {};  // after each trajectory; never two calls at once
 };
 
-/// A trajectory that a method could not follow, and the step at which that was seen.
-struct diverged_trajectory {
-  std::int64_t trajectory;
-  std::int64_t step;
-};
-
-struct method_error {
-  estimate error;                                // over the trajectories that did not diverge
-  std::int64_t diverged = 0;                     // trajectories
-  std::vector<diverged_trajectory> diverged_at;  // in their order
-  double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
-};
-
 struct trajectory_errors_result {
   std::vector<method_error> methods;        // in the order in which they were given
   std::optional<estimate> reference_error;  // against its finer self; nothing if no reference was needed
   std::string reference;                    // its description, or empty
 };
+
+/// A vector, array or span of methods of one type.
+template <class C>
+concept Methods =
+    std::ranges::contiguous_range<C> && std::ranges::sized_range<C> && Method<std::ranges::range_value_t<C>>;
 
 namespace detail {
 
@@ -93,83 +85,69 @@ double evaluations_per_time(const S& system, const M& method, const phase_point<
   return static_cast<double>(watched.evaluations) / time;
 }
 
-template <int N>
-method_error summary_of(const std::vector<run_score>& runs, const error_measure<N>& measure) {
-  method_error result;
-  std::vector<double> scores;
-  for (const auto& run : runs) {
-    if (run.diverged_at) result.diverged_at.push_back({std::ssize(scores), *run.diverged_at});
-    scores.push_back(run.value);
-  }
-  result.diverged = std::ssize(result.diverged_at);
-  result.error = measure.average(scores);
-  return result;
-}
-
 }  // namespace detail
 
 /// Runs the reference once along each trajectory, keeps the numbers that the measure reads, and follows
-/// every method beside it: any type of method, one or a vector, array or span of them. The reference's own
-/// error is taken on the first 16 trajectories. The number of threads changes no bit.
+/// every method beside it. The reference's own error is taken on the first 16 trajectories. The number of
+/// threads changes no bit.
 ///
 /// System, reference, ensemble and measure are used by several threads at once. Memory: per thread
-/// steps * width numbers, and 24 bytes for each method and trajectory.
+/// steps * width numbers (twice that for the first 16), and 24 bytes for each method and trajectory.
 /// Throws std::invalid_argument if there is not one step or trajectory, they do not fit into memory, a start
 /// does not fit, or what method, reference and measure refuse; std::runtime_error if the reference is not
 /// finite. Of several trajectories in trouble it is the first that is named.
-template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, std::ranges::contiguous_range Methods>
-  requires Method<std::ranges::range_value_t<Methods>> trajectory_errors_result
-  trajectory_errors(const S& system, const R& reference, const E& ensemble, const Methods& methods,
-                    const error_measure<S::dimension>& measure, const trajectory_options& options) {
-    constexpr std::int64_t most_checks = 16;  // enough for the size of an error
-    const std::size_t count = std::ranges::size(methods);
-    detail::require_sound(options, count, measure.needs_reference ? measure.width : 0);
-    std::vector<decltype(make_stepper(system, *std::ranges::data(methods), options.step))> steppers;
-    for (const auto& method : methods) steppers.push_back(make_stepper(system, method, options.step));
+template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Methods Given>
+trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
+                                           const Given& methods, const error_measure<S::dimension>& measure,
+                                           const trajectory_options& options) {
+  constexpr std::int64_t most_checks = 16;  // enough for the size of an error
+  const std::size_t count = std::ranges::size(methods);
+  detail::require_sound(options, count, measure.needs_reference ? measure.width : 0);
+  std::vector<decltype(make_stepper(system, *std::ranges::data(methods), options.step))> steppers;
+  for (const auto& method : methods) steppers.push_back(make_stepper(system, method, options.step));
 
-    const auto trajectories = static_cast<std::size_t>(options.trajectories);
-    std::vector<std::vector<run_score>> runs(count, std::vector<run_score>(trajectories));
-    std::vector<double> checks;
-    if (measure.needs_reference) checks.resize(std::min<std::size_t>(trajectories, most_checks));
+  const auto trajectories = static_cast<std::size_t>(options.trajectories);
+  std::vector<std::vector<run_score>> runs(count, std::vector<run_score>(trajectories));
+  std::vector<double> checks;
+  if (measure.needs_reference) checks.resize(std::min<std::size_t>(trajectories, most_checks));
 
-    std::mutex telling;
-    std::int64_t done = 0;
-    for_each_trajectory(options.trajectories, options.threads, [&](std::int64_t m) {
-      const auto slot = static_cast<std::size_t>(m);
-      const auto start = detail::sound_start(system, ensemble, options.seed, m);
-      const auto at_start = measure.numbers_of(start);
-      const auto along = [&](const R& its) {
-        return reference_numbers(system, its, options.step, options.steps, start, measure, m);
-      };
-      std::vector<double> expected;
-      if (measure.needs_reference) expected = along(reference);
-      if (slot < checks.size()) {
-        const auto finer = along(reference.finer());
-        checks[slot] = score_of_path<S::dimension>(expected, measure, error_sum(measure, finer, at_start));
-      }
-      for (std::size_t k = 0; k < count; ++k) {
-        const error_sum errors(measure, expected, at_start);
-        runs[k][slot] = score_of_run(steppers[k], start, options.steps, measure, errors);
-      }
-      const std::lock_guard lock(telling);
-      ++done;
-      if (options.progress) options.progress(done);
-    });
-
-    trajectory_errors_result result;
-    const auto first = ensemble(options.seed, 0);
-    for (const auto& method : methods) {
-      const auto& its_runs = runs[result.methods.size()];
-      result.methods.push_back(detail::summary_of(its_runs, measure));
-      result.methods.back().evaluations_per_time =
-          detail::evaluations_per_time(system, method, first, options);
+  std::mutex telling;
+  std::int64_t done = 0;
+  for_each_trajectory(options.trajectories, options.threads, [&](std::int64_t m) {
+    const auto slot = static_cast<std::size_t>(m);
+    const auto start = detail::sound_start(system, ensemble, options.seed, m);
+    const auto at_start = measure.numbers_of(start);
+    const auto along = [&](const R& its) {
+      return reference_numbers(system, its, options.step, options.steps, start, measure, m);
+    };
+    std::vector<double> expected;
+    if (measure.needs_reference) expected = along(reference);
+    if (slot < checks.size()) {
+      const auto finer = along(reference.finer());
+      checks[slot] = score_of_path<S::dimension>(expected, measure, error_sum(measure, finer, at_start));
     }
-    if (measure.needs_reference) {
-      result.reference_error = measure.average(checks);
-      result.reference = reference.description();
+    for (std::size_t k = 0; k < count; ++k) {
+      const error_sum errors(measure, expected, at_start);
+      runs[k][slot] = score_of_run(steppers[k], start, options.steps, measure, errors);
     }
-    return result;
+    const std::lock_guard lock(telling);
+    ++done;
+    if (options.progress) options.progress(done);
+  });
+
+  trajectory_errors_result result;
+  const auto first = ensemble(options.seed, 0);
+  for (const auto& method : methods) {
+    const auto& its_runs = runs[result.methods.size()];
+    result.methods.push_back(error_of_runs(its_runs, measure));
+    result.methods.back().evaluations_per_time = detail::evaluations_per_time(system, method, first, options);
   }
+  if (measure.needs_reference) {
+    result.reference_error = measure.average(checks);
+    result.reference = reference.description();
+  }
+  return result;
+}
 
 /// The same for one method.
 template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Method M>

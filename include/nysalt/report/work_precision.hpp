@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/analysis/path_error.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/report/plot.hpp"
 #include "nysalt/report/table.hpp"
 

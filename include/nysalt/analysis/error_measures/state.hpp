@@ -18,13 +18,13 @@ namespace nysalt {
 namespace detail {
 
 /// Entries of a matrix that are not zero, row by row: modes often touch but a few masses.
-struct entry {
+struct matrix_entry {
   std::size_t row;
   Eigen::Index column;
   double value;
 };
-inline std::vector<entry> entries_of(const Eigen::MatrixXd& a) {
-  std::vector<entry> result;
+inline std::vector<matrix_entry> entries_of(const Eigen::MatrixXd& a) {
+  std::vector<matrix_entry> result;
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
     for (Eigen::Index j = 0; j < a.cols(); ++j) {
       if (a(i, j) != 0.0) result.push_back({static_cast<std::size_t>(i), j, a(i, j)});
@@ -35,8 +35,8 @@ inline std::vector<entry> entries_of(const Eigen::MatrixXd& a) {
 
 /// The maps from q to w_k x_k and from p to y_k.
 struct weighted_modes {
-  std::vector<entry> to_x;
-  std::vector<entry> to_y;
+  std::vector<matrix_entry> to_x;
+  std::vector<matrix_entry> to_y;
 };
 
 /// Throws std::invalid_argument if the system's modes are not as many as its degrees of freedom.

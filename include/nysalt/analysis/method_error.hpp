@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSL-1.0
+// What the runs of one method come to.
+#pragma once
+
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "nysalt/analysis/error_along.hpp"
+
+namespace nysalt {
+
+/// A trajectory that a method could not follow, and the step at which that was seen.
+struct diverged_trajectory {
+  std::int64_t trajectory;
+  std::int64_t step;
+};
+
+struct method_error {
+  estimate error;                                // over the trajectories that did not diverge
+  std::int64_t diverged = 0;                     // trajectories
+  std::vector<diverged_trajectory> diverged_at;  // in their order
+  double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
+};
+
+/// From the runs of all trajectories, in their order. What a run cost is counted elsewhere.
+template <int N>
+method_error error_of_runs(const std::vector<run_score>& runs, const error_measure<N>& measure) {
+  method_error result;
+  std::vector<double> scores;
+  for (const auto& run : runs) {
+    if (run.diverged_at) result.diverged_at.push_back({std::ssize(scores), *run.diverged_at});
+    scores.push_back(run.value);
+  }
+  result.diverged = std::ssize(result.diverged_at);
+  result.error = measure.average(scores);
+  return result;
+}
+
+}  // namespace nysalt

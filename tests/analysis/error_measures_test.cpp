@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSL-1.0
+// Measures against their formulas, on states made by hand.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/analysis/error_along.hpp"
+#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+const auto near = boost::test_tools::tolerance(32 * eps);  // a few dozen operations
+
+phase_point<double, 1> at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
+
+/// The error of one sample.
+template <int N>
+double error_of(const error_measure<N>& measure, const phase_point<double, N>& seen,
+                const phase_point<double, N>& expected) {
+  const auto there = measure.numbers_of(expected);
+  return measure.error(measure.numbers_of(seen), there, there);
+}
+
+/// An oscillator of frequency 1 whose energy is 2 lower.
+struct lowered : harmonic_oscillator {
+  lowered() : harmonic_oscillator(1.0) {}
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return harmonic_oscillator::potential(q) - 2.0;
+  }
+};
+
+const harmonic_oscillator oscillator(3.0);
+const auto position = path_measure(oscillator, [](const auto& x) { return x.q[0]; });
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_path_error_is_relative_to_the_observable) {
+  BOOST_TEST(position.width == 1U);
+  BOOST_TEST(position.needs_reference);
+  BOOST_TEST(error_of(position, at(1.25, 7.0), at(1.0, 2.0)) == 0.0625);
+  BOOST_TEST(error_of(position, at(-2.0, 0.0), at(-1.0, 0.0)) == 1.0);
+  BOOST_TEST(error_of(position, at(1.0, 7.0), at(1.0, 2.0)) == 0.0);
+  BOOST_TEST(refuses<std::invalid_argument>([] { error_of(position, at(1.0, 0.0), at(0.0, 1.0)); },
+                                            {"path error", "which is 0", "another observable"}));
+}
+
+// sqrt((.0625 + 1)/2) for one trajectory; then the mean of .5 and 1.
+BOOST_AUTO_TEST_CASE(roots_of_each_trajectory_are_averaged) {
+  const std::vector<double> expected{1.0, -1.0};
+  const std::vector<double> path{1.25, -2.0};
+  const auto start = position.numbers_of(at(1.0, 0.0));
+  const double score = score_of_path<1>(path, position, error_sum(position, expected, start));
+  BOOST_TEST(score == std::sqrt(1.0625 / 2.0), near);
+  const auto [mean, error] = position.average(std::vector<double>{0.5, 1.0});
+  BOOST_TEST(mean == 0.75, near);
+  BOOST_TEST(error == 0.25, near);
+}
+
+BOOST_AUTO_TEST_CASE(the_state_error_weighs_modes_by_frequency) {
+  BOOST_TEST(error_of(state_measure(oscillator), at(1.5, 2.0), at(1.0, 1.0)) == 9.0 * 0.25 + 1.0, near);
+  // On the chain x_0 = (q_2 + q_1)/sqrt 2 has frequency 0, and x_1 = (q_2 - q_1)/sqrt 2 has omega.
+  const fpu_chain<1> chain(50.0);
+  const auto measure = state_measure(chain);
+  const phase_point<double, 2> origin{{0.0, 0.0}, {0.0, 0.0}};
+  const auto error = [&](double q1, double q2, double p1, double p2) {
+    return error_of(measure, {{q1, q2}, {p1, p2}}, origin);
+  };
+  BOOST_TEST(measure.width == 4U);
+  BOOST_TEST(error(1.0, 1.0, 0.0, 0.0) == 2.0, near);  // weight 1, not 0
+  BOOST_TEST(error(-1.0, 1.0, 0.0, 0.0) == 2.0 * 2500.0, near);
+  BOOST_TEST(error(0.0, 0.0, -1.0, 1.0) == 2.0, near);
+  BOOST_TEST(error(0.0, 0.0, 3.0, 0.0) == 9.0, near);
+}
+
+// Twice the energy is the energy norm, for any masses, in all modes that have a frequency.
+BOOST_AUTO_TEST_CASE(the_state_error_of_a_linear_chain_is_twice_its_energy) {
+  const Eigen::MatrixXd stiffness{{3.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 5.0}};
+  const linear_chain chain(stiffness, Eigen::VectorXd{{1.0, 4.0, 0.25}});
+  const Eigen::VectorXd q{{0.3, -0.2, 0.7}};
+  const Eigen::VectorXd p{{1.0, 0.5, -2.0}};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3);
+  const phase_point<double, Eigen::Dynamic> x{q, p};
+  const double twice = 2.0 * energy<double>(chain, x);
+  // The eigenvectors of three masses are good to some 100 eps.
+  BOOST_TEST(error_of(state_measure(chain), x, {zero, zero}) == twice,
+             boost::test_tools::tolerance(1000 * eps));
+  const linear_chain other(stiffness);
+  BOOST_TEST(std::abs(error_of(state_measure(other), x, {zero, zero}) - twice) > 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(without_modes_the_state_error_is_mass_weighted) {
+  const auto measure = state_measure(two_masses());  // masses 1 and 4
+  const phase_point<double, 2> origin{{0.0, 0.0}, {0.0, 0.0}};
+  BOOST_TEST(error_of(measure, {{1.0, 2.0}, {3.0, 4.0}}, origin) == 1.0 + 4.0 * 4.0 + 9.0 + 16.0 / 4.0, near);
+  const phase_point<double, 1> shifted = at(0.25, -1.0);
+  BOOST_TEST(error_of(state_measure(relativistic()), at(0.75, -1.0), shifted) == 0.25);  // no masses at all
+}
+
+BOOST_AUTO_TEST_CASE(modes_of_another_size_are_refused) {
+  struct wrong_modes : henon_heiles {
+    normal_modes modes() const { return {Eigen::MatrixXd::Identity(2, 2), Eigen::VectorXd::Ones(1)}; }
+  };
+  BOOST_CHECK_NO_THROW(state_measure(henon_heiles()));
+  BOOST_TEST(refuses<std::invalid_argument>([] { state_measure(wrong_modes()); },
+                                            {"state error", "2 modes", "henon_heiles"}));
+}
+
+// The standard error of a root is that of the mean below it, over twice the root.
+BOOST_AUTO_TEST_CASE(the_root_of_all_has_its_error_by_the_delta_method) {
+  const auto measure = state_measure(oscillator);
+  const std::vector<double> scores{1.0, 4.0, NAN, 7.0};
+  const auto below = mean_and_error(scores);
+  const auto [mean, error] = measure.average(scores);
+  BOOST_TEST(mean == 2.0, near);
+  BOOST_TEST(error == below.standard_error / 4.0, near);
+  BOOST_TEST(measure.average(std::vector<double>{0.0, 0.0}).standard_error == 0.0);
+  BOOST_TEST(std::isnan(measure.average(std::vector<double>{NAN, NAN}).mean));
+  BOOST_TEST(std::isnan(measure.average(std::vector<double>{4.0}).standard_error));
+}
+
+BOOST_AUTO_TEST_CASE(the_exchange_error_is_relative_to_the_whole_stiff_energy) {
+  const fpu_chain<2> chain(50.0);
+  const auto measure = exchange_measure(chain);
+  // I_j = (p_{2j+1} - p_{2j})^2/4 where no spring is stretched.
+  const auto moving = [](double first, double second) {
+    return phase_point<double, 4>{{0.0, 0.0, 0.0, 0.0}, {0.0, first, 0.0, second}};
+  };
+  BOOST_TEST(measure.width == 2U);
+  BOOST_TEST(error_of(measure, moving(2.0, 4.0), moving(4.0, 2.0)) == (3.0 + 3.0) / 5.0, near);  // I agrees
+  BOOST_TEST(error_of(measure, moving(-4.0, 2.0), moving(4.0, 2.0)) == 0.0);
+  BOOST_TEST(measure.average(std::vector<double>{0.5, 1.0}).mean == 0.75, near);
+  BOOST_TEST(measure.score(3.0, 4.0) == 0.75);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { error_of(measure, moving(1.0, 1.0), moving(0.0, 0.0)); },
+                                            {"exchange error", "which is 0"}));
+  static_assert(HasStiffEnergies<fpu_chain<>>);
+  static_assert(!HasStiffEnergies<henon_heiles>);
+}
+
+BOOST_AUTO_TEST_CASE(the_energy_error_is_relative_to_the_start) {
+  const auto measure = energy_measure(oscillator);
+  BOOST_TEST(!measure.needs_reference);
+  const auto error = [&](const auto& seen, const auto& start) {
+    return measure.error(measure.numbers_of(seen), {}, measure.numbers_of(start));
+  };
+  BOOST_TEST(error(at(0.0, 3.0), at(0.0, 2.0)) == 2.5 * 2.5 / 4.0, near);
+  BOOST_TEST(error(at(2.0 / 3.0, 0.0), at(0.0, 2.0)) == 0.0);  // the same energy elsewhere
+  BOOST_TEST(measure.average(std::vector<double>{4.0, 4.0}).mean == 2.0, near);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { error(at(0.0, 1.0), at(0.0, 0.0)); },
+                                            {"energy error", "start", "which is 0"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_negative_energy_is_as_good) {
+  const auto measure = energy_measure(lowered());
+  const auto seen = measure.numbers_of(at(0.0, 1.0));   // 1/2 - 2
+  const auto start = measure.numbers_of(at(1.0, 1.0));  // 1 - 2
+  BOOST_TEST(measure.error(seen, {}, start) == 0.25, near);
+}
+
+BOOST_AUTO_TEST_CASE(a_sum_tells_where_it_was_lost) {
+  const std::vector<double> expected{1.0, 1.0, 1.0, 1.0};
+  const std::vector<double> start{1.0};
+  error_sum errors(position, expected, start);
+  errors.add(1, std::vector<double>{2.0});
+  errors.add(2, std::vector<double>{2.0});
+  BOOST_TEST(!errors.lost_at().has_value());
+  BOOST_TEST(errors.score() == 1.0);
+  errors.add(3, std::vector<double>{1e200});
+  errors.add(4, std::vector<double>{NAN});
+  BOOST_TEST(errors.lost_at().value() == 3);
+}

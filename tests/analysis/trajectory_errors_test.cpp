@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSL-1.0
+// Many methods against one reference, along many trajectories.
+#include "nysalt/analysis/trajectory_errors.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using state = phase_point<double, 6>;
+using pair = member<nystrom>;
+const fpu_chain<3> chain(50.0);
+const fpu_law<3> law(chain);
+const fine_steps<> reference(5e-4);
+const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
+const auto path = path_measure(chain, stiff_energy);
+
+/// Two of one type: two half Verlets, and nearly McLachlan.
+const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
+
+/// No reference: it throws when it is asked.
+struct no_reference {
+  void advance(const fpu_chain<3>&, state&, double) const { throw std::logic_error("it was asked"); }
+  no_reference finer() const { throw std::logic_error("it was asked"); }
+  std::string description() const { throw std::logic_error("it was asked"); }
+};
+
+/// Not finite after the given number of steps, all trajectories together; its finer self lasts.
+struct breaking {
+  std::int64_t steps_that_last;
+  mutable std::int64_t taken = 0;
+  template <class S>
+  void advance(const S& system, state& x, double t) const {
+    reference.advance(system, x, t);
+    if (taken++ >= steps_that_last) x.p[2] = NAN;
+  }
+  breaking finer() const { return {1000}; }
+  std::string description() const { return "one that breaks"; }
+};
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const estimate& a, const estimate& b) {
+  return same_bits(a.mean, b.mean) && same_bits(a.standard_error, b.standard_error);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_method_has_no_error_against_itself) {
+  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 5};
+  const auto of = [&](const auto& method) {
+    return trajectory_errors(chain, fine_steps<verlet>(.01), law, method, path, options);
+  };
+  // Stepping without merging differs by rounding, some 20 of them a step, which 20 steps magnify little.
+  const auto own = of(verlet());
+  BOOST_TEST(own.methods[0].error.mean <= 20 * 20 * eps * 10.0);
+  BOOST_TEST(of(verlet_2x()).methods[0].error.mean > 1e-3);
+  // What "finer" means here: two Verlets for one, as the method that was just judged.
+  BOOST_TEST(own.reference == "verlet with step 0.01");
+  BOOST_TEST(own.reference_error.value().mean == of(verlet_2x()).methods[0].error.mean,
+             boost::test_tools::tolerance(.1));  // relative to either of two paths that differ by 3 %
+}
+
+/// The formulas once more, over paths that are kept.
+BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
+  constexpr std::int64_t trajectories = 3;
+  constexpr std::int64_t steps = 70;  // more than integrate goes without looking
+  double mean = 0.0;
+  double exchanged = 0.0;
+  for (std::uint64_t m = 0; m < trajectories; ++m) {
+    auto x = law(7, m);
+    auto y = x;
+    double squares = 0.0;
+    for (int n = 0; n < steps; ++n) {
+      reference.advance(chain, x, .01);
+      make_stepper(chain, verlet(), .01).step(y);
+      const double relative = stiff_energy(y) / stiff_energy(x) - 1.0;
+      squares += relative * relative / steps;
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        exchanged += std::abs(chain.stiff_energy(y, j) - chain.stiff_energy(x, j)) / stiff_energy(x) /
+                     (steps * trajectories);
+      }
+    }
+    mean += std::sqrt(squares) / trajectories;
+  }
+  const trajectory_options options{.step = .01, .steps = steps, .trajectories = trajectories, .seed = 7};
+  const auto error = [&](const auto& measure) {
+    return trajectory_errors(chain, reference, law, verlet(), measure, options).methods[0].error.mean;
+  };
+  // Merging rounds otherwise, 1e-16 a step, and errors of 1e-2 are differences of numbers near 2.
+  const auto near = boost::test_tools::tolerance(1e-10);
+  BOOST_TEST(error(path) == mean, near);
+  BOOST_TEST(error(exchange_measure(chain)) == exchanged, near);
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_second_order_fall_by_four_with_the_step) {
+  const auto error = [](const auto& measure, double step) {
+    const auto steps = static_cast<std::int64_t>(.5 / step + .5);
+    const trajectory_options options{.step = step, .steps = steps, .trajectories = 20};
+    const auto result = trajectory_errors(chain, reference, law, verlet(), measure, options);
+    if (result.reference_error)
+      BOOST_TEST(result.reference_error->mean < 1e-5 * result.methods[0].error.mean);
+    return result.methods[0].error.mean;
+  };
+  const auto ratio = [&](const auto& measure) { return error(measure, .005) / error(measure, .0025); };
+  // The next term is z^2 = 1/16 of the first, so that the ratio is off by 6 % or so.
+  const auto near = boost::test_tools::tolerance(.08);
+  BOOST_TEST(ratio(path) == 4.0, near);
+  BOOST_TEST(ratio(state_measure(chain)) == 4.0, near);
+  BOOST_TEST(ratio(exchange_measure(chain)) == 4.0, near);
+  BOOST_TEST(ratio(energy_measure(chain)) == 4.0, near);
+}
+
+BOOST_AUTO_TEST_CASE(methods_beside_each_other_do_not_notice) {
+  const trajectory_options options{.step = .02, .steps = 25, .trajectories = 20};
+  const auto both = trajectory_errors(chain, reference, law, pairs, path, options);
+  const auto span = trajectory_errors(chain, reference, law, std::span<const pair>(pairs), path, options);
+  BOOST_REQUIRE(both.methods.size() == 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto alone = trajectory_errors(chain, reference, law, pairs[k], path, options);
+    BOOST_TEST(same_bits(both.methods[k].error, alone.methods[0].error));
+    BOOST_TEST(same_bits(both.methods[k].error, span.methods[k].error));
+  }
+  BOOST_TEST(both.methods[0].error.mean > 3.0 * both.methods[1].error.mean);
+  BOOST_TEST(both.reference == reference.description());
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
+  // At z = 2.5 some of these diverge.
+  for (const double step : {.02, .05}) {
+    const auto run = [&](int threads) {
+      const trajectory_options options{.step = step, .steps = 20, .trajectories = 50, .threads = threads};
+      return trajectory_errors(chain, reference, law, std::array<verlet, 1>(), state_measure(chain), options);
+    };
+    const auto one = run(1);
+    for (const int threads : {2, 5}) {
+      const auto several = run(threads);
+      BOOST_TEST(same_bits(several.methods[0].error, one.methods[0].error));
+      BOOST_TEST(same_bits(several.reference_error.value(), one.reference_error.value()));
+      BOOST_TEST(several.methods[0].diverged == one.methods[0].diverged);
+      BOOST_TEST(several.methods[0].diverged_at.size() == one.methods[0].diverged_at.size());
+    }
+    BOOST_TEST((one.methods[0].diverged > 0) == (step == .05));
+  }
+}
+
+// At z = 2.5 Verlet is unstable and magnifies stiff motion by 4 in a step; in 8 steps a chain that hardly
+// moves does not get there.
+BOOST_AUTO_TEST_CASE(diverged_trajectories_are_told_and_left_out) {
+  constexpr std::int64_t steps = 8;
+  const state at_rest{vector<double, 6>::Constant(1e-3), vector<double, 6>::Constant(1e-3)};
+  const auto measure = path_measure(chain, [](const state& x) { return 2.0 + x.q[0]; });
+  const auto of = [&](const std::vector<state>& starts) {
+    const trajectory_options options{.step = .05, .steps = steps, .trajectories = std::ssize(starts)};
+    return trajectory_errors(chain, reference, listed<6>(starts), verlet(), measure, options).methods[0];
+  };
+  const auto all = of({law(1, 0), at_rest, law(1, 1)});
+  const auto alone = of({at_rest});
+  BOOST_TEST(all.diverged == 2);
+  BOOST_REQUIRE(all.diverged_at.size() == 2U);
+  BOOST_TEST(all.diverged_at[0].trajectory == 0);
+  BOOST_TEST(all.diverged_at[1].trajectory == 2);
+  for (const auto& [trajectory, step] : all.diverged_at) {
+    const auto start = law(1, trajectory == 0 ? 0U : 1U);
+    BOOST_TEST(step == integrate(chain, verlet(), .05, start, steps).diverged_at.value());
+  }
+  BOOST_TEST(alone.diverged == 0);
+  BOOST_TEST(same_bits(all.error.mean, alone.error.mean));
+  BOOST_TEST(std::isnan(all.error.standard_error));
+  const auto none_left = of({law(1, 0)});
+  BOOST_TEST(none_left.diverged == 1);
+  BOOST_TEST(std::isnan(none_left.error.mean));
+  BOOST_TEST(none_left.evaluations_per_time * .05 * steps == 9.0, boost::test_tools::tolerance(8 * eps));
+}
+
+// The observable has no value at the method's fifth step, where the state itself is sound.
+BOOST_AUTO_TEST_CASE(an_error_without_a_value_counts_as_diverged) {
+  std::int64_t looks = 0;
+  const auto measure = path_measure(chain, [&](const state&) {
+    ++looks;  // 1 at the start, 10 along the reference and 10 along the finer one, then the method's
+    return looks > 21 + 4 ? NAN : 1.0;
+  });
+  const trajectory_options options{.step = .02, .steps = 10, .trajectories = 1};
+  const auto result = trajectory_errors(chain, reference, law, verlet(), measure, options).methods[0];
+  BOOST_TEST(result.diverged == 1);
+  BOOST_TEST(result.diverged_at.at(0).step == 5);
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_are_counted_for_one_whole_trajectory) {
+  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 3};
+  const auto evaluations = [&](const auto& method) {
+    const auto result = trajectory_errors(chain, reference, law, method, path, options);
+    return result.methods[0].evaluations_per_time * .2;
+  };
+  const auto near = boost::test_tools::tolerance(8 * eps);
+  BOOST_TEST(evaluations(verlet()) == 21.0, near);  // one for each step, and one to begin
+  BOOST_TEST(evaluations(verlet_2x()) == 41.0, near);
+  BOOST_TEST(evaluations(mclachlan2()) == 40.0, near);  // none to begin with a drift
+  BOOST_TEST(evaluations(srkn6b()) == 121.0, near);
+}
+
+BOOST_AUTO_TEST_CASE(the_energy_error_asks_for_no_reference) {
+  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 3};
+  const auto result = trajectory_errors(chain, no_reference(), law, verlet(), energy_measure(chain), options);
+  BOOST_TEST(result.methods[0].error.mean > 0.0);
+  BOOST_TEST(!result.reference_error.has_value());
+  BOOST_TEST(result.reference.empty());
+  BOOST_CHECK_THROW(trajectory_errors(chain, no_reference(), law, verlet(), path, options), std::logic_error);
+}
+
+BOOST_AUTO_TEST_CASE(progress_counts_every_trajectory_in_turn) {
+  for (const int threads : {1, 3}) {
+    std::vector<std::int64_t> told;
+    const trajectory_options options{
+        .step = .01, .steps = 2, .trajectories = 40, .threads = threads, .progress = [&](std::int64_t done) {
+          told.push_back(done);
+        }};
+    trajectory_errors(chain, reference, law, verlet(), energy_measure(chain), options);
+    BOOST_REQUIRE(told.size() == 40U);
+    for (std::size_t i = 0; i < 40; ++i) BOOST_TEST(told[i] == static_cast<std::int64_t>(i + 1));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {
+  const trajectory_options options{.step = .01, .steps = 5, .trajectories = 30};
+  const auto judge = [&](std::int64_t lasts) {
+    trajectory_errors(chain, breaking{lasts}, law, verlet(), path, options);
+  };
+  BOOST_CHECK_NO_THROW(judge(30 * 5));
+  BOOST_TEST(refuses<std::runtime_error>([&] { judge(3); },
+                                         {"trajectory 0 ", "one that breaks", "not finite at step 4"}));
+  BOOST_TEST(refuses<std::runtime_error>([&] { judge(5 + 2); }, {"trajectory 1 ", "not finite at step 3"}));
+  const auto log_of_q = path_measure(chain, [](const state& x) { return std::log(x.q[0] - 10.0); });
+  BOOST_TEST(refuses<std::runtime_error>(
+      [&] { trajectory_errors(chain, reference, law, verlet(), log_of_q, options); },
+      {"trajectory 0 ", "path error", "step 1"}));
+}
+
+// Trajectories 20 and 31 have an energy of 0, and the earlier one is seen late.
+BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_threads) {
+  std::vector<state> starts;
+  for (std::uint64_t m = 0; m < 40; ++m) starts.push_back(law(1, m));
+  starts[31].p[2] = INFINITY;
+  starts[20].q[0] = NAN;
+  for (const int threads : {1, 2, 5}) {
+    const trajectory_options options{.step = .01, .steps = 5, .trajectories = 40, .threads = threads};
+    BOOST_TEST(refuses<std::invalid_argument>(
+        [&] { trajectory_errors(chain, reference, listed<6>(starts), verlet(), path, options); },
+        {"start 20 ", "not finite"}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const auto judge = [](const trajectory_options& options, const auto& measure) {
+    trajectory_errors(chain, reference, law, verlet(), measure, options);
+  };
+  const auto refused = [&](const trajectory_options& options, auto... words) {
+    return refuses<std::invalid_argument>([&] { judge(options, path); }, {words...});
+  };
+  BOOST_CHECK_NO_THROW(judge({.step = .01, .steps = 1, .trajectories = 1}, path));
+  BOOST_TEST(refused({.step = .01, .steps = 0, .trajectories = 1}, "0 steps", "at least one"));
+  BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 0}, "0 trajectories"));
+  BOOST_TEST(refused({.step = 0.0, .steps = 1}, "step must be"));
+  BOOST_TEST(refused({.step = NAN, .steps = 1}, "step must be"));
+  BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 0}, "thread"));
+  BOOST_TEST(refused({.step = .01, .steps = 2'000'000'000}, "fit into memory", "shorter"));
+  BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 2'000'000'000}, "fit into memory"));
+  BOOST_TEST(refused({.step = .0103, .steps = 1}, "not a multiple"));  // of the fine step
+  const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({.step = .01, .steps = 1}, nothing); },
+                                            {"path error", "which is 0"}));
+  const std::vector<state> at_rest{{vector<double, 6>::Zero(), vector<double, 6>::Zero()}};
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] {
+        trajectory_errors(chain, reference, listed<6>(at_rest), verlet(), energy_measure(chain),
+                          {.step = .01, .steps = 1, .trajectories = 1});
+      },
+      {"energy error", "which is 0"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_tuned_method_keeps_its_step_and_system) {
+  const tuned_method<nystrom> tuned(pairs[1], .02, chain.description());
+  const auto judge = [&](double step) {
+    return trajectory_errors(chain, reference, law, tuned, path, {.step = step, .steps = 5})
+        .methods[0]
+        .diverged;
+  };
+  BOOST_TEST(judge(.02) == 0);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(.01); }, {"learned at the step 0.02"}));
+}
