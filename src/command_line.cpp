@@ -192,7 +192,7 @@ int run_parsed(const CLI::App& command, typed& to) {
   const std::string name = command.get_name();
   if (to.common.threads < 1) refuse("--threads must be at least 1, got {}", to.common.threads);
   if (to.common.seed >= seed_limit) {
-    refuse("--seed must be below 2^62 = {}, got {}", seed_limit, to.common.seed);
+    refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
   }
   if (name == "list") return list(to.common);
   if (name == "learn") return learn(to.learn, to.common);

@@ -8,8 +8,9 @@ namespace nysalt::program {
 
 enum class role : std::uint64_t { training = 0, held_out = 1, test = 2 };
 
-/// User's seeds lie below this, so that no role of one seed is a role of another.
-inline constexpr std::uint64_t seed_limit = std::uint64_t{1} << 62U;
+/// User's seeds lie below this, so that no role of one seed is a role of another, and all stay below 2^53:
+/// every reader of JSON takes them whole.
+inline constexpr std::uint64_t seed_limit = std::uint64_t{1} << 51U;
 
 /// The seed of a role: a key of its own, hence numbers of their own.
 constexpr std::uint64_t seed_for(role which, std::uint64_t seed) {

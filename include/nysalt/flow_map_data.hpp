@@ -119,28 +119,6 @@ inline std::int64_t steps_of_each(const data_options& options) {
   return static_cast<std::int64_t>(steps);
 }
 
-/// for_each_trajectory, but of the exceptions it is that of the lowest trajectory which leaves the loop: the
-/// one that a single thread meets first.
-template <class Body>
-void for_each_trajectory_or_first_failure(std::int64_t count, int threads, const Body& body) {
-  std::atomic<std::int64_t> failed = count;  // the lowest so far
-  std::exception_ptr failure;
-  std::mutex guard;
-  for_each_trajectory(count, threads, [&](std::int64_t m) {
-    if (m > failed) return;
-    try {
-      body(m);
-    } catch (...) {
-      const std::lock_guard lock(guard);
-      if (m < failed) {
-        failed = m;
-        failure = std::current_exception();
-      }
-    }
-  });
-  if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace detail
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each. Threads share the
@@ -202,7 +180,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     const std::int64_t so_far = ++done;
     if (options.progress) options.progress(so_far);
   };
-  detail::for_each_trajectory_or_first_failure(options.trajectories, options.threads, follow);
+  for_each_trajectory(options.trajectories, options.threads, follow);
 
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();

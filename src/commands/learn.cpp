@@ -28,7 +28,8 @@ json document(const learned_scheme& learned, const bundled_system& system) {
   result["dropped_coordinates"] = fit.dropped;
   result["iterations"] = fit.iterations;
   result["starts"] = fit.ensemble;
-  result["energy_range"] = learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
+  result["energy_range"] =
+      learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
   result["seed"] = fit.seed;
   return result;
 }

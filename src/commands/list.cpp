@@ -82,10 +82,10 @@ json families_json() {
 
 std::string readable(const json& all) {
   std::string text = "Systems (--system NAME and its options with their defaults):\n\n";
-  table systems({"system", "options", "what it is"});
+  table systems({"system", "options", "what it is"}, 3);
   for (const auto& s : all["systems"]) systems.add({s["name"], s["options"], s["hamiltonian"]});
   text += systems.text() + "\nObservables (the first is the default):\n\n";
-  table observables({"system", "observables"});
+  table observables({"system", "observables"}, 2);
   for (const auto& s : all["systems"]) {
     std::string names = s["default_observable"];
     for (const std::string name : s["observables"])
@@ -93,14 +93,14 @@ std::string readable(const json& all) {
     observables.add({s["name"], names});
   }
   text += observables.text() + "\nMethods (also learned:FAMILY, and files of schemes and tables):\n\n";
-  table methods({"method", "letters", "order", "evaluations", "limit/evaluation", "source"});
+  table methods({"method", "letters", "order", "evaluations", "limit/evaluation"}, 2);
   for (const auto& m : all["methods"]) {
     const json& limit = m["limit_per_evaluation"];
     methods.add({m["name"], m["letters"], m["order"].dump(), m["evaluations_per_step"].dump(),
-                 limit.is_null() ? "by step" : fmt::format("{:.4f}", limit.get<double>()), m["source"]});
+                 limit.is_null() ? "by step" : fmt::format("{:.4f}", limit.get<double>())});
   }
   text += methods.text() + "\nFamilies that can be learned:\n\n";
-  table of_families({"family", "letters", "order", "evaluations", "parameters"});
+  table of_families({"family", "letters", "parameters", "order", "evaluations"}, 3);
   for (const auto& f : all["families"]) {
     std::string parameters;
     for (const auto& p : f["parameters"]) {
@@ -109,10 +109,10 @@ std::string readable(const json& all) {
                                 p["high"].get<double>());
     }
     of_families.add(
-        {f["name"], f["letters"], f["order"].dump(), f["evaluations_per_step"].dump(), parameters});
+        {f["name"], f["letters"], parameters, f["order"].dump(), f["evaluations_per_step"].dump()});
   }
   text += of_families.text() + "\nMetrics of compare:\n\n";
-  table of_metrics({"metric", "what it is"});
+  table of_metrics({"metric", "what it is"}, 2);
   for (const auto& [name, meaning] : metrics) of_metrics.add({name, meaning});
   return text + of_metrics.text();
 }

@@ -95,31 +95,27 @@ class samples {
   json diverged_ = json::array();
 };
 
-/// An observable along the first trajectory, in some 2000 points.
-panel picture_of(const record& first, std::size_t column, const run_command& command) {
+/// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
+/// 2000 points.
+void draw_run(const record& first, const run_command& command) {
   const std::size_t columns = command.observables.size();
   const std::size_t samples = first.values.size() / columns;
   const std::size_t every = samples / 2000 + 1;
-  curve its{.label = command.observables[column], .x = {}, .y = {}, .emphasised = true};
-  for (std::size_t i = 0; i < samples; i += every) {
-    its.x.push_back(static_cast<double>(i * static_cast<std::size_t>(command.sample_every)) * command.step);
-    its.y.push_back(first.values[i * columns + column]);
+  const std::string y_label = columns == 1 ? command.observables.front() : "";
+  panel its{fmt::format("{}, step {:g}", command.method, command.step), "t", y_label, false, {}};
+  for (std::size_t k = 0; k < columns; ++k) {
+    curve& values = its.curves.emplace_back();
+    values.label = command.observables[k];
+    values.emphasised = k == 0;
+    for (std::size_t i = 0; i < samples; i += every) {
+      values.x.push_back(static_cast<double>(i * static_cast<std::size_t>(command.sample_every)) *
+                         command.step);
+      values.y.push_back(first.values[i * columns + k]);
+    }
   }
-  return {.title = fmt::format("{}, step {:g}", command.method, command.step),
-          .x_label = "t",
-          .y_label = command.observables[column],
-          .curves = {its}};
-}
-
-/// NAME.svg and NAME.png beside the output NAME.csv.
-void draw_run(const record& first, const run_command& command) {
   const std::filesystem::path output(command.output);
-  figure picture{.name = output.stem().string(), .panels = {}};
+  figure picture{output.stem().string(), {its}};
   for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  for (std::size_t k = 0; k < command.observables.size(); ++k) {
-    picture.panels.push_back(picture_of(first, k, command));
-  }
-  picture.width = 300 + 500 * static_cast<int>(picture.panels.size());
   if (!draw(picture, folder_of(output))) warn("gnuplot could not draw the picture: is it installed?");
 }
 

@@ -14,7 +14,9 @@ namespace nysalt {
 /// Rows of text under named columns, for people (text, Markdown) and for machines (CSV).
 class table {
  public:
-  explicit table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+  /// The first `left` columns are set to the left, for words; the others to the right, for numbers.
+  explicit table(std::vector<std::string> columns, std::size_t left = 1)
+      : columns_(std::move(columns)), left_(left) {}
 
   /// Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells) {
@@ -25,7 +27,6 @@ class table {
     rows_.push_back(std::move(cells));
   }
 
-  /// The first column to the left, the others to the right.
   std::string text() const { return lay_out("", "  ", "", '-'); }
   std::string markdown() const { return lay_out("| ", " | ", " |", '-'); }
 
@@ -63,8 +64,8 @@ class table {
       result += left;
       for (std::size_t j = 0; j < cells.size(); ++j) {
         if (j > 0) result += between;
-        result +=
-            j == 0 ? fmt::format("{:<{}}", cells[j], widths[j]) : fmt::format("{:>{}}", cells[j], widths[j]);
+        result += j < left_ ? fmt::format("{:<{}}", cells[j], widths[j])
+                            : fmt::format("{:>{}}", cells[j], widths[j]);
       }
       result += std::string(right) + '\n';
     };
@@ -77,6 +78,7 @@ class table {
   }
 
   std::vector<std::string> columns_;
+  std::size_t left_;
   std::vector<std::vector<std::string>> rows_;
 };
 
