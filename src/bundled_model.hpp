@@ -174,7 +174,8 @@ class bundled_model final : public bundled_system {
     if constexpr (has_exact_flow<S>) {
       if (!fine_step) return f(exact_linear(system_));
     }
-    const double fine = fine_step.value_or(step / std::ceil(step * facts_.frequency / 5e-3));
+    const double steps = std::ceil(step * facts_.frequency / 5e-3 - 1e-9);  // 100.00000000000001 is 100
+    const double fine = fine_step.value_or(step / std::max(1.0, steps));
     const double ratio = step / fine;
     if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
       refuse(

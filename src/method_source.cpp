@@ -52,8 +52,12 @@ method_source find_method(const std::string& text) {
   return source;
 }
 
+bool is_at(const scheme& learned, double step) {
+  return std::abs(step - learned.step) <= 1e-9 * learned.step;
+}
+
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step) {
-  if (!(std::abs(step - learned.step) <= 1e-9 * learned.step)) {
+  if (!is_at(learned, step)) {
     return fmt::format("it was learned for the step {}, not {}", learned.step, step);
   }
   if (learned.system != system.description()) {

@@ -24,6 +24,9 @@ struct method_source {
 /// Throws refusal, listing what is known, if the text names nothing.
 method_source find_method(const std::string& text);
 
+/// Whether the step is the scheme's own, to 1e-9 relative, as steps are typed in decimals.
+bool is_at(const scheme& learned, double step);
+
 /// Why a scheme from a file is not valid here; empty if it is.
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step);
 

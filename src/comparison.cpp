@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+#include "learning.hpp"
+#include "nysalt/analysis/timing.hpp"
+#include "seeds.hpp"
+
+namespace nysalt::program {
+
+comparison::comparison(const compare_command& command, const common_settings& common)
+    : command_(command), common_(common), system_(make_system(command.system)) {
+  if (command_.observable.empty()) command_.observable = system_->default_observable();
+  require_sound_command();
+  plan_rows();
+}
+
+void comparison::learn_and_measure() {
+  for (auto& its : rows_) {
+    if (const auto family = families_.find(its.method); family != families_.end()) {
+      learn_for(its, family->second);
+    }
+  }
+  measure_errors();
+  measure_seconds();
+  shown_.clear();
+  warn_of_reference();
+}
+
+bool comparison::has_result() const {
+  return std::any_of(rows_.begin(), rows_.end(), [](const row& its) { return !std::isnan(its.error.mean); });
+}
+
+void comparison::require_sound_command() const {
+  if (command_.methods.empty()) refuse("--methods is needed, such as verlet,mclachlan2,learned:nystrom");
+  if (command_.steps.empty()) refuse("--steps is needed, such as 0.01,0.02");
+  for (const double step : command_.steps) {
+    require_positive("--steps", step);
+    if (std::count(command_.steps.begin(), command_.steps.end(), step) > 1) {
+      refuse("--steps names {} twice", step);
+    }
+  }
+  for (const auto& typed : command_.methods) {
+    if (std::count(command_.methods.begin(), command_.methods.end(), typed) > 1) {
+      refuse("--methods names {} twice", typed);
+    }
+  }
+  require_at_least_one("--trajectories", command_.trajectories);
+  if (command_.learning.fine_step) require_positive("--fine-step", *command_.learning.fine_step);
+  system_->require_measure(command_.metric, command_.observable);
+}
+
+void comparison::plan_rows() {
+  std::vector<method_source> sources;
+  for (const auto& typed : command_.methods) {
+    sources.push_back(find_method(typed));
+    if (sources.back().family) families_[typed] = *sources.back().family;
+  }
+  for (const double nominal : command_.steps) {
+    for (const auto& source : sources) add_row(source, nominal);
+  }
+  for (const auto& source : sources) {
+    const bool has_row =
+        std::any_of(rows_.begin(), rows_.end(), [&](const row& its) { return its.method == source.typed; });
+    if (has_row) continue;
+    const double evaluations = command_.equal_cost ? source.evaluations_per_step : 1.0;
+    refuse("{} was learned for the step {}, which is not among --steps{}: add {}, or take --force",
+           source.typed, source.learned->step, command_.equal_cost ? " (of an evaluation)" : "",
+           source.learned->step / evaluations);
+  }
+}
+
+/// A scheme file has a row where its own step is asked for, and nowhere else.
+void comparison::add_row(const method_source& source, double nominal) {
+  const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
+  const bool elsewhere = source.learned && !is_at(*source.learned, step);
+  if (elsewhere && !common_.force) return;
+  steps_within("--horizon", command_.horizon, step);
+  row its{source.typed, nominal, step};
+  if (source.family) {
+    require_sound(command_.learning, step, "--learn-");
+  } else {
+    its.coefficients = coefficients_at(source, *system_, step, common_.force, warnings_);
+  }
+  rows_.push_back(std::move(its));
+}
+
+trajectories_plan comparison::plan_at(double step) const {
+  return {step, steps_within("--horizon", command_.horizon, step), command_.trajectories,
+          seed_for(role::test, common_.seed), common_.threads};
+}
+
+void comparison::learn_for(row& its, const std::string& family) {
+  const learn_plan plan{family,
+                        its.step,
+                        command_.learning,
+                        seed_for(role::training, common_.seed),
+                        seed_for(role::held_out, common_.seed),
+                        common_.threads};
+  const learned_scheme learned = learn_with(*system_, plan, shown_);
+  json fit{{"method", its.method}};
+  fit.update(fit_json(learned.fit));
+  fits_.push_back(fit);
+  its.coefficients = learned.method;
+  if (!learned.fit.usable) its.reason = "the fit is not usable: " + learned.fit.reason;
+}
+
+/// Rows at one step share the reference.
+void comparison::measure_errors() {
+  std::map<double, std::vector<row*>> by_step;
+  for (auto& its : rows_) by_step[its.step].push_back(&its);
+  for (const auto& [step, group] : by_step) measure_at(step, group);
+}
+
+void comparison::measure_at(double step, const std::vector<row*>& group) {
+  const trajectories_plan plan = plan_at(step);
+  std::vector<tabulated> methods;
+  std::vector<row*> measured;
+  for (row* its : group) {
+    const auto evaluations = static_cast<double>(system_->count_evaluations(*its->coefficients, plan));
+    its->evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * step);
+    if (!its->reason.empty()) continue;
+    methods.push_back(*its->coefficients);
+    measured.push_back(its);
+  }
+  if (methods.empty()) return;
+  shown_.part(fmt::format("comparing at step {:g}", step));
+  const auto found = system_->errors(methods, plan, command_.metric, command_.observable,
+                                     command_.learning.fine_step, shown_.counter(plan.count));
+  if (!found.reference.empty()) {
+    references_.push_back(
+        {{"step_size", step}, {"reference", found.reference}, {"error", found.reference_error->mean}});
+  }
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    row& its = *measured[k];
+    its.error = found.methods[k].error;
+    its.diverged = found.methods[k].diverged;
+    if (found.reference_error) its.reference_error = found.reference_error->mean;
+    if (its.diverged == plan.count) {
+      its.reason = fmt::format("every trajectory diverged, the first of them at step {}",
+                               found.methods[k].diverged_at.front().step);
+    }
+  }
+}
+
+/// In turns, so that a machine that slows down slows all; each job is long enough for the clock.
+void comparison::measure_seconds() {
+  constexpr double evaluations_of_job = 1e5;  // about a millisecond
+  constexpr std::int64_t most_trajectories = 64;
+  constexpr int rounds = 15;
+  shown_.part("timing");
+  std::vector<std::function<void()>> jobs;
+  std::vector<double> simulated;
+  for (const auto& its : rows_) {
+    trajectories_plan plan = plan_at(its.step);
+    const double time = static_cast<double>(plan.steps) * its.step;
+    const double of_one = its.evaluations_per_time * time;
+    const double wanted = std::max(1.0, std::floor(evaluations_of_job / of_one));
+    plan.count = static_cast<std::int64_t>(
+        std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories))));
+    const double of_all = of_one * static_cast<double>(plan.count);
+    const double repeats = std::max(1.0, std::ceil(evaluations_of_job / of_all));
+    jobs.emplace_back([once = system_->timed_run(*its.coefficients, plan), repeats] {
+      for (double n = 0.0; n < repeats; ++n) once();
+    });
+    simulated.push_back(time * static_cast<double>(plan.count) * repeats);
+  }
+  const auto seconds = interleaved_seconds(jobs, rounds);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i] / simulated[i];
+}
+
+/// A reference that errs like the method says nothing of it.
+void comparison::warn_of_reference() {
+  for (const auto& its : rows_) {
+    if (!its.reference_error || std::isnan(its.error.mean)) continue;
+    if (*its.reference_error <= 0.1 * its.error.mean) continue;
+    warnings_.push_back(fmt::format(
+        "the reference's own error {:.1e} is not ten times smaller than that of {} at step {:g}, {:.1e}",
+        *its.reference_error, its.method, its.nominal, its.error.mean));
+  }
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a comparison found, for machines and for people.
+#include <algorithm>
+#include <cmath>
+
+#include "comparison.hpp"
+#include "output.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+std::string comparison::quantity() const {
+  return command_.metric == "path" ? "path error of " + command_.observable : command_.metric + " error";
+}
+
+std::vector<work_precision_row> comparison::work_precision_rows() const {
+  std::vector<work_precision_row> result;
+  for (const auto& its : rows_) {
+    result.push_back({its.method, its.nominal, its.evaluations_per_time, its.seconds_per_time, its.error,
+                      its.diverged, command_.trajectories});
+  }
+  return result;
+}
+
+/// Each learned method beside the best of the others at its cost; empty if that is not the question.
+std::string comparison::at_equal_cost(bool markdown) const {
+  if (!command_.equal_cost) return {};
+  const auto is_learned = [&](const row& its) { return families_.contains(its.method); };
+  table result({"at equal cost", "step", "error", "best of the others", "its error", "its error / learned"});
+  bool any = false;
+  for (const auto& its : rows_) {
+    if (!is_learned(its)) continue;
+    const row* best = nullptr;
+    for (const auto& other : rows_) {
+      if (is_learned(other) || other.nominal != its.nominal || std::isnan(other.error.mean)) continue;
+      if (best == nullptr || other.error.mean < best->error.mean) best = &other;
+    }
+    if (best == nullptr) continue;
+    any = true;
+    const auto number = [](const char* format, double x) {
+      return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
+    };
+    result.add({its.method, number("{:g}", its.nominal), number("{:.2e}", its.error.mean), best->method,
+                number("{:.2e}", best->error.mean), number("{:.2g}", best->error.mean / its.error.mean)});
+  }
+  return !any ? std::string() : markdown ? result.markdown() : result.text();
+}
+
+json comparison::document() const {
+  json rows = json::array();
+  for (const auto& its : rows_) {
+    rows.push_back({{"method", its.method},
+                    {"step", its.nominal},
+                    {"step_size", its.step},
+                    {"evaluations_per_time", its.evaluations_per_time},
+                    {"seconds_per_time", its.seconds_per_time},
+                    {"error", its.error.mean},
+                    {"standard_error", its.error.standard_error},
+                    {"diverged", its.diverged},
+                    {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)}});
+    if (!its.reason.empty()) rows.back()["reason"] = its.reason;
+  }
+  return {{"system", system_->description()},
+          {"starts", system_->law()},
+          {"metric", command_.metric},
+          {"observable", command_.metric == "path" ? json(command_.observable) : json(nullptr)},
+          {"horizon", command_.horizon},
+          {"trajectories", command_.trajectories},
+          {"equal_cost", command_.equal_cost},
+          {"seed", common_.seed},
+          {"references", references_},
+          {"rows", rows},
+          {"fits", fits_},
+          {"warnings", warnings_}};
+}
+
+std::string comparison::readable() const {
+  std::string text = fmt::format("{}, {} trajectories over {:g}, {}", system_->description(),
+                                 command_.trajectories, command_.horizon, quantity());
+  for (const auto& used : references_) {
+    text += fmt::format("\nreference at {:g}: {}, own error {:.1e}", used["step_size"].get<double>(),
+                        used["reference"].get<std::string>(), used["error"].get<double>());
+  }
+  if (command_.equal_cost) text += "\nsteps are per force evaluation: equal steps, equal cost";
+  text += "\n\n" + work_precision_table(work_precision_rows()).text();
+  for (const auto& its : rows_) {
+    if (!its.reason.empty())
+      text += fmt::format("{} at step {:g}: {}\n", its.method, its.nominal, its.reason);
+  }
+  if (const std::string beside = at_equal_cost(false); !beside.empty()) text += "\n" + beside;
+  return text;
+}
+
+void comparison::write(const std::filesystem::path& folder) const {
+  const auto rows = work_precision_rows();
+  write_result(folder / "table.md", work_precision_table(rows).markdown() + "\n" + at_equal_cost(true),
+               common_);
+  table all({"method", "step", "step_size", "evaluations_per_time", "seconds_per_time", "error",
+             "standard_error", "diverged"});
+  for (const auto& its : rows_) {
+    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
+    all.add({its.method, number(its.nominal), number(its.step), number(its.evaluations_per_time),
+             number(its.seconds_per_time), number(its.error.mean), number(its.error.standard_error),
+             fmt::format("{}", its.diverged)});
+  }
+  write_result(folder / "rows.csv", all.csv(), common_);
+  const std::string emphasised = families_.empty() ? "" : families_.begin()->first;
+  figure evaluations{"error_against_evaluations",
+                     {work_precision_panel(rows, emphasised, "force evaluations per unit time",
+                                           &work_precision_row::evaluations_per_time)}};
+  figure seconds{"error_against_seconds",
+                 {work_precision_panel(rows, emphasised, "seconds per unit time",
+                                       &work_precision_row::seconds_per_time)}};
+  evaluations.panels[0].y_label = seconds.panels[0].y_label = quantity();
+  const bool both = draw(evaluations, folder) && draw(seconds, folder);
+  if (!both) warn("gnuplot could not draw the pictures: is it installed? Scripts and data are there");
+}
+
+}  // namespace nysalt::program
