@@ -75,8 +75,8 @@ BOOST_AUTO_TEST_CASE(two_stages_end_by_the_formula) {
 // The trace does not tell which letter comes first.
 BOOST_AUTO_TEST_CASE(the_same_coefficients_from_either_letter_have_the_same_windows) {
   const auto c = bcss2::coefficients();
-  const auto a = stability_windows<alternating_word<drift, kick, 5>>(c);
-  const auto b = stability_windows<alternating_word<kick, drift, 5>>(c);
+  const auto a = stability_windows(alternating_word<drift, kick, 5>{}, c);
+  const auto b = stability_windows(alternating_word<kick, drift, 5>{}, c);
   BOOST_REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     BOOST_TEST(a[i].low == b[i].low, nearly);
@@ -95,11 +95,11 @@ BOOST_AUTO_TEST_CASE(a_band_is_stable_within_one_window) {
 }
 
 BOOST_AUTO_TEST_CASE(a_word_that_only_drifts_has_no_window) {
-  const auto windows = stability_windows<word<drift>>(std::array{1.0});
+  const auto windows = stability_windows(word<drift>{}, std::array{1.0});
   BOOST_TEST(windows.empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_method_that_is_never_stable_has_the_limit_zero) {
-  const auto windows = stability_windows<word<drift, kick>>(std::array{1.0, -1.0});
+  const auto windows = stability_windows(word<drift, kick>{}, std::array{1.0, -1.0});
   BOOST_TEST((windows.empty() || windows.front().low > 0.0));
 }
