@@ -255,6 +255,10 @@ int run_command_line(int argc, char** argv) {
   add_run(app, to);
   add_compare(app, to);
   add_stability(app, to);
+  for (auto* command : app.get_subcommands({})) {
+    command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
+                    command->get_footer());
+  }
   app.footer(
       "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
       "the fit is not usable.");
