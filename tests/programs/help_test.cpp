@@ -55,7 +55,6 @@ std::vector<std::string> shell_lines(const std::string& markdown) {
 void must_end_well(const scratch& folder, const std::string& arguments) {
   const auto done = run(folder, arguments);
   BOOST_TEST(done.code == 0, "nysalt " << arguments << ": " << done.code << ", " << done.err);
-  BOOST_TEST(done.out != "", "nysalt " << arguments);
 }
 
 }  // namespace
