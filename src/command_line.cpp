@@ -25,7 +25,8 @@ constexpr const char* three_commands =
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
     "nysalt --help tells of all.\n";
 
-/// A file of options: those that stand in no [section] belong to the command that runs.
+/// A file of options: those that stand in no [section] belong to the command that runs, whose section says
+/// more.
 class options_file : public CLI::ConfigTOML {
  public:
   explicit options_file(const CLI::App& app) : app_(app) {}
@@ -33,6 +34,8 @@ class options_file : public CLI::ConfigTOML {
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
     auto items = CLI::ConfigTOML::from_config(input);
     const auto running = app_.get_subcommands();
+    // Of two values for one option the first is taken.
+    std::stable_partition(items.begin(), items.end(), [](const auto& item) { return !item.parents.empty(); });
     for (auto& item : items) {
       if (item.parents.empty() && !running.empty()) item.parents = {running.front()->get_name()};
     }
@@ -252,6 +255,10 @@ int run_command_line(int argc, char** argv) {
   add_run(app, to);
   add_compare(app, to);
   add_stability(app, to);
+  for (auto* command : app.get_subcommands({})) {
+    command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
+                    command->get_footer());
+  }
   app.footer(
       "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
       "the fit is not usable.");

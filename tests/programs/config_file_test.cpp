@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSL-1.0
+// Options from a TOML file.
+#include <boost/test/unit_test.hpp>
+
+#include <string>
+
+#include "../support/program.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+/// A folder with the file options.toml of that text.
+struct folder_with : scratch {
+  explicit folder_with(const std::string& text) : scratch("config") {
+    std::ofstream(path() / "options.toml") << text;
+  }
+};
+
+/// What is printed with the file, times aside.
+std::string with(const std::string& text, const std::string& line) {
+  const auto done = run(folder_with(text), line + " --config options.toml");
+  BOOST_TEST(done.code == 0, line << " with\n" << text << "\nsaid " << done.err);
+  BOOST_TEST(done.err == "");
+  return without_times(done.out);
+}
+
+std::string typed(const std::string& line) {
+  const auto done = run(line);
+  BOOST_TEST(done.code == 0, line << " said " << done.err);
+  return without_times(done.out);
+}
+
+const std::string learned = "learn --step 0.02 --trajectories 3 --seed 4 --fix b1=0.5 --json";
+const std::string compared =
+    "compare --methods verlet,bcss2 --steps 0.005,0.01 --equal-cost --trajectories 3 --seed 4 --json";
+const std::string sections =
+    "seed = 4  # for all commands\n"
+    "[learn]\nstep = 0.02\ntrajectories = 3\nfix = [\"b1=0.5\"]\n"
+    "[compare]\nmethods = [\"verlet\", \"bcss2\"]\nsteps = [0.005, 0.01]\nequal-cost = true\ntrajectories = "
+    "3\n";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(options_outside_sections_are_of_the_command_that_runs) {
+  BOOST_TEST(with("step = 0.02\ntrajectories = 3\nseed = 4\nfix = [\"b1=0.5\"]\njson = true", "learn") ==
+             typed(learned));
+  BOOST_TEST(with("step = 0.02\ntrajectories = 4\nseed = 4\nfix = [\"b1=0.5\"]\njson = true", "learn") !=
+             typed(learned));
+  BOOST_TEST(with("family = \"nystrom\"\nparameters = [0.5, 0.4]", "stability") ==
+             typed("stability --family nystrom --parameters 0.5,0.4"));
+  BOOST_TEST(with("method = \"verlet\"\nstep = 0.01\nhorizon = 0.03\nobservables = [\"energy\", \"q1\"]",
+                  "run") == typed("run --method verlet --step 0.01 --horizon 0.03 --observables energy,q1"));
+}
+
+BOOST_AUTO_TEST_CASE(a_section_is_of_its_command) {
+  BOOST_TEST(with(sections, "learn --json") == typed(learned));
+  BOOST_TEST(with(sections, "compare --json") == typed(compared));
+  BOOST_TEST(with("seed = 5\n[learn]\nseed = 4\n",
+                  learned.substr(0, learned.find(" --seed 4")) + " --fix b1=0.5 --json") == typed(learned));
+}
+
+BOOST_AUTO_TEST_CASE(a_list_may_also_be_one_text) {
+  BOOST_TEST(
+      with(
+          "methods = \"verlet,bcss2\"\nsteps = \"0.005,0.01\"\nequal-cost = true\ntrajectories = 3\nseed = 4",
+          "compare --json") == typed(compared));
+}
+
+BOOST_AUTO_TEST_CASE(the_file_may_be_named_before_the_command) {
+  const folder_with folder(sections);
+  const auto done = run(folder, "--config options.toml learn --json");
+  BOOST_TEST(done.code == 0);
+  BOOST_TEST(without_times(done.out) == typed(learned));
+}
+
+BOOST_AUTO_TEST_CASE(the_command_line_wins) {
+  const std::string other =
+      "seed = 9\n[learn]\nstep = 0.03\ntrajectories = 2\nfix = [\"beta1=0.4\"]\n"
+      "[compare]\nmethods = [\"srkn6b\"]\nsteps = [0.03]\ntrajectories = 2\n";
+  BOOST_TEST(with(other, learned) == typed(learned));
+  BOOST_TEST(with(other, compared) == typed(compared));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_option_is_refused) {
+  for (const char* text : {"nosuch = 1\n", "[learn]\nnosuch = 1\n", "[nosuch]\nstep = 0.02\n"}) {
+    const auto done = run(folder_with(text), learned + " --config options.toml");
+    BOOST_TEST(done.code == 2, text);
+    BOOST_TEST(done.out == "");
+    BOOST_TEST(done.err.find("nosuch") != std::string::npos, done.err);
+  }
+}

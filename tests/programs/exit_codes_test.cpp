@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+// 0 done, 2 bad input, 3 no result: every trajectory diverged, or the fit is not usable.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+// At z = 2.5 Verlet is unstable, and multiplies stiff motion by 4 in a step: from the law of fpu, whose
+// energies are some 7, all are lost (by more than 7e3) after some 7 steps, and none after 2.
+const std::string unstable = "run --method verlet --step 0.05 --trajectories 5";
+
+// Both kicks in the middle of the step: Verlet again, unstable at z = 2.5, and nothing is left to learn.
+const std::string unusable = " --fix b1=0.5 --fix beta1=0.25";
+
+std::string lines(const std::string& text) {
+  return fmt::format("{}", std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(bad_input_is_2_and_one_line) {
+  for (const char* line : {"", "--json"}) {
+    const auto done = run(std::string("run --system nowhere --method verlet --step 0.1 --horizon 1 ") + line);
+    BOOST_TEST(done.code == 2);
+    BOOST_TEST(done.out == "");
+    BOOST_TEST(lines(done.err) == "1");
+    for (const char* word : {"nowhere", "fpu", "oscillator", "linear_chain", "pendulum", "henon_heiles"})
+      BOOST_TEST(done.err.find(word) != std::string::npos, word);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_of_which_all_diverged_is_3) {
+  for (const auto& [horizon, code, diverged] : {std::tuple{"0.1", 0, 0U}, {"1", 3, 5U}}) {
+    const auto done = run(unstable + " --json --horizon " + horizon);
+    BOOST_TEST(done.code == code);
+    BOOST_TEST(done.err == "");
+    const auto all = json_of(done);
+    BOOST_REQUIRE(all.is_object());
+    BOOST_TEST(all["diverged"].size() == diverged);
+    for (const auto& one : all["diverged"]) {
+      const int step = one["step"];
+      BOOST_TEST(one["t"] == step * 0.05);
+      // What diverged is not shown.
+      for (const auto& row : all["rows"]) BOOST_TEST((row[0] != one["trajectory"] || row[1] < step));
+    }
+    BOOST_REQUIRE(all["warnings"].size() == 1U);  // in either case: it is not stable
+    BOOST_TEST(all["warnings"][0].get<std::string>().find("not linearly stable") != std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_of_which_some_diverged_is_0) {
+  // One after another, until some have diverged and some have not.
+  bool found = false;
+  for (const char* horizon : {"0.15", "0.2", "0.25", "0.3"}) {
+    const auto done =
+        run("run --method verlet --step 0.05 --trajectories 40 --json --horizon " + std::string(horizon));
+    const auto diverged = json_of(done)["diverged"].size();
+    BOOST_TEST(done.code == (diverged == 40U ? 3 : 0));
+    found = found || (0U < diverged && diverged < 40U);
+  }
+  BOOST_TEST(found);
+}
+
+BOOST_AUTO_TEST_CASE(for_people_the_diverged_are_told_on_standard_error) {
+  const auto done = run(unstable + " --horizon 1");
+  BOOST_TEST(done.code == 3);
+  for (int m = 0; m < 5; ++m)
+    BOOST_TEST(done.err.find(fmt::format("trajectory {} diverged at step ", m)) != std::string::npos);
+  BOOST_TEST(done.out.starts_with("trajectory,step,t,stiff_energy\n"));
+}
+
+BOOST_AUTO_TEST_CASE(a_fit_that_is_not_usable_is_3) {
+  const auto fixed = run("learn --step 0.05 --trajectories 3 --json" + unusable);
+  BOOST_TEST(fixed.code == 3);
+  BOOST_TEST(json_of(fixed)["usable"] == false);
+  BOOST_TEST(json_of(fixed)["reason"].get<std::string>().find("not linearly stable") != std::string::npos);
+  BOOST_TEST(fixed.err.find("not linearly stable") != std::string::npos);
+  // A reference that takes the large step itself is no reference at z = 5.
+  const std::string coarse = "learn --step 0.1 --json --fine-step ";
+  const auto at_once = run(coarse + "0.1");
+  BOOST_TEST(at_once.code == 3);
+  BOOST_TEST(json_of(at_once)["reason"].get<std::string>().find("the reference's own error") !=
+             std::string::npos);
+  const auto in_ten = run(coarse + "0.01");
+  BOOST_TEST(in_ten.code == 0);
+  BOOST_TEST(json_of(in_ten)["reason"].is_null());
+}
+
+BOOST_AUTO_TEST_CASE(compare_is_3_only_if_no_row_has_an_error) {
+  const auto code = [](const std::string& line) {
+    const auto done =
+        run("compare --trajectories 3 --learn-trajectories 3 --json --steps 0.05 --horizon 1 " + line);
+    const auto all = json_of(done);
+    BOOST_REQUIRE(all.is_object());
+    bool any = false;
+    for (const auto& row : all["rows"]) {
+      const bool sound = row["error"].is_number();
+      BOOST_TEST(row.contains("reason") == !sound);
+      BOOST_TEST(row["evaluations_per_time"] > 0.0);
+      any = any || sound;
+      if (sound) continue;
+      BOOST_TEST(row["error"].is_null());
+      BOOST_TEST(row["standard_error"].is_null());
+      const std::string expected = row["method"] == "verlet" ? "every trajectory diverged" : "not usable";
+      BOOST_TEST(row["reason"].get<std::string>().find(expected) != std::string::npos);
+      BOOST_TEST(row["diverged"] == (row["method"] == "verlet" ? 3 : 0));
+    }
+    BOOST_TEST(done.code == (any ? 0 : 3));
+    BOOST_TEST(done.err == "");
+    return done.code;
+  };
+  BOOST_TEST(code("--methods verlet") == 3);
+  BOOST_TEST(code("--methods learned:nystrom" + unusable) == 3);
+  BOOST_TEST(code("--methods verlet,learned:nystrom" + unusable) == 3);
+  BOOST_TEST(code("--methods verlet,mclachlan2") == 0);
+  BOOST_TEST(code("--methods learned:nystrom,bcss2" + unusable) == 0);
+  BOOST_TEST(code("--methods learned:nystrom,verlet --learn-horizon 1") == 0);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+// Every command line that the program or the README shows does what it is shown for.
+#include <boost/test/unit_test.hpp>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What follows a mark at the beginning of a line.
+std::vector<std::string> after(const std::string& mark, const std::vector<std::string>& lines) {
+  std::vector<std::string> found;
+  for (const auto& line : lines) {
+    if (line.starts_with(mark)) found.push_back(line.substr(mark.size()));
+  }
+  return found;
+}
+
+/// The lines of all ```sh blocks; one that ends with a backslash goes on in the next.
+std::vector<std::string> shell_lines(const std::string& markdown) {
+  std::vector<std::string> found;
+  bool inside = false;
+  bool goes_on = false;
+  for (auto line : lines_of(markdown)) {
+    if (line.starts_with("```")) {
+      inside = !inside && line == "```sh";
+      goes_on = false;
+      continue;
+    }
+    if (!inside) continue;
+    const bool unfinished = line.ends_with('\\');
+    if (unfinished) line.pop_back();
+    if (goes_on) {
+      found.back() += line;
+    } else {
+      found.push_back(line);
+    }
+    goes_on = unfinished;
+  }
+  return found;
+}
+
+void must_end_well(const scratch& folder, const std::string& arguments) {
+  const auto done = run(folder, arguments);
+  BOOST_TEST(done.code == 0, "nysalt " << arguments << ": " << done.code << ", " << done.err);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(commands_are_found_in_a_text) {
+  const std::string markdown =
+      "nysalt not this\n```cpp\nnysalt nor this\n```\n```sh\n./dev test\nnysalt list  # all\n"
+      "build/release/nysalt learn \\\n  --step 1\n```\nnysalt outside\n";
+  const auto found = shell_lines(markdown);
+  BOOST_TEST(found == (std::vector<std::string>{"./dev test", "nysalt list  # all",
+                                                "build/release/nysalt learn   --step 1"}),
+             boost::test_tools::per_element());
+  BOOST_TEST(after("nysalt ", found) == std::vector<std::string>{"list  # all"},
+             boost::test_tools::per_element());
+  const scratch folder("help_self");
+  BOOST_TEST(run(folder, "list  # all").code == 0);
+  BOOST_TEST(run(folder, "lisp").code != 0);
+}
+
+BOOST_AUTO_TEST_CASE(examples_of_the_program_run) {
+  for (const char* command :
+       {"", "list --help", "learn --help", "run --help", "compare --help", "stability --help"}) {
+    BOOST_TEST_CONTEXT("shown by nysalt " << command) {
+      const auto help = run(command);
+      BOOST_TEST(help.code == 0);
+      BOOST_TEST(help.err == "");
+      const auto examples = after("  nysalt ", lines_of(help.out));
+      BOOST_TEST(examples.size() >= 2U);
+      const scratch folder("help");
+      for (const auto& example : examples) must_end_well(folder, example);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(help_names_the_options_that_all_take) {
+  for (const char* command : {"list", "learn", "run", "compare", "stability"}) {
+    const auto help = run(std::string(command) + " --help").out;
+    for (const char* option : {"--help", "--seed", "--threads", "--config", "--json"})
+      BOOST_TEST(help.find(option) != std::string::npos, command << " --help does not tell of " << option);
+  }
+}
+
+// In one folder and in order: later lines read what earlier ones have written.
+BOOST_AUTO_TEST_CASE(commands_of_the_readme_run) {
+  std::vector<std::string> commands;
+  for (const auto& line : shell_lines(contents(NYSALT_SOURCE_DIR "/README.md"))) {
+    for (const char* program : {"nysalt ", "build/release/nysalt "}) {
+      for (const auto& arguments : after(program, {line})) commands.push_back(arguments);
+    }
+  }
+  BOOST_REQUIRE(commands.size() >= 3U);
+  const scratch folder("readme");
+  for (const auto& arguments : commands) must_end_well(folder, arguments);
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSL-1.0
+// The program's numbers are those of the library, bit for bit: its methods are data, those here are types,
+// and numbers in JSON are printed so that they are read back whole.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../../src/seeds.hpp"
+#include "../support/document.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/s_aia.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+using boost::test_tools::tolerance;
+using json = nlohmann::ordered_json;
+using program::role;
+using program::seed_for;
+
+namespace {
+
+using state = phase_point<double, 6>;
+const fpu_chain<3> chain(50.0);
+const fpu_law<3> law(chain);
+constexpr std::uint64_t seed = 5;  // the user's
+
+/// What the library says of a method on the chain at the step 0.02, for the row that the program printed.
+template <Method M>
+void must_be(const json& row, const M& method, const error_measure<6>& measure) {
+  const trajectory_options options{
+      .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed)};
+  const auto its = trajectory_errors(chain, fine_steps<>(.02 / 200), law, method, measure, options);
+  BOOST_TEST_CONTEXT(row["method"] << " by " << measure.name) {
+    BOOST_TEST(row["error"] == its.methods[0].error.mean);
+    BOOST_TEST(row["standard_error"] == its.methods[0].error.standard_error);
+    BOOST_TEST(row["evaluations_per_time"] == its.methods[0].evaluations_per_time);
+    BOOST_TEST(row["diverged"] == 0);
+    if (its.reference_error) BOOST_TEST(row["reference_error"] == its.reference_error->mean);
+    BOOST_TEST(row["reference_error"].is_null() == !its.reference_error.has_value());
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
+  const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
+  const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
+  const auto must_all_be = [](const std::string& metric, const error_measure<6>& measure) {
+    const auto all = document(
+        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b --steps 0.02 --trajectories 20 "
+        "--learn-trajectories 5 " +
+        metric);
+    const auto& theta = all["fits"][0]["parameters"];
+    BOOST_REQUIRE(all["rows"].size() == 3U);
+    must_be(all["rows"][0], member<nystrom>({theta["b1"], theta["beta1"]}), measure);
+    must_be(all["rows"][1], s_aia2(.02 * chain.frequency_bands().back().high), measure);
+    must_be(all["rows"][2], srkn6b(), measure);
+  };
+  must_all_be("", path_measure(chain, stiff_energy));
+  must_all_be("--observable kinetic_energy", path_measure(chain, kinetic));
+  must_all_be("--metric state", state_measure(chain));
+  must_all_be("--metric exchange", exchange_measure(chain));
+  must_all_be("--metric energy", energy_measure(chain));
+}
+
+BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
+  const vector<double, 2> rest(0.0, 0.0);
+  const henon_heiles system;
+  const auto its = trajectory_errors(
+      system, fine_steps<>(.25 / 50), normal_around<2>({rest, rest}, .1, .1), mclachlan2(),
+      state_measure(system), {.step = .25, .steps = 40, .trajectories = 7, .seed = seed_for(role::test, 1)});
+  const auto all = document(
+      "compare --system henon_heiles --methods mclachlan2 --steps 0.25 --horizon 10 --trajectories 7 "
+      "--metric state --fine-step 0.005");
+  BOOST_TEST(all["reference"] == its.reference);
+  BOOST_TEST(all["rows"][0]["error"] == its.methods[0].error.mean);
+}
+
+BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {
+  const auto all = document(
+      "run --seed 5 --method srkn6b --step 0.03 --horizon 6 --sample-every 7 --trajectories 3 "
+      "--observables stiff_energy,energy,kinetic_energy,potential_energy,q1,p6,stiff_energy_2");
+  std::size_t at = 0;
+  const auto compare = [&](int m) {
+    return [&, m](std::int64_t n, double t, const state& x) {
+      const std::vector<double> values{chain.stiff_energy(x),
+                                       energy<double>(chain, x),
+                                       kinetic_energy<double>(chain, x.p),
+                                       chain.potential(x.q),
+                                       x.q[0],
+                                       x.p[5],
+                                       chain.stiff_energy(x, 1)};
+      json expected{m, n, t};
+      for (const double value : values) expected.push_back(value);
+      BOOST_REQUIRE(at < all["rows"].size());
+      BOOST_TEST(all["rows"][at++] == expected);
+    };
+  };
+  for (int m = 0; m < 3; ++m) {
+    const auto start = law(seed_for(role::test, seed), static_cast<std::uint64_t>(m));
+    integrate(chain, srkn6b(), .03, start, 200, compare(m), 7);
+  }
+  BOOST_TEST(at == all["rows"].size());
+}
+
+BOOST_AUTO_TEST_CASE(run_tells_where_the_library_sees_divergence) {
+  const auto all =
+      json_of(nysalt::test::run("run --method verlet --step 0.05 --horizon 1 --trajectories 5 --json"));
+  BOOST_REQUIRE(all["diverged"].size() == 5U);
+  for (std::uint64_t m = 0; m < 5; ++m) {
+    const auto end = integrate(chain, verlet(), .05, law(seed_for(role::test, 1), m), 20);
+    BOOST_TEST(all["diverged"][m]["trajectory"] == m);
+    BOOST_TEST(all["diverged"][m]["step"] == end.diverged_at.value());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(stability_gives_the_windows_of_the_library) {
+  const auto must_have = [](const std::string& arguments, const auto& method) {
+    const auto all = document("stability " + arguments);
+    json expected = json::array();
+    for (const auto& [low, high] : stability_windows(method)) expected.push_back({low, high});
+    const auto evaluations = std::remove_cvref_t<decltype(method)>::word::evaluations_per_step;
+    BOOST_TEST(all["windows"] == expected);
+    BOOST_TEST(all["limit"] == stability_limit(method));
+    BOOST_TEST(all["limit_per_evaluation"] == stability_limit(method) / evaluations);
+    BOOST_TEST(all["evaluations_per_step"] == evaluations);
+    json coefficients = json::array();
+    for (const double c : method.coefficients()) coefficients.push_back(c);
+    BOOST_TEST(all["coefficients"] == coefficients);
+  };
+  must_have("--method srkn6b", srkn6b());
+  must_have("--family nystrom --parameters 0.45,0.4", member<nystrom>({.45, .4}));
+  must_have("--method s_aia2 --system fpu --step 0.03", s_aia2(.03 * chain.frequency_bands().back().high));
+}
+
+// trace/2 = 1 - z^2/2 + K z^4 with K = b1 b2 s (1 - s)/2 and s = c2 - c1. At (1/2, 2/5) s is 3/5 and K is
+// 3/100: -1 is met at z^2 = 20/3 and 10, and 1 at 50/3. Both follow from coefficients by few operations.
+BOOST_AUTO_TEST_CASE(windows_are_the_known_ones) {
+  const auto all = document("stability --family nystrom --parameters 0.5,0.4");
+  BOOST_REQUIRE(all["windows"].size() == 2U);
+  const auto near = tolerance(100 * eps);
+  BOOST_TEST(all["limit"].get<double>() == std::sqrt(20.0 / 3.0), near);
+  BOOST_TEST(all["windows"][0][0] == 0.0);
+  BOOST_TEST(all["windows"][0][1] == all["limit"]);
+  BOOST_TEST(all["windows"][1][0].get<double>() == std::sqrt(10.0), near);
+  BOOST_TEST(all["windows"][1][1].get<double>() == std::sqrt(50.0 / 3.0), near);
+  // z^2 = 8/(1 + sqrt(1 - 32 K)) with McLachlan's a, and s = 1 - 2 a.
+  const double s = 1.0 - 2.0 * 0.19318332750378357396;  // [mclachlan_1995]
+  const double limit = std::sqrt(8.0 / (1.0 + std::sqrt(1.0 - 4.0 * s * (1.0 - s))));
+  const double found = document("stability --method mclachlan2")["limit"];
+  BOOST_TEST(found == limit, near);
+  BOOST_TEST(std::abs(found - 2.5531452) < 5e-8);  // as printed
+}
+
+// Measured beforehand by other programs, with other random numbers, and rounded to two digits.
+BOOST_AUTO_TEST_CASE(path_errors_are_the_known_ones) {
+  const auto all =
+      document("compare --methods verlet,verlet_2x,learned:nystrom --steps 0.01 --trajectories 400");
+  const std::vector<double> known{2.2e-2, 5.4e-3, 3.9e-4};
+  const std::vector<double> last_digit{1e-3, 1e-4, 1e-5};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& row = all["rows"][k];
+    // Two runs, each with its standard error.
+    const double allowed = 0.5 * last_digit[k] + 5.0 * std::sqrt(2.0) * row["standard_error"].get<double>();
+    BOOST_TEST(std::abs(row["error"].get<double>() - known[k]) < allowed, row);
+    BOOST_TEST(row["reference_error"].get<double>() < 1e-6 * known[k]);
+  }
+}
