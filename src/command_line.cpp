@@ -266,11 +266,13 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     const auto asked = app.get_subcommands();
-    print(asked.empty() ? app.help() : asked.front()->help());
+    print(asked.empty() ? app.help() : asked.front()->help("nysalt"));
     return done;
   } catch (const CLI::CallForVersion&) {
     print(fmt::format("nysalt {}\n", version));
     return done;
+  } catch (const CLI::ConfigError& problem) {
+    refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
   } catch (const CLI::ParseError& problem) {
     const auto asked = app.get_subcommands();
     const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();

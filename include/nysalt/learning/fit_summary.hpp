@@ -67,7 +67,7 @@ struct fit_summary {
   }
 
   std::string full() const {
-    std::string text = fmt::format("{} at step {:.17g} for {}\n", family, step, system);
+    std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
     for (const auto& p : parameters) {
       text += fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
                           p.free ? fmt::format("  +- {:.2e}", p.standard_error) : "  (not free)");
