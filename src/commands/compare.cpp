@@ -70,7 +70,7 @@ class comparison {
     if (command_.steps.empty()) refuse("--steps is needed, such as 0.01,0.02");
     for (const double step : command_.steps) require_positive("--steps", step);
     require_at_least_one("--trajectories", command_.trajectories);
-    if (command_.learning.fine_step) require_positive("--fine-step", *command_.learning.fine_step);
+    require_sound(command_.learning, "--learn-");
     system_->require_measure(command_.metric, command_.observable);
   }
 
@@ -93,7 +93,7 @@ class comparison {
         steps_within("--horizon", command_.horizon, step);
         row its{source.typed, nominal, step};
         if (source.family) {
-          require_sound(command_.learning, step, "--learn-");
+          steps_within("--learn-horizon", command_.learning.horizon, step);
         } else {
           its.coefficients = coefficients_at(source, *system_, step, common_.force, warnings_);
         }
@@ -267,6 +267,7 @@ std::string comparison::readable() const {
 /// Table and pictures.
 void comparison::write(const std::filesystem::path& folder) const {
   const auto rows = work_precision_rows();
+  make_folder(folder);
   write_result(folder / "table.md", work_precision_table(rows).markdown(), common_);
   table all({"method", "step", "step_size", "evaluations_per_time", "seconds_per_time", "error",
              "standard_error", "diverged"});
@@ -294,10 +295,7 @@ void comparison::write(const std::filesystem::path& folder) const {
 int compare(const compare_command& command, const common_settings& common) {
   comparison all(command, common);
   const std::filesystem::path folder(command.output);
-  if (!command.output.empty()) {
-    std::filesystem::create_directories(folder);
-    require_writable(folder / "rows.csv");
-  }
+  if (!command.output.empty()) require_folder(folder);
   all.learn_and_measure();
   if (!command.output.empty()) all.write(folder);
   if (common.json) {
