@@ -25,6 +25,18 @@ constexpr const char* three_commands =
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
     "nysalt --help tells of all.\n";
 
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) names.push_back(option->get_name());
+  return names;
+}
+
 /// A file of options: those that stand in no [section] belong to the command that runs, whose section says
 /// more.
 class options_file : public CLI::ConfigTOML {
@@ -38,11 +50,29 @@ class options_file : public CLI::ConfigTOML {
     std::stable_partition(items.begin(), items.end(), [](const auto& item) { return !item.parents.empty(); });
     for (auto& item : items) {
       if (item.parents.empty() && !running.empty()) item.parents = {running.front()->get_name()};
+      require_known(item);
     }
     return items;
   }
 
  private:
+  /// CLI11 refuses what it does not know too, but does not say what it knows.
+  void require_known(const CLI::ConfigItem& item) const {
+    if (item.name == "++" || item.name == "--") return;  // a section begins or ends
+    const CLI::App* command = &app_;
+    for (const auto& section : item.parents) {
+      const auto found =
+          command->get_subcommands([&](const CLI::App* its) { return its->check_name(section); });
+      if (found.empty()) {
+        refuse("--config: unknown section [{}]: it is one of {}", section, listed(command_names(app_)));
+      }
+      command = found.front();
+    }
+    if (command->get_option_no_throw("--" + item.name) != nullptr) return;
+    refuse("--config: unknown option '{}': {} takes {}", item.name, command->get_name(),
+           listed(option_names(*command)));
+  }
+
   const CLI::App& app_;
 };
 
@@ -62,11 +92,7 @@ std::vector<std::string> split(const std::vector<std::string>& texts, const char
 
 std::vector<double> numbers(const std::vector<std::string>& texts, const char* option) {
   std::vector<double> values;
-  for (const auto& part : split(texts, option)) {
-    const auto value = number_from(part);
-    if (!value) refuse("{}: '{}' is not a finite number", option, part);
-    values.push_back(*value);
-  }
+  for (const auto& part : split(texts, option)) values.push_back(number_of<double>(option, part));
   return values;
 }
 
@@ -81,9 +107,39 @@ struct typed {
   std::vector<std::string> methods, steps, observables, parameters;
 };
 
+template <class T>
+struct plain {
+  using type = T;
+};
+template <class T>
+struct plain<std::optional<T>> {
+  using type = T;
+};
+
+/// An option that takes a number. Read here, as CLI11 takes an empty text for 0, 010 for 8, and a number that
+/// is too large for the largest.
+template <class T>
+CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, const std::string& what) {
+  using number = typename plain<T>::type;
+  const auto take = [name, &value](const CLI::results_t& texts) {
+    value = number_of<number>(name, texts.back());
+    return true;
+  };
+  CLI::Option* option = command.add_option(name, take, what);
+  option->type_name(std::is_floating_point_v<number> ? "NUMBER" : "INTEGER");
+  if constexpr (std::is_same_v<T, number>) option->default_str(fmt::format("{}", value));
+  return option;
+}
+
+/// A text that is empty is a variable of the shell that was never set, not a wish.
+void refuse_empty_texts(CLI::App& command) {
+  const auto objection = [](const std::string& text) { return text.empty() ? "it is empty" : ""; };
+  for (CLI::Option* option : command.get_options()) option->check(objection);
+}
+
 void add_common(CLI::App& command, common_settings& common) {
-  command.add_option("--seed", common.seed, "of all random numbers")->capture_default_str();
-  command.add_option("--threads", common.threads, "at most so many; results do not depend on it")
+  add_number(command, "--seed", common.seed, "of all random numbers");
+  add_number(command, "--threads", common.threads, "at most so many; results do not depend on it")
       ->default_str("all cores");
   command.add_flag("--json", common.json, "one JSON document on standard output");
   command.fallthrough();  // for --config, which belongs to the program
@@ -95,17 +151,17 @@ void add_force(CLI::App& command, common_settings& common, const char* what) {
 
 void add_system(CLI::App& command, system_settings& system) {
   command.add_option("--system", system.name, "nysalt list shows all")->capture_default_str();
-  command.add_option("--pairs", system.pairs, "fpu: pairs of masses [3]");
-  command.add_option("--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
-  command.add_option("--masses", system.masses, "linear_chain [8]");
-  command.add_option("--spring", system.spring, "linear_chain [1]");
+  add_number(command, "--pairs", system.pairs, "fpu: pairs of masses [3]");
+  add_number(command, "--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
+  add_number(command, "--masses", system.masses, "linear_chain [8]");
+  add_number(command, "--spring", system.spring, "linear_chain [1]");
 }
 
 void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
-  command.add_option("--fine-step", how.fine_step,
-                     "of the reference; must divide the step [omega h <= 5e-3]");
-  command.add_option(prefix + "trajectories", how.trajectories, "to learn from")->capture_default_str();
-  command.add_option(prefix + "horizon", how.horizon, "length of each")->capture_default_str();
+  add_number(command, "--fine-step", how.fine_step,
+             "of the reference; must divide the step [omega h <= 5e-3]");
+  add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
+  add_number(command, prefix + "horizon", how.horizon, "length of each");
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
@@ -121,7 +177,7 @@ void add_learn(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("learn", "fit a family to a system at a step");
   add_system(command, to.learn.system);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
-  command.add_option("--step", to.learn.step, "to learn for")->required();
+  add_number(command, "--step", to.learn.step, "to learn for")->default_str("")->required();
   add_learning(command, to.learn.learning, "--");
   command.add_option("--output", to.learn.output, "write a scheme file");
   add_common(command, to.common);
@@ -137,11 +193,11 @@ void add_run(CLI::App& app, typed& to) {
   add_system(command, to.run.system);
   command.add_option("--method", to.run.method, "a name of nysalt list, or the file of a scheme or table")
       ->required();
-  command.add_option("--step", to.run.step, "of the method")->required();
-  command.add_option("--horizon", to.run.horizon, "length of each trajectory")->required();
-  command.add_option("--trajectories", to.run.trajectories, "how many")->capture_default_str();
+  add_number(command, "--step", to.run.step, "of the method")->default_str("")->required();
+  add_number(command, "--horizon", to.run.horizon, "length of each trajectory")->default_str("")->required();
+  add_number(command, "--trajectories", to.run.trajectories, "how many");
   command.add_option("--observables", to.observables, "what to sample [that of the system]");
-  command.add_option("--sample-every", to.run.sample_every, "so many steps")->capture_default_str();
+  add_number(command, "--sample-every", to.run.sample_every, "so many steps");
   command.add_option("--output", to.run.output, "CSV file [standard output]");
   command.add_flag("--plot", to.run.plot, "draw the first trajectory beside the output");
   add_common(command, to.common);
@@ -159,8 +215,8 @@ void add_compare(CLI::App& app, typed& to) {
   command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas")->required();
   command.add_option("--steps", to.steps, "joined by commas")->required();
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
-  command.add_option("--horizon", to.compare.horizon, "length of each trajectory")->capture_default_str();
-  command.add_option("--trajectories", to.compare.trajectories, "to compare on")->capture_default_str();
+  add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
+  add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
   command.add_option("--metric", to.compare.metric, "path, state, exchange or energy")->capture_default_str();
   command.add_option("--observable", to.compare.observable, "of the metric path [that of the system]");
   add_learning(command, to.compare.learning, "--learn-");
@@ -181,7 +237,7 @@ void add_stability(CLI::App& app, typed& to) {
   command.add_option("--family", to.stability.family, "with --parameters");
   command.add_option("--parameters", to.parameters, "of the family, joined by commas");
   add_system(command, to.stability_system);
-  command.add_option("--step", to.stability.step, "with --system: is the system stable there?");
+  add_number(command, "--step", to.stability.step, "with --system: is the system stable there?");
   add_common(command, to.common);
   command.footer(
       "Examples:\n"
@@ -193,7 +249,10 @@ bool given(const CLI::App& command, const std::string& option) { return command.
 
 int run_parsed(const CLI::App& command, typed& to) {
   const std::string name = command.get_name();
-  if (to.common.threads < 1) refuse("--threads must be at least 1, got {}", to.common.threads);
+  constexpr int most_threads = 1024;  // each takes memory, before it works
+  if (to.common.threads < 1 || to.common.threads > most_threads) {
+    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, to.common.threads);
+  }
   if (to.common.seed >= seed_limit) {
     refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
   }
@@ -213,7 +272,9 @@ int run_parsed(const CLI::App& command, typed& to) {
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  if (given(command, "--system")) to.stability.system = to.stability_system;
+  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring"}) {
+    if (given(command, option)) to.stability.system = to.stability_system;
+  }
   return stability(to.stability, to.common);
 }
 
@@ -234,6 +295,19 @@ std::string as_typed(int argc, char** argv) {
     }
   }
   return text;
+}
+
+/// Words on the command line that nothing takes.
+[[noreturn]] void refuse_extras(const CLI::App& app) {
+  const auto extras = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  const std::string& first = option == extras.end() ? extras.front() : *option;
+  const auto asked = app.get_subcommands();
+  if (asked.empty()) refuse("unknown command '{}': it is one of {}", first, listed(command_names(app)));
+  const CLI::App& command = *asked.front();
+  refuse("unknown {} '{}': nysalt {} takes {}", is_option(first) ? "option" : "argument", first,
+         command.get_name(), listed(option_names(command)));
 }
 
 }  // namespace
@@ -259,6 +333,8 @@ int run_command_line(int argc, char** argv) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());
   }
+  refuse_empty_texts(app);
+  for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
   app.footer(
       "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
       "the fit is not usable.");
@@ -273,6 +349,8 @@ int run_command_line(int argc, char** argv) {
     return done;
   } catch (const CLI::ConfigError& problem) {
     refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
+  } catch (const CLI::ExtrasError&) {
+    refuse_extras(app);
   } catch (const CLI::ParseError& problem) {
     const auto asked = app.get_subcommands();
     const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();

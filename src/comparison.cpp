@@ -49,7 +49,7 @@ void comparison::require_sound_command() const {
     }
   }
   require_at_least_one("--trajectories", command_.trajectories);
-  if (command_.learning.fine_step) require_positive("--fine-step", *command_.learning.fine_step);
+  require_sound(command_.learning, "--learn-");
   system_->require_measure(command_.metric, command_.observable);
 }
 
@@ -81,7 +81,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   steps_within("--horizon", command_.horizon, step);
   row its{source.typed, nominal, step};
   if (source.family) {
-    require_sound(command_.learning, step, "--learn-");
+    steps_within("--learn-horizon", command_.learning.horizon, step);
   } else {
     its.coefficients = coefficients_at(source, *system_, step, common_.force, warnings_);
   }

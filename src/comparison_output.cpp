@@ -93,6 +93,7 @@ std::string comparison::readable() const {
 
 void comparison::write(const std::filesystem::path& folder) const {
   const auto rows = work_precision_rows();
+  make_folder(folder);
   write_result(folder / "table.md", work_precision_table(rows).markdown() + "\n" + at_equal_cost(true),
                common_);
   table all({"method", "step", "step_size", "evaluations_per_time", "seconds_per_time", "error",

@@ -10,8 +10,8 @@
 
 namespace nysalt::program {
 
-/// Throws refusal for settings that cannot be; `prefix` is that of the option names.
-void require_sound(const learn_settings& how, double step, const std::string& prefix);
+/// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
+void require_sound(const learn_settings& how, const std::string& prefix);
 
 /// Throws refusal for an unknown family, before any work is done.
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);

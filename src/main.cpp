@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <new>
@@ -9,13 +6,12 @@
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "output.hpp"
 
 namespace {
 
-/// Bad input is told in one line, whatever the message was made of.
-int refused(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  fmt::print(stderr, "nysalt: {}\n", text);
+int refused(const std::string& text) {
+  nysalt::program::complain(text);
   return nysalt::program::bad_input;
 }
 

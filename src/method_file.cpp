@@ -80,6 +80,22 @@ auto in_file(const std::string& file, const auto& f) {
   }
 }
 
+/// By name: the order of members means nothing in JSON.
+std::vector<double> parameters_in(const json& parameters, const std::string& family, const reader& read) {
+  std::vector<double> theta;
+  const reader values(parameters, read.file());
+  const bool known = with_family(family, [&]<class F>(F) {
+    for (const auto name : F::parameter_names) theta.push_back(values.number(std::string(name).c_str()));
+    if (parameters.size() == theta.size()) return;
+    refuse("{}: the family {} has the parameters {} and no others", read.file(), family,
+           listed(F::parameter_names));
+  });
+  if (!known) {
+    refuse("{}: unknown family '{}': it is one of {}", read.file(), family, listed(family_names()));
+  }
+  return theta;
+}
+
 scheme scheme_in(const json& document, const reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
@@ -87,14 +103,11 @@ scheme scheme_in(const json& document, const reader& read) {
         "coefficients of your own as a table",
         read.file());
   }
-  const json& parameters = read.member("parameters");
-  if (!parameters.is_object()) refuse("{}: \"parameters\" must hold numbers by name", read.file());
-  std::vector<double> theta;
-  for (const auto& [name, value] : parameters.items()) theta.push_back(read.number(value, "parameters"));
+  const std::string family = read.text("family");
+  const std::vector<double> theta = parameters_in(read.member("parameters"), family, read);
   const double step = read.number("step");
   if (!(step > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), step);
   const reader of_system(read.member("system"), read.file());
-  const std::string family = read.text("family");
   return in_file(read.file(), [&] {
     return scheme{family_member(family, theta), step, of_system.text("description"), read.flag("usable"),
                   read.text("reason")};
@@ -103,6 +116,10 @@ scheme scheme_in(const json& document, const reader& read) {
 
 tabulated table_in(const json& document, const reader& read) {
   const std::string letters = read.text("letters");
+  constexpr std::size_t most_letters = 200;  // finding the order takes their square: a second
+  if (letters.size() > most_letters) {
+    refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
+  }
   const json& list = read.member("coefficients");
   if (!list.is_array()) refuse("{}: \"coefficients\" must be a list of numbers", read.file());
   std::vector<double> coefficients;
@@ -120,6 +137,10 @@ tabulated table_in(const json& document, const reader& read) {
              read.file(), letter, sum);
     }
     const auto found = taylor_order(bare);
+    if (found.quadratic_kinetic < 1) {
+      refuse("{}: its steps do not agree with the flow to order 1: are its coefficients too large?",
+             read.file());
+    }
     if (document.contains("order")) {
       const double declared = read.number("order");
       if (!(declared <= found.quadratic_kinetic)) {
@@ -184,6 +205,8 @@ method_file read_method_file(const std::filesystem::path& path) {
     document = json::parse(text);
   } catch (const json::parse_error& problem) {
     refuse("{}: this is not whole JSON (it ends or breaks at byte {}); was it cut off?", file, problem.byte);
+  } catch (const json::out_of_range&) {
+    refuse("{}: it holds a number that is not finite", file);
   }
   const bool is_ours = document.is_object() && document.contains("format") && document["format"].is_string();
   const std::string format = is_ours ? document["format"].get<std::string>() : "";

@@ -7,7 +7,9 @@
 
 #include <ceres/version.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <boost/version.hpp>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
@@ -72,6 +74,31 @@ void require_writable(const std::filesystem::path& file) {
   }
 }
 
-void warn(std::string_view text) { fmt::print(stderr, "nysalt: warning: {}\n", text); }
+void require_folder(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, ignored)) {
+    refuse("cannot write into {}: {} is not a folder; name another", folder.string(), there.string());
+  }
+  if (access(there.c_str(), W_OK) != 0) {
+    refuse("cannot write into {}: the folder {} is not writable", folder.string(), there.string());
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) refuse("cannot make the folder {}: {}", folder.string(), failure.message());
+}
+
+void complain(std::string text) {
+  const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  fmt::print(stderr, "nysalt: {}\n", text);
+}
+
+void warn(std::string_view text) { complain(fmt::format("warning: {}", text)); }
 
 }  // namespace nysalt::program

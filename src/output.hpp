@@ -23,10 +23,19 @@ void write_result(const std::filesystem::path& file, std::string_view text, cons
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
 
+/// Throws refusal now if a folder could not be made there later, or not be written into.
+void require_folder(const std::filesystem::path& folder);
+
+/// Makes a folder, and those it lies in, where there is none.
+void make_folder(const std::filesystem::path& folder);
+
 /// The folder that a file is in.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
-/// One line on standard error.
+/// One line of plain characters on standard error, whatever was typed or stood in a file.
+void complain(std::string text);
+
+/// The same, of what is no error.
 void warn(std::string_view text);
 
 }  // namespace nysalt::program

@@ -11,10 +11,7 @@ namespace nysalt::program {
 int compare(const compare_command& command, const common_settings& common) {
   comparison all(command, common);
   const std::filesystem::path folder(command.output);
-  if (!command.output.empty()) {
-    std::filesystem::create_directories(folder);
-    require_writable(folder / "rows.csv");
-  }
+  if (!command.output.empty()) require_folder(folder);
   all.learn_and_measure();
   if (!command.output.empty()) all.write(folder);
   if (common.json) {

@@ -38,7 +38,8 @@ json document(const learned_scheme& learned, const bundled_system& system) {
 
 int learn(const learn_command& command, const common_settings& common) {
   require_positive("--step", command.step);
-  require_sound(command.learning, command.step, "--");
+  require_sound(command.learning, "--");
+  steps_within("--horizon", command.learning.horizon, command.step);
   const auto system = make_system(command.system);
   if (!command.output.empty()) require_writable(command.output);
 

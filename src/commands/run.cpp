@@ -29,6 +29,19 @@ void warn_of_instability(const tabulated& method, const bundled_system& system, 
   }
 }
 
+/// Refuses what would fill the memory, before any work: `run` keeps the samples of a block of trajectories,
+/// and a JSON document all of them.
+void require_room(const run_command& command, std::int64_t steps, bool whole_document, int threads) {
+  constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
+  const auto columns = static_cast<double>(command.observables.size());
+  const auto samples = static_cast<double>(steps / command.sample_every + 1);
+  const std::int64_t at_a_time = whole_document ? command.trajectories : 4 * threads;
+  const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
+  if (columns * samples * trajectories <= most) return;
+  refuse("{:g} samples of {} trajectories would not fit into memory: take a larger --sample-every{}", samples,
+         command.trajectories, whole_document ? ", or --output to a file" : "");
+}
+
 /// Where the samples go: lines of CSV into a file or onto standard output, or rows of the JSON document.
 class samples {
  public:
@@ -148,6 +161,7 @@ int run(const run_command& asked, const common_settings& common) {
   if (!command.output.empty()) require_writable(command.output);
   const auto system = make_system(command.system);
   if (command.observables.empty()) command.observables = {system->default_observable()};
+  require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
   const tabulated method =

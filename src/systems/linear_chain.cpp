@@ -8,6 +8,8 @@
 namespace nysalt::program {
 
 std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring) {
+  constexpr std::int64_t most = 1000;  // its modes are found from a full matrix: seconds
+  if (masses > most) refuse("--masses must be at most {}, got {}", most, masses);
   const auto chain = linear_chain::between_walls(masses, spring);
   const double fastest = chain.frequency_bands().back().high;
   using law = normal_around<Eigen::Dynamic>;

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSL-1.0
+// Whatever is typed wrong: one line that says what, where and what to do; nothing printed, nothing written.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+struct bad {
+  std::string arguments;
+  std::vector<std::string_view> words;  // that must be said
+};
+
+bool is_one_line(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n') &&
+         std::none_of(text.begin(), text.end() - 1, [](unsigned char c) { return c < ' '; });
+}
+
+/// All must be refused, in one folder that stays as it is.
+void all_refused(const scratch& folder, const std::vector<bad>& cases) {
+  const auto before = folder.files();
+  for (const auto& [arguments, words] : cases) {
+    const finished done = run(folder, arguments);
+    BOOST_TEST_CONTEXT("nysalt " << arguments << "\nsaid: " << done.err) {
+      BOOST_TEST(done.code == 2);
+      BOOST_TEST(done.out == "");
+      BOOST_TEST(is_one_line(done.err));
+      BOOST_TEST(done.err.starts_with("nysalt: "));
+      for (const auto word : words) {
+        BOOST_TEST(done.err.find(word) != std::string::npos, "missing: " << word);
+      }
+      BOOST_TEST((folder.files() == before));
+    }
+  }
+}
+void all_refused(const std::vector<bad>& cases) { all_refused(scratch("bad_input"), cases); }
+
+/// Each argument list behind the same beginning.
+std::vector<bad> after(const std::string& beginning, std::vector<bad> cases) {
+  for (auto& one : cases) one.arguments = beginning + " " + one.arguments;
+  return cases;
+}
+
+// Sound beginnings: what follows makes them bad.
+const std::string learn = "learn --trajectories 3 --output scheme.json --step 0.02";
+const std::string run_it = "run --method verlet --output out.csv --step 0.01";
+const std::string compare = "compare --trajectories 3 --fine-step 0.001 --output folder --methods verlet";
+
+}  // namespace
+
+// Else every case below could be refused for its beginning.
+BOOST_AUTO_TEST_CASE(the_beginnings_are_sound) {
+  BOOST_TEST(run(learn + " --horizon 0.1 --fine-step 0.001 --force").code != 2);
+  BOOST_TEST(run(run_it + " --horizon 0.1").code == 0);
+  BOOST_TEST(run(compare + " --steps 0.01 --horizon 0.1").code == 0);
+  BOOST_TEST(run("stability --method verlet").code == 0);
+}
+
+BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
+  all_refused({
+      {"nosuch", {"'nosuch'", "list, learn, run, compare, stability"}},
+      {"--nosuch", {"'--nosuch'", "list, learn, run, compare, stability"}},
+      {"'' list", {"''"}},
+      {"list learn", {"'learn'", "nysalt list"}},
+      {"list --nosuch 3", {"'--nosuch'", "--seed"}},
+      {learn + " --nosuch=3", {"'--nosuch=3'", "--fine-step"}},
+      {run_it + " --horizon 1 out.csv", {"'out.csv'", "--output"}},
+      {learn + " --system nosuch", {"nosuch", "fpu, oscillator, linear_chain, pendulum, henon_heiles"}},
+      {learn + " --family nosuch", {"family 'nosuch'", "nystrom"}},
+      {learn + " --coordinates nosuch", {"coordinates 'nosuch'", "qp, modes, energy"}},
+      {learn + " --fix c9=1", {"--fix", "'c9'", "b1, beta1"}},
+      {"run --method nosuch --step 1 --horizon 1", {"method 'nosuch'", "verlet", "s_aia2", ".json"}},
+      {"run --method '' --step 1 --horizon 1", {"--method", "empty"}},
+      {"run --method verlet,bcss2 --step 1 --horizon 1", {"'verlet,bcss2'"}},
+      {"run --method learned:nosuch --step 1 --horizon 1", {"family 'nosuch'", "nystrom"}},
+      {"run --method learned:nystrom --step 1 --horizon 1", {"must be learned first", "nysalt learn"}},
+      {run_it + " --horizon 1 --observables nosuch", {"'nosuch'", "stiff_energy", "q1..q6"}},
+      {run_it + " --horizon 1 --observables q7", {"'q7'", "q1..q6"}},
+      {run_it + " --horizon 1 --observables q0", {"'q0'", "q1..q6"}},
+      {run_it + " --horizon 1 --observables q-1", {"'q-1'"}},
+      {run_it + " --horizon 1 --observables stiff_energy_4", {"stiff_energy_1..stiff_energy_3"}},
+      {compare + " --steps 0.01 --metric nosuch", {"'nosuch'", "path, state, exchange, energy"}},
+      {compare + " --steps 0.01 --observable nosuch", {"'nosuch'", "stiff_energy"}},
+      {compare + ",nosuch --steps 0.01", {"'nosuch'", "mclachlan2"}},
+      {compare + ",learned: --steps 0.01", {"family ''", "nystrom"}},
+      {"stability --method nosuch", {"'nosuch'", "verlet"}},
+      {"stability --family nosuch --parameters 1", {"'nosuch'", "nystrom"}},
+  });
+}
+
+BOOST_AUTO_TEST_CASE(numbers_that_are_none_or_not_in_place) {
+  all_refused(after("learn --trajectories 3 --output scheme.json --step",
+                    {{"", {"--step"}},
+                     {"''", {"--step", "empty"}},
+                     {"0", {"--step", "positive"}},
+                     {"-0.0", {"--step", "positive"}},
+                     {"-0.02", {"--step", "positive", "-0.02"}},
+                     {"nan", {"--step", "finite", "nan"}},
+                     {"inf", {"--step", "finite", "inf"}},
+                     {"1e999", {"--step", "finite", "1e999"}},
+                     {"abc", {"--step", "abc"}},
+                     {"0,02", {"--step", "0,02"}},
+                     {"0.02x", {"--step", "0.02x"}},
+                     {"'0.02 0.03'", {"--step", "0.02 0.03"}},
+                     {"0.02 --step 0.03", {"--step"}},
+                     {"0.02 --omega 0", {"omega", "positive"}},
+                     {"0.02 --omega -50", {"omega", "positive", "-50"}},
+                     {"0.02 --omega nan", {"--omega", "finite"}},
+                     {"0.02 --omega 1e999", {"--omega", "finite"}},
+                     {"0.02 --omega ''", {"--omega"}},
+                     {"0.02 --omega=", {"--omega"}}}));
+  all_refused(after(learn, {{"--trajectories 4", {"--trajectories"}},
+                            {"--seed -1", {"--seed", "-1"}},
+                            {"--seed 2251799813685248", {"--seed", "2^51"}},
+                            {"--seed 99999999999999999999999", {"--seed", "99999999999999999999999"}},
+                            {"--seed 1.5", {"--seed", "1.5", "whole"}},
+                            {"--seed 1e5", {"--seed", "1e5", "whole"}},
+                            {"--seed 0x10", {"--seed", "0x10", "whole"}},
+                            {"--seed ''", {"--seed", "empty"}},
+                            {"--threads 0", {"--threads", "at least 1"}},
+                            {"--threads -2", {"--threads", "at least 1", "-2"}},
+                            {"--threads 1000000000", {"--threads", "at most"}},
+                            {"--threads 99999999999", {"--threads", "99999999999"}},
+                            {"--threads all", {"--threads", "all"}},
+                            {"--pairs 0", {"pairs", "0"}},
+                            {"--pairs -3", {"pairs", "-3"}},
+                            {"--pairs 2.5", {"--pairs", "whole"}}}));
+  all_refused(after("run --method verlet --output out.csv --step 0.01 --horizon 1",
+                    {{"--trajectories 0", {"--trajectories", "at least 1"}},
+                     {"--trajectories -3", {"--trajectories", "at least 1", "-3"}},
+                     {"--sample-every 0", {"--sample-every", "at least 1"}},
+                     {"--sample-every -1", {"--sample-every", "at least 1"}},
+                     {"--sample-every 0.5", {"--sample-every", "whole"}},
+                     {"--system linear_chain --masses 0", {"mass", "0"}},
+                     {"--system linear_chain --masses -1", {"mass", "-1"}},
+                     {"--system linear_chain --spring 0", {"spring", "positive"}},
+                     {"--system linear_chain --spring nan", {"--spring", "finite"}},
+                     {"--system oscillator --omega 0", {"omega", "positive"}}}));
+}
+
+BOOST_AUTO_TEST_CASE(a_fine_step_must_divide) {
+  all_refused(after(learn, {{"--fine-step 0.003", {"0.02", "multiple", "0.003", "--fine-step"}},
+                            {"--fine-step 0.04", {"0.02", "multiple", "0.04"}},
+                            {"--fine-step 0", {"--fine-step", "positive"}},
+                            {"--fine-step -0.01", {"--fine-step", "positive"}},
+                            {"--fine-step nan", {"--fine-step", "finite"}},
+                            {"--fine-step ''", {"--fine-step"}}}));
+  all_refused({{compare + " --steps 0.0105", {"0.0105", "multiple", "0.001"}},
+               {compare + " --steps 0.01,0.0105", {"0.0105", "multiple", "0.001"}},
+               {compare + " --steps 0.0105 --system oscillator", {"0.0105", "multiple", "0.001"}}});
+}
+
+BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
+  all_refused({
+      {learn + " --horizon 0.01", {"--horizon", "0.01", "shorter", "0.02"}},
+      {learn + " --horizon 0", {"--horizon", "positive"}},
+      {learn + " --horizon nan", {"--horizon", "finite"}},
+      {learn + " --horizon 1e300", {"--horizon", "1e+300"}},
+      {run_it, {"--horizon"}},
+      {run_it + " --horizon 0.0099", {"--horizon", "shorter"}},
+      {run_it + " --horizon -1", {"--horizon", "positive"}},
+      {run_it + " --horizon 1e300", {"--horizon", "1e+300"}},
+      {run_it + " --horizon inf", {"--horizon", "finite"}},
+      {"run --method verlet --output out.csv --step 1e-300 --horizon 1", {"1e-300", "--horizon"}},
+      {compare + " --steps 0.6", {"--horizon", "shorter", "0.6"}},
+      // Six evaluations a step: 0.6 again.
+      {"compare --methods srkn6b --equal-cost --steps 0.1 --output folder", {"--horizon", "shorter", "0.6"}},
+      {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},
+      {compare + " --steps 1e-300", {"--horizon", "1e-300"}},
+  });
+}
+
+BOOST_AUTO_TEST_CASE(lists_have_no_holes) {
+  all_refused({
+      {compare + " --steps 1,,2", {"--steps", "empty", "1,,2"}},
+      {compare + " --steps ,1", {"--steps", "empty"}},
+      {compare + " --steps 1,", {"--steps", "empty"}},
+      {compare + " --steps ''", {"--steps", "empty"}},
+      {compare + " --steps 0.01,x", {"--steps", "'x'"}},
+      {compare + " --steps 0.01,nan", {"--steps", "'nan'"}},
+      {compare + " --steps 0.01,1e999", {"--steps", "'1e999'"}},
+      {compare + " --steps 0.01,0", {"--steps", "positive"}},
+      {compare + " --steps -0.01", {"--steps", "positive", "-0.01"}},
+      {compare + ",, --steps 0.01", {"--methods", "empty"}},
+      {compare + ",verlet --steps 0.01", {"--methods", "verlet", "twice"}},
+      {run_it + " --horizon 1 --observables energy,,q1", {"--observables", "empty"}},
+      {"stability --family nystrom --parameters 0.5,", {"--parameters", "empty"}},
+  });
+}
+
+BOOST_AUTO_TEST_CASE(parameters_of_a_family) {
+  all_refused(after("stability --family nystrom", {{"", {"2 parameters", "b1, beta1", "0"}},
+                                                   {"--parameters 0.5", {"2 parameters", "1"}},
+                                                   {"--parameters 0.5,0.4,0.3", {"2 parameters", "3"}},
+                                                   {"--parameters 0.5,x", {"--parameters", "'x'"}},
+                                                   {"--parameters 0.5,nan", {"--parameters", "'nan'"}},
+                                                   {"--parameters 0,0.4", {"b1", "(0, 1)", "0"}},
+                                                   {"--parameters 0.5,-0.1", {"beta1", "[0, 0.5]"}},
+                                                   {"--parameters 0.5,1e308", {"beta1", "[0, 0.5]"}},
+                                                   {"--parameters ''", {"--parameters", "empty"}}}));
+  all_refused(after(learn, {{"--fix b1", {"--fix", "b1=0.5", "'b1'"}},
+                            {"--fix b1=", {"--fix", "'b1='"}},
+                            {"--fix =0.5", {"--fix", "''"}},
+                            {"--fix ''", {"--fix"}},
+                            {"--fix b1=x", {"--fix", "'b1=x'"}},
+                            {"--fix b1=nan", {"--fix", "'b1=nan'"}},
+                            {"--fix b1=0.5,beta1=0.4", {"--fix", "name=number"}},
+                            {"--fix b1=0.5 --fix b1=0.6", {"--fix", "b1", "twice"}},
+                            {"--fix b1=1e308", {"b1", "(0, 1)"}},
+                            {"--fix b1=-0.5", {"b1", "(0, 1)"}}}));
+}
+
+BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_or_are_missing) {
+  all_refused({
+      {"learn", {"--step", "required"}},
+      {"learn --step", {"--step"}},
+      {"run --step 0.1 --horizon 1", {"--method", "required"}},
+      {"compare --methods verlet", {"--steps", "required"}},
+      {"compare --steps 0.01", {"--methods", "required"}},
+      {"stability", {"--method", "--family"}},
+      {"stability --family nystrom --parameters 0.5,0.4 --method verlet", {"--family", "--method"}},
+      {"stability --method verlet --parameters 0.5,0.4", {"--parameters", "--family"}},
+      {"stability --parameters 0.5,0.4", {"--family"}},
+      {"stability --method verlet --system fpu", {"--system", "--step"}},
+      {"stability --method verlet --step 0.1", {"--system", "--step"}},
+      {"stability --method verlet --omega 20", {"--system", "--step"}},
+      {"stability --method verlet --system nosuch --step 1", {"'nosuch'", "fpu"}},
+      {"stability --method verlet --system fpu --step 0", {"--step", "positive"}},
+      {"stability --method s_aia2", {"s_aia2", "--system", "--step"}},
+      {"stability --method s_aia2 --system fpu --step 1", {"s_aia2", "step"}},
+      {"stability --method learned:nystrom", {"learned first"}},
+      {learn + " --masses 3", {"fpu", "--masses", "--pairs, --omega"}},
+      {learn + " --system pendulum --omega 3", {"pendulum", "--omega", "no option"}},
+      {learn + " --system linear_chain --pairs 3", {"linear_chain", "--pairs", "--masses, --spring"}},
+      {"run --method verlet --step 0.1 --horizon 1 --plot", {"--plot", "--output"}},
+      {"run --method s_aia2 --step 1 --horizon 1", {"s_aia2", "step"}},
+      {compare + " --steps 0.01 --metric state --observable energy", {"--observable", "path", "state"}},
+      {compare + " --steps 0.01 --metric exchange --system pendulum", {"exchange", "pendulum"}},
+      {compare + " --steps 0.01 --trajectories 0", {"--trajectories"}},
+      {compare + " --steps 0.01 --learn-trajectories 0", {"--learn-trajectories", "at least 1"}},
+      {compare + " --steps 0.01 --learn-horizon 0", {"--learn-horizon", "positive"}},
+      {compare + " --steps 0.01 --coordinates nosuch", {"coordinates 'nosuch'"}},
+  });
+}
+
+BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
+  all_refused({
+      {learn + " --pairs 1000000000000", {"--pairs", "at most"}},
+      {learn + " --pairs 9223372036854775807", {"--pairs", "at most"}},
+      {learn + " --pairs 4611686018427387904", {"--pairs", "at most"}},
+      {learn + " --pairs 9223372036854775808", {"--pairs", "9223372036854775808"}},
+      {"learn --trajectories 1000000000000 --step 0.02 --output scheme.json", {"memory", "trajectories"}},
+      {learn + " --horizon 1e14", {"memory", "horizon"}},
+      {run_it + " --horizon 1 --system linear_chain --masses 1000000000000", {"--masses", "at most"}},
+      {run_it + " --horizon 1 --system linear_chain --masses 50000", {"--masses", "at most"}},
+      {run_it + " --horizon 1e13", {"memory", "--sample-every"}},
+      {"run --method verlet --step 0.01 --horizon 1 --trajectories 1000000000000 --json",
+       {"memory", "--output"}},
+      {"compare --methods verlet --steps 0.01 --trajectories 1000000000000", {"memory", "trajectories"}},
+  });
+}
+
+BOOST_AUTO_TEST_CASE(files_of_options) {
+  const scratch folder("bad_config");
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  };
+  write("unknown.toml", "step = 0.02\nnosuch = 3\n");
+  write("section.toml", "[nosuch]\nstep = 0.02\n");
+  write("deep.toml", "[learn.nosuch]\nstep = 0.02\n");
+  write("other.toml", "[run]\nstep = 0.02\n");
+  write("broken.toml", "step = = 0.02 [[[\n");
+  write("text.toml", "step = \"abc\"\n");
+  write("negative.toml", "step = -0.02\n");
+  write("list.toml", "step = [0.02, 0.03]\n");
+  write("nothing.toml", "step =\n");
+  write("twice.toml", "step = 0.02\nstep = 0.03\n");
+  write("flag.toml", "step = 0.02\njson = maybe\n");
+  write("itself.toml", "step = 0.02\nconfig = \"itself.toml\"\n");
+  write("empty.toml", "");
+  write("binary.toml", std::string("\x7f\x45\x4c\x46\0\x1b[31m\r\xff\xfe = 3\n\0\0", 18));
+  all_refused(folder, {
+                          {"learn --config missing.toml", {"missing.toml", "readable"}},
+                          {"learn --config . --step 0.02", {"."}},
+                          {"learn --config '' --step 0.02", {"--config", "empty"}},
+                          {"learn --config unknown.toml", {"'nosuch'", "--fine-step"}},
+                          {"learn --config section.toml", {"[nosuch]", "list, learn"}},
+                          {"learn --config deep.toml", {"[nosuch]"}},
+                          {"learn --config other.toml", {"--step", "required"}},
+                          {"learn --config broken.toml", {"step"}},
+                          {"learn --config text.toml", {"--step", "'abc'"}},
+                          {"learn --config negative.toml", {"--step", "positive"}},
+                          {"learn --config list.toml", {"--step"}},
+                          {"learn --config nothing.toml", {"--step"}},
+                          {"learn --config twice.toml", {"--step"}},
+                          {"learn --config flag.toml", {"--json", "maybe"}},
+                          {"learn --config itself.toml", {"'config'"}},
+                          {"learn --config empty.toml", {"--step", "required"}},
+                          {"learn --config binary.toml", {"--config"}},
+                      });
+}
+
+BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
+  const scratch folder("bad_output");
+  std::filesystem::create_directory(folder / "there");
+  std::ofstream(folder / "file") << "kept";
+  const std::string fast = " --step 0.02 --horizon 0.1 ";
+  const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
+  const std::string rows = "run --method verlet" + fast;
+  const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.1 --steps 0.02 ";
+  all_refused(folder, {
+                          {few + "--output there", {"there", "folder"}},
+                          {few + "--output nowhere/scheme.json", {"nowhere", "make it"}},
+                          {few + "--output file/scheme.json", {"file"}},
+                          {few + "--output ''", {"--output", "empty"}},
+                          {few + "--output there/", {"there"}},
+                          {rows + "--output there", {"there", "folder"}},
+                          {rows + "--output nowhere/out.csv", {"nowhere", "make it"}},
+                          {rows + "--output /proc/out.csv", {"/proc/out.csv"}},
+                          {rows + "--output " + std::string(300, 'x'), {"cannot write"}},
+                          {errors + "--output file", {"file", "not a folder"}},
+                          {errors + "--output file/deeper", {"file", "not a folder"}},
+                          {errors + "--output ''", {"--output", "empty"}},
+                          {errors + "--output /proc/folder", {"/proc/folder"}},
+                      });
+  BOOST_TEST(contents(folder / "file") == "kept");
+}
+
+// One trajectory has no error bar, and that is all that it lacks.
+BOOST_AUTO_TEST_CASE(one_trajectory_is_enough) {
+  const finished done = run("compare --methods verlet --steps 0.01 --horizon 0.1 --trajectories 1 --json");
+  BOOST_TEST(done.code == 0);
+  const auto document = json_of(done);
+  BOOST_REQUIRE(!document.is_discarded());
+  const auto& row = document["rows"][0];
+  BOOST_TEST(row["error"].is_number());
+  BOOST_TEST(row["standard_error"].is_null());
+  BOOST_TEST(row["diverged"] == 0);
+}
+
+// Numbers that are strange, but are numbers.
+BOOST_AUTO_TEST_CASE(what_is_only_unusual_works) {
+  for (const char* arguments :
+       {"run --method verlet --step 1e-300 --horizon 1e-299", "run --method verlet --step 1e-2 --horizon +1",
+        "run --method verlet --step=.01 --horizon=1. --sample-every 9223372036854775807",
+        "run --method verlet --step 0.01 --horizon 0.1 --seed 2251799813685247 --threads 1024",
+        "stability --method verlet --system fpu --step 1e300",
+        "stability --method verlet --omega 20 --step .1"}) {
+    BOOST_TEST_CONTEXT(arguments) { BOOST_TEST(run(arguments).code == 0); }
+  }
+  // Decimal, as people count: not of base eight.
+  const std::string steps = "run --method verlet --step 0.01 --horizon 0.1 --seed ";
+  BOOST_TEST(run(steps + "010").out == run(steps + "10").out);
+  BOOST_TEST(run(steps + "010").out != run(steps + "8").out);
+}
+
+// Everything diverges: an answer, but none to use.
+BOOST_AUTO_TEST_CASE(an_unstable_step_is_no_bad_input) {
+  const finished done = run("run --method verlet --step 1e300 --horizon 1e301");
+  BOOST_TEST(done.code == 3);
+  BOOST_TEST(done.err.find("not linearly stable") != std::string::npos);
+  BOOST_TEST(done.err.find("diverged") != std::string::npos);
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSL-1.0
+// Output files: whole or not at all, equal for equal runs, and with a manifest that tells where they are
+// from.
+#include <boost/test/unit_test.hpp>
+
+#include <regex>
+#include <string_view>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+using names = std::set<std::string>;
+
+namespace {
+
+const std::string learn = "learn --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 ";
+const std::string run_it = "run --method verlet --step 0.01 --horizon 0.1 --trajectories 3 ";
+const std::string compare =
+    "compare --methods verlet,bcss2 --steps 0.01,0.02 --trajectories 3 --horizon 0.1 ";
+
+bool has(const std::string& text, std::string_view word) { return text.find(word) != std::string::npos; }
+
+/// Refused in one line, and the folder's files are these.
+void refused_and_left(const scratch& folder, const finished& done, const names& left) {
+  BOOST_TEST_CONTEXT("said: " << done.err) {
+    BOOST_TEST(done.code == 2);
+    BOOST_TEST(done.err.starts_with("nysalt: "));
+    BOOST_TEST(done.err.find('\n') == done.err.size() - 1);
+    BOOST_TEST((folder.files() == left));
+  }
+}
+
+bool has_full_device() { return std::filesystem::is_character_file("/dev/full"); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(equal_runs_write_equal_bytes) {
+  const scratch folder("equal");
+  const scratch other("equal_elsewhere");
+  for (const auto& [arguments, file] : {std::pair{learn + "--output scheme.json", "scheme.json"},
+                                        std::pair{run_it + "--output out.csv", "out.csv"}}) {
+    BOOST_TEST(run(folder, arguments + " --threads 1").code == 0);
+    BOOST_TEST(run(other, arguments + " --threads 3").code == 0);
+    BOOST_TEST(!contents(folder / file).empty());
+    BOOST_TEST(contents(folder / file) == contents(other / file));
+    BOOST_TEST(run(other, arguments + " --seed 2").code == 0);  // numbers of its own
+    BOOST_TEST(contents(folder / file) != contents(other / file));
+  }
+  // And those that go to the standard output.
+  BOOST_TEST(run(run_it).out == contents(folder / "out.csv"));
+}
+
+BOOST_AUTO_TEST_CASE(a_manifest_tells_where_a_file_is_from) {
+  const scratch folder("manifest");
+  BOOST_REQUIRE(run(folder, run_it + "--seed 7 --observables 'energy' --output 'my out.csv'").code == 0);
+  BOOST_TEST((folder.files() == names{"my out.csv", "my out.csv.manifest.json"}));
+  const auto manifest = nlohmann::json::parse(contents(folder / "my out.csv.manifest.json"));
+  BOOST_TEST(manifest["file"] == "my out.csv");
+  BOOST_TEST(manifest["seed"] == 7);
+  BOOST_TEST(manifest["command"].get<std::string>().ends_with(
+      "run --method verlet --step 0.01 --horizon 0.1 --trajectories 3 --seed 7 --observables energy --output "
+      "'my out.csv'"));
+  for (const char* library : {"nysalt", "Eigen", "Boost", "Ceres", "fmt"}) {
+    BOOST_TEST(manifest["versions"].contains(library), library);
+  }
+  BOOST_TEST(!manifest["compiler"].get<std::string>().empty());
+  BOOST_TEST(has(manifest["flags"].get<std::string>(), "-ffp-contract=off"));
+  const std::regex utc(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)");
+  BOOST_TEST(std::regex_match(manifest["time"].get<std::string>(), utc));
+
+  // The command makes the same file again.
+  const std::string before = contents(folder / "my out.csv");
+  std::filesystem::remove(folder / "my out.csv");
+  BOOST_TEST(shell(folder, manifest["command"].get<std::string>()).code == 0);
+  BOOST_TEST(contents(folder / "my out.csv") == before);
+}
+
+BOOST_AUTO_TEST_CASE(data_hold_nothing_of_machine_or_hour) {
+  const scratch folder("data");
+  BOOST_REQUIRE(run(folder, learn + "--output scheme.json").code == 0);
+  BOOST_REQUIRE(run(folder, run_it + "--output out.csv").code == 0);
+  for (const char* file : {"scheme.json", "out.csv"}) {
+    const std::string text = contents(folder / file);
+    const auto manifest = nlohmann::json::parse(contents(folder / (std::string(file) + ".manifest.json")));
+    for (const char* key : {"command", "compiler", "flags", "time"}) {
+      BOOST_TEST(!has(text, manifest[key].get<std::string>()), file << " holds the " << key);
+    }
+    BOOST_TEST(!has(text, folder.path().string()));
+    BOOST_TEST(!has(text, "seconds"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_old_file_is_replaced_whole) {
+  const scratch folder("replaced");
+  const std::string old(1'000'000, 'x');
+  std::ofstream(folder / "out.csv") << old;
+  std::ofstream(folder / "out.csv.manifest.json") << old;
+  std::ofstream(folder / "scheme.json") << old;
+  BOOST_REQUIRE(run(folder, run_it + "--output out.csv").code == 0);
+  BOOST_REQUIRE(run(folder, learn + "--output scheme.json").code == 0);
+  BOOST_TEST(contents(folder / "out.csv") == run(run_it).out);
+  BOOST_TEST(nlohmann::json::accept(contents(folder / "out.csv.manifest.json")));
+  BOOST_TEST(nlohmann::json::accept(contents(folder / "scheme.json")));
+  BOOST_TEST((folder.files() ==
+              names{"out.csv", "out.csv.manifest.json", "scheme.json", "scheme.json.manifest.json"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_refused_leaves_an_old_file_alone) {
+  const scratch folder("left_alone");
+  std::ofstream(folder / "out") << "old";
+  for (const auto& arguments :
+       {run_it + "--observables nosuch --output out", run_it + "--method nosuch --output out",
+        run_it + "--system nosuch --output out", learn + "--fix c9=1 --output out",
+        learn + "--system pendulum --pairs 3 --output out"}) {
+    refused_and_left(folder, run(folder, arguments), {"out"});
+    BOOST_TEST(contents(folder / "out") == "old");
+  }
+  // The fit is not usable: nothing is written either.
+  BOOST_TEST(
+      run(folder, "learn --trajectories 3 --horizon 0.1 --fine-step 0.001 --step 0.02 --output out").code ==
+      3);
+  BOOST_TEST(contents(folder / "out") == "old");
+  BOOST_TEST((folder.files() == names{"out"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_full_disk_is_told_and_nothing_is_left_half) {
+  if (!has_full_device()) return;
+  const scratch folder("full");
+  for (const std::string& arguments :
+       {run_it, run_it + "--json", learn, learn + "--json", compare + "--json", compare, std::string("list"),
+        std::string("list --json"), std::string("stability --method verlet"), std::string("--help"),
+        std::string("--version"), std::string("")}) {
+    const finished done = shell(folder, "\"$nysalt\" " + arguments + " >/dev/full");
+    BOOST_TEST_CONTEXT(arguments) {
+      refused_and_left(folder, done, {});
+      BOOST_TEST(has(done.err, "standard output"));
+    }
+  }
+  for (const auto& arguments : {run_it + "--output out", learn + "--output out"}) {
+    std::ofstream(folder / "out") << "old";
+    std::filesystem::create_symlink("/dev/full", folder / "out.part");
+    const finished done = run(folder, arguments);
+    BOOST_TEST(has(done.err, "full"));
+    refused_and_left(folder, done, {"out"});
+    BOOST_TEST(contents(folder / "out") == "old");
+  }
+  // So long that it does not wait for the end.
+  std::filesystem::create_symlink("/dev/full", folder / "out.part");
+  const finished done = run(folder, "run --method verlet --step 1e-4 --horizon 10 --output out");
+  refused_and_left(folder, done, {"out"});
+}
+
+BOOST_AUTO_TEST_CASE(a_closed_standard_output_is_told) {
+  const scratch folder("closed");
+  const finished done = shell(folder, "\"$nysalt\" list >&-");
+  refused_and_left(folder, done, {});
+}
+
+BOOST_AUTO_TEST_CASE(a_reader_who_leaves_is_no_error) {
+  const scratch folder("pipe");
+  const finished done = shell(
+      folder, "\"$nysalt\" run --method verlet --step 1e-4 --horizon 100 --observables energy | head -n 2");
+  BOOST_TEST(done.out == "trajectory,step,t,energy\n" + done.out.substr(done.out.find('\n') + 1));
+  BOOST_TEST(done.err == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
+  const scratch folder("comparison");
+  const finished done = run(folder, compare + "--output new/folder");
+  BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
+  names files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "new/folder")) {
+    files.insert(entry.path().filename());
+  }
+  for (const char* file : {"rows.csv", "table.md"}) {
+    BOOST_TEST(files.contains(file), file);
+    BOOST_TEST(files.contains(std::string(file) + ".manifest.json"), file << ": manifest");
+  }
+  for (const char* picture : {"error_against_evaluations", "error_against_seconds"}) {
+    BOOST_TEST(files.contains(std::string(picture) + ".svg"), picture);
+    BOOST_TEST(files.contains(std::string(picture) + ".png"), picture);
+  }
+  for (const auto& file : files) BOOST_TEST(!file.ends_with(".part"), file);
+
+  // Rows as the JSON document tells them, to the last bit.
+  const auto rows = json_of(run(compare + "--json"))["rows"];
+  std::string csv = contents(folder / "new/folder/rows.csv");
+  BOOST_TEST(
+      csv.starts_with("method,step,step_size,evaluations_per_time,seconds_per_time,error,"
+                      "standard_error,diverged\n"));
+  BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 5);
+  for (const auto& row : rows) {
+    BOOST_TEST(has(csv, row["method"].get<std::string>() + ","));
+    BOOST_TEST(has(csv, "," + row["error"].dump() + "," + row["standard_error"].dump() + ",0\n"));
+  }
+  const std::string table = contents(folder / "new/folder/table.md");
+  BOOST_TEST(has(table, "verlet"));
+  BOOST_TEST(has(table, "bcss2"));
+}
+
+BOOST_AUTO_TEST_CASE(a_comparison_that_fails_late_leaves_no_folder) {
+  const scratch folder("no_folder");
+  // Known only when the second step is reached.
+  refused_and_left(folder,
+                   run(folder,
+                       "compare --methods verlet --steps 0.01,0.0105 --fine-step 0.001 --horizon 0.1 "
+                       "--trajectories 3 --output new"),
+                   {});
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_drawn_beside_its_output) {
+  const scratch folder("plot");
+  const finished done = run(folder, run_it + "--observables energy,q1 --output out.csv --plot");
+  BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
+  BOOST_TEST(folder.files().contains("out.csv"));
+  BOOST_TEST(contents(folder / "out.svg").find("<svg") != std::string::npos);
+  BOOST_TEST(contents(folder / "out.png").starts_with("\x89PNG"));
+  BOOST_TEST(contents(folder / "out.csv") == run(run_it + "--observables energy,q1").out);
+}
