@@ -182,6 +182,11 @@ class bundled_model final : public bundled_system {
           "the step {} is not an integer multiple of the fine step {}: choose a --fine-step that divides it",
           step, fine);
     }
+    constexpr double most = 1e6;  // a million for one step: the program would seem to hang
+    if (ratio > most) {
+      refuse("the step {} holds {:g} fine steps of {:g}, more than {:g}: take a larger --fine-step", step,
+             ratio, fine, most);
+    }
     f(fine_steps<>(fine));
   }
 

@@ -29,6 +29,10 @@ void print(std::string_view text) {
   refuse("the standard output cannot be written: is the disk full?");
 }
 
+namespace {
+std::filesystem::path manifest_of(std::filesystem::path file) { return file += ".manifest.json"; }
+}  // namespace
+
 void write_manifest(const std::filesystem::path& file, const common_settings& common) {
   const auto eigen = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
   const auto boost =
@@ -47,9 +51,7 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
                       {"compiler", compiler},
                       {"flags", compiler_flags},
                       {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-  auto path = file;
-  path += ".manifest.json";
-  write_file(path, manifest.dump(2) + "\n");
+  write_file(manifest_of(file), manifest.dump(2) + "\n");
 }
 
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
@@ -64,7 +66,10 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 void require_writable(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  if (fs::is_directory(file, ignored)) refuse("cannot write {}: it is a folder; name a file", file.string());
+  for (const fs::path& path : {file, manifest_of(file)}) {
+    if (!fs::is_directory(path, ignored)) continue;
+    refuse("cannot write {}: it is a folder; name another file", path.string());
+  }
   const fs::path folder = folder_of(file);
   if (!fs::is_directory(folder, ignored)) {
     refuse("cannot write {}: there is no folder {}; make it first", file.string(), folder.string());

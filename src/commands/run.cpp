@@ -159,6 +159,10 @@ int run(const run_command& asked, const common_settings& common) {
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
   if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
   if (!command.output.empty()) require_writable(command.output);
+  const std::string ending = std::filesystem::path(command.output).extension();
+  if (command.plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
+    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
+  }
   const auto system = make_system(command.system);
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_room(command, steps, common.json && command.output.empty(), common.threads);

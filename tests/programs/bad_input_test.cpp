@@ -257,6 +257,10 @@ BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
       {learn + " --pairs 9223372036854775808", {"--pairs", "9223372036854775808"}},
       {"learn --trajectories 1000000000000 --step 0.02 --output scheme.json", {"memory", "trajectories"}},
       {learn + " --horizon 1e14", {"memory", "horizon"}},
+      {learn + " --omega 1e12", {"fine steps", "--fine-step"}},
+      {learn + " --fine-step 1e-300", {"fine steps", "--fine-step"}},
+      {"compare --methods verlet --steps 0.02 --trajectories 3 --fine-step 1e-12",
+       {"fine steps", "--fine-step"}},
       {run_it + " --horizon 1 --system linear_chain --masses 1000000000000", {"--masses", "at most"}},
       {run_it + " --horizon 1 --system linear_chain --masses 50000", {"--masses", "at most"}},
       {run_it + " --horizon 1e13", {"memory", "--sample-every"}},
@@ -309,6 +313,7 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
 BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const scratch folder("bad_output");
   std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_directory(folder / "manifest.manifest.json");
   std::ofstream(folder / "file") << "kept";
   const std::string fast = " --step 0.02 --horizon 0.1 ";
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
@@ -321,6 +326,9 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
                           {few + "--output ''", {"--output", "empty"}},
                           {few + "--output there/", {"there"}},
                           {rows + "--output there", {"there", "folder"}},
+                          {rows + "--output manifest", {"manifest.manifest.json", "folder"}},
+                          {rows + "--output out.svg --plot", {"--plot", ".svg", ".csv"}},
+                          {rows + "--output out.dat --plot", {"--plot", ".dat", ".csv"}},
                           {rows + "--output nowhere/out.csv", {"nowhere", "make it"}},
                           {rows + "--output /proc/out.csv", {"/proc/out.csv"}},
                           {rows + "--output " + std::string(300, 'x'), {"cannot write"}},
