@@ -146,28 +146,32 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
   }
 }
 
-/// In turns, so that a machine that slows down slows all; each job is long enough for the clock.
+/// In turns, so that a machine that slows down slows all; each job is long enough for the clock, and all
+/// together take some seconds unless a single trajectory takes longer.
 void comparison::measure_seconds() {
-  constexpr double evaluations_of_job = 1e5;  // about a millisecond
+  constexpr double job = 1e-3;
+  constexpr double all_rounds = 4.0;
   constexpr std::int64_t most_trajectories = 64;
-  constexpr int rounds = 15;
   shown_.part("timing");
   std::vector<std::function<void()>> jobs;
   std::vector<double> simulated;
+  double round = 0.0;
   for (const auto& its : rows_) {
     trajectories_plan plan = plan_at(its.step);
     const double time = static_cast<double>(plan.steps) * its.step;
-    const double of_one = its.evaluations_per_time * time;
-    const double wanted = std::max(1.0, std::floor(evaluations_of_job / of_one));
+    const double wanted = std::max(1.0, std::floor(1e5 / (its.evaluations_per_time * time)));
     plan.count = static_cast<std::int64_t>(
         std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories))));
-    const double of_all = of_one * static_cast<double>(plan.count);
-    const double repeats = std::max(1.0, std::ceil(evaluations_of_job / of_all));
-    jobs.emplace_back([once = system_->timed_run(*its.coefficients, plan), repeats] {
+    const auto once = system_->timed_run(*its.coefficients, plan);
+    const double seconds = interleaved_seconds({once}, 1).front();
+    const double repeats = std::max(1.0, std::ceil(job / std::max(seconds, 1e-9)));
+    jobs.emplace_back([once, repeats] {
       for (double n = 0.0; n < repeats; ++n) once();
     });
     simulated.push_back(time * static_cast<double>(plan.count) * repeats);
+    round += seconds * repeats;
   }
+  const int rounds = static_cast<int>(std::clamp(all_rounds / round, 1.0, 15.0));
   const auto seconds = interleaved_seconds(jobs, rounds);
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i] / simulated[i];
 }

@@ -113,8 +113,7 @@ void comparison::write(const std::filesystem::path& folder) const {
                  {work_precision_panel(rows, emphasised, "seconds per unit time",
                                        &work_precision_row::seconds_per_time)}};
   evaluations.panels[0].y_label = seconds.panels[0].y_label = quantity();
-  const bool both = draw(evaluations, folder) && draw(seconds, folder);
-  if (!both) warn("gnuplot could not draw the pictures: is it installed? Scripts and data are there");
+  for (const auto& picture : {evaluations, seconds}) write_pictures(picture, folder, common_);
 }
 
 }  // namespace nysalt::program

@@ -59,6 +59,16 @@ void write_result(const std::filesystem::path& file, std::string_view text, cons
   write_manifest(file, common);
 }
 
+void write_pictures(const figure& picture, const std::filesystem::path& folder,
+                    const common_settings& common) {
+  if (!draw(picture, folder)) {
+    warn(fmt::format("gnuplot could not draw {}: is it installed? Its script and data are there",
+                     picture.name));
+    return;
+  }
+  for (const char* kind : {".svg", ".png"}) write_manifest(folder / (picture.name + kind), common);
+}
+
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }

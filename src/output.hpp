@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "json.hpp"
+#include "nysalt/report/plot.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
@@ -19,6 +20,10 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
 
 /// A whole file and its manifest.
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common);
+
+/// The pictures of a figure below a folder, with their manifests; a warning if gnuplot cannot draw.
+void write_pictures(const figure& picture, const std::filesystem::path& folder,
+                    const common_settings& common);
 
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);

@@ -110,7 +110,7 @@ class samples {
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
 /// 2000 points.
-void draw_run(const record& first, const run_command& command) {
+void draw_run(const record& first, const run_command& command, const common_settings& common) {
   const std::size_t columns = command.observables.size();
   const std::size_t samples = first.values.size() / columns;
   const std::size_t every = samples / 2000 + 1;
@@ -129,7 +129,7 @@ void draw_run(const record& first, const run_command& command) {
   const std::filesystem::path output(command.output);
   figure picture{output.stem().string(), {its}};
   for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  if (!draw(picture, folder_of(output))) warn("gnuplot could not draw the picture: is it installed?");
+  write_pictures(picture, folder_of(output), common);
 }
 
 json document(const run_command& command, const bundled_system& system, const samples& taken) {
@@ -192,7 +192,7 @@ int run(const run_command& asked, const common_settings& common) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   shown.clear();
   if (!command.output.empty()) write_manifest(command.output, common);
-  if (first) draw_run(*first, command);
+  if (first) draw_run(*first, command, common);
 
   const std::int64_t evaluations = system->count_evaluations(method, plan);
   if (common.json) {

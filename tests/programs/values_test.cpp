@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
   const auto all = document(
       "compare --system henon_heiles --methods mclachlan2 --steps 0.25 --horizon 10 --trajectories 7 "
       "--metric state --fine-step 0.005");
-  BOOST_TEST(all["reference"] == its.reference);
+  BOOST_TEST(all["references"][0]["reference"] == its.reference);
+  BOOST_TEST(all["references"][0]["error"] == its.reference_error->mean);
   BOOST_TEST(all["rows"][0]["error"] == its.methods[0].error.mean);
 }
 

@@ -2,14 +2,13 @@
 // For which z = h omega a method is stable on the harmonic oscillator, exactly.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
 
+#include "nysalt/derivatives/turning_points.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/scalars/series.hpp"
 
@@ -57,34 +56,6 @@ inline constexpr int stability_degree = 64;
 template <TypeLevelWord W>
 inline constexpr int stability_degree<W> = static_cast<int>(W::length);
 
-/// Real parts of the nearly real, positive roots of sum_k c[k] x^k, by the companion matrix.
-inline std::vector<double> positive_roots(std::vector<double> c) {
-  while (!c.empty() && c.back() == 0.0) c.pop_back();
-  const auto degree = static_cast<Eigen::Index>(c.size()) - 1;
-  std::vector<double> roots;
-  if (degree < 1) return roots;
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
-  companion.diagonal(-1).setOnes();
-  for (Eigen::Index i = 0; i < degree; ++i)
-    companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(companion, false);
-  for (const auto& root : solver.eigenvalues()) {
-    // A root too many only cuts an interval in two, so be generous with nearly double ones.
-    if (root.real() > 0.0 && std::abs(root.imag()) <= 1e-3 * root.real()) roots.push_back(root.real());
-  }
-  std::sort(roots.begin(), roots.end());
-  return roots;
-}
-
-/// Where a function that is monotone on [a, b] takes the value y, to the last bit; f(a) and f(b) enclose y.
-inline double bisect(const auto& f, double a, double b, double y) {
-  const bool rising = f(a) < y;
-  for (double m = std::midpoint(a, b); m != a && m != b; m = std::midpoint(a, b)) {
-    ((f(m) < y) == rising ? a : b) = m;
-  }
-  return a;
-}
-
 }  // namespace detail
 
 /// All windows, from small z to large. Their ends are roots of trace/2 = +-1; windows that touch where the
@@ -117,27 +88,40 @@ std::vector<stability_window> stability_windows(
   }
   if (terms == 0) return {};  // no letter moves the oscillator
 
+  while (slope.back() == 0.0) slope.pop_back();
+
   // Between extrema trace/2 is monotone, and beyond the last it leaves [-1, 1] for good.
-  std::vector<double> pieces = detail::positive_roots(slope);
+  constexpr std::size_t few = 8;  // of more kicks the coefficients no longer tell the extrema
+  const bool is_short = slope.size() <= few;
+  const double beyond = std::max(1.0, slope.size() > 1 ? detail::root_bound(slope) : 0.0);
+  std::vector<double> pieces =
+      is_short ? detail::positive_roots(slope) : detail::sampled_extrema(half_trace, beyond);
   pieces.insert(pieces.begin(), 0.0);
-  double last = std::max(1.0, 2.0 * pieces.back());
+  double last = 2.0 * beyond;
   while (std::abs(half_trace(last)) < 2.0) last *= 2.0;
   pieces.push_back(last);
 
+  // An extremum within rounding of +-1 only touches it.
+  const auto touches = [&](double x, double value) {
+    double size = 0.0;
+    for (std::size_t k = bound.size(); k-- > 0;) size = size * x + bound[k];
+    return std::abs(std::abs(value) - 1.0) <= (is_short ? rounding * size : 1e-10);
+  };
   std::vector<double> edges{0.0};
+  double at_a = 1.0;
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     const double a = pieces[i];
     const double b = pieces[i + 1];
-    const double at_a = half_trace(a);
-    const double at_b = half_trace(b);
+    double at_b = half_trace(b);
+    if (b < last && touches(b, at_b)) {
+      at_b = std::copysign(1.0, at_b);
+      edges.push_back(b);
+    }
     const auto [least, most] = std::minmax({at_a, at_b});
     for (const double y : {-1.0, 1.0}) {
       if (least < y && y < most) edges.push_back(detail::bisect(half_trace, a, b, y));
     }
-    if (b == last) break;
-    double size_at_b = 0.0;
-    for (std::size_t k = bound.size(); k-- > 0;) size_at_b = size_at_b * b + bound[k];
-    if (std::abs(std::abs(at_b) - 1.0) <= rounding * size_at_b) edges.push_back(b);
+    at_a = at_b;
   }
   std::sort(edges.begin(), edges.end());
 
@@ -147,11 +131,11 @@ std::vector<stability_window> stability_windows(
     const double high = edges[i + 1];
     if (!(std::abs(half_trace(std::midpoint(low, high))) < 1.0)) continue;
     const auto m = matrix(low);
-    // An extremum is known to about sqrt(eps); off the diagonal the matrix then errs by as much.
+    // At an extremum that is known to e of the trace, what is off the diagonal errs by sqrt(2 e).
     const double z = std::sqrt(low);
-    const bool identity = std::max(std::abs(m.qp) * z, std::abs(m.pq) / z) < 1e-7;
-    const bool touches = !windows.empty() && windows.back().high == low;
-    if (touches && identity) {
+    const bool identity = std::max(std::abs(m.qp) * z, std::abs(m.pq) / z) < (is_short ? 1e-7 : 2e-5);
+    const bool adjoins = !windows.empty() && windows.back().high == low;
+    if (adjoins && identity) {
       windows.back().high = high;
     } else {
       windows.push_back({low, high});

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+// Options from a file.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace nysalt::program {
+
+std::vector<std::string> command_names(const CLI::App& app);
+std::vector<std::string> option_names(const CLI::App& command);
+
+/// TOML. Options that stand in no [section] belong to the command that runs, whose section says more.
+class options_file : public CLI::ConfigTOML {
+ public:
+  explicit options_file(const CLI::App& app) : app_(app) {}
+
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
+
+ private:
+  void require_known(const CLI::ConfigItem& item) const;
+
+  const CLI::App& app_;
+};
+
+}  // namespace nysalt::program
