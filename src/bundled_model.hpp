@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/ensemble_loop.hpp"
 #include "nysalt/learner.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -28,7 +31,6 @@
 namespace nysalt::program {
 
 struct model_facts {
-  std::string name;  // as typed
   json parameters;   // as scheme files hold them
   double frequency;  // times a fine step it is 5e-3 at most: the error of srkn11b is rounding then
   std::string default_observable;
@@ -51,7 +53,8 @@ void fix_parameter(const std::string& text, learn_options<F>& options) {
     refuse("--fix: the family {} has no parameter '{}': it has {}", F::name, name,
            listed(F::parameter_names));
   }
-  auto& fixed = options.fixed[static_cast<std::size_t>(at - F::parameter_names.begin())];
+  const auto k = static_cast<std::size_t>(at - F::parameter_names.begin());
+  auto& fixed = options.fixed[k];
   if (fixed) refuse("--fix: the parameter {} is fixed twice", name);
   fixed = value;
 }
@@ -64,7 +67,6 @@ class bundled_model final : public bundled_system {
   bundled_model(S system, E law, model_facts facts)
       : system_(std::move(system)), law_(std::move(law)), facts_(std::move(facts)) {}
 
-  std::string name() const override { return facts_.name; }
   std::string description() const override { return describe(system_); }
   nlohmann::ordered_json parameters() const override { return facts_.parameters; }
   std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
@@ -72,7 +74,29 @@ class bundled_model final : public bundled_system {
   std::string default_observable() const override { return facts_.default_observable; }
   std::string law() const override { return law_.description(); }
 
+  void require_learnable(const std::string& family, const learn_settings& how, double step) const override {
+    fine_step_for(step, how.fine_step);
+    const auto which = coordinates_named(how.coordinates);
+    if (which != coordinates::qp) {
+      if constexpr (HasModes<S>) {
+        const bool still = (system_.modes().frequencies.array() == 0.0).any();
+        if (which == coordinates::energy && still) {
+          refuse(
+              "the energy coordinates of {} do not exist, as it has a mode of frequency zero: take modes or "
+              "qp",
+              description());
+        }
+      } else {
+        refuse("the {} coordinates of {} are not known, as it declares no modes: take qp", how.coordinates,
+               description());
+      }
+    }
+    const bool known = with_family(family, [&]<class F>(F) { options_for<F>(how); });
+    if (!known) refuse("unknown family '{}': it is one of {}", family, listed(family_names()));
+  }
+
   learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
+    require_learnable(plan.family, plan.how, plan.step);
     std::optional<learned_scheme> result;
     const auto with_reference = [&](const auto& reference) {
       const auto pairs = [&](std::uint64_t seed) {
@@ -95,8 +119,12 @@ class bundled_model final : public bundled_system {
     return std::move(*result);
   }
 
-  void require_measure(const std::string& metric, const std::string& name) const override {
-    measure_named(metric, name);
+  void require_measure(const std::string& metric, const std::string& name, const trajectories_plan& plan,
+                       std::optional<double> fine_step) const override {
+    const auto measure = measure_named(metric, name);
+    if (!measure.needs_reference) return;
+    fine_step_for(plan.step, fine_step);
+    require_room(options_of(plan), 1, measure.width);
   }
 
   trajectory_errors_result errors(const std::vector<tabulated>& methods, const trajectories_plan& plan,
@@ -105,13 +133,7 @@ class bundled_model final : public bundled_system {
     const auto measure = measure_named(metric, name);
     trajectory_errors_result result;
     reference_for(plan.step, fine_step, [&](const auto& reference) {
-      result = trajectory_errors(system_, reference, law_, methods, measure,
-                                 {.step = plan.step,
-                                  .steps = plan.steps,
-                                  .trajectories = plan.count,
-                                  .seed = plan.seed,
-                                  .threads = plan.threads,
-                                  .progress = progress});
+      result = trajectory_errors(system_, reference, law_, methods, measure, options_of(plan, progress));
     });
     return result;
   }
@@ -123,7 +145,9 @@ class bundled_model final : public bundled_system {
     std::vector<std::function<double(const state&)>> watched;
     for (const auto& name : observables) watched.push_back(observable(system_, name));
     const auto stepper = make_stepper(system_, method, plan.step);
-    const std::int64_t block = 4 * static_cast<std::int64_t>(plan.threads);  // in memory at a time
+    // In memory at a time: a million numbers, or a few long trajectories.
+    const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
+    const std::int64_t block = std::max<std::int64_t>(4 * plan.threads, 1'000'000 / numbers);
     for (std::int64_t first = 0; first < plan.count; first += block) {
       std::vector<record> records(static_cast<std::size_t>(std::min(block, plan.count - first)));
       for_each_trajectory(std::ssize(records), plan.threads, [&](std::int64_t i) {
@@ -147,8 +171,12 @@ class bundled_model final : public bundled_system {
     const counted<S> watched(system_);
     const auto stepper = make_stepper(watched, method, plan.step);
     auto run = stepper.open(law_(plan.seed, 0));
-    stepper.advance(run, plan.steps);
-    return watched.evaluations;
+    const std::int64_t to_open = watched.evaluations;
+    stepper.advance(run, 1);  // may find no force at hand
+    const std::int64_t first = watched.evaluations - to_open;
+    stepper.advance(run, 1);
+    const std::int64_t each = watched.evaluations - first - to_open;
+    return to_open + first + (plan.steps - 1) * each;
   }
 
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
@@ -169,13 +197,20 @@ class bundled_model final : public bundled_system {
  private:
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
 
-  /// Calls f(reference) with the reference for a step: the exact flow of a linear system, else fine steps.
-  void reference_for(double step, std::optional<double> fine_step, const auto& f) const {
-    if constexpr (has_exact_flow<S>) {
-      if (!fine_step) return f(exact_linear(system_));
-    }
+  static trajectory_options options_of(const trajectories_plan& plan, const counter& progress = {}) {
+    return {.step = plan.step,
+            .steps = plan.steps,
+            .trajectories = plan.count,
+            .seed = plan.seed,
+            .threads = plan.threads,
+            .progress = progress};
+  }
+
+  /// That of the reference, which divides the step; nothing where the flow is known exactly.
+  std::optional<double> fine_step_for(double step, std::optional<double> asked) const {
+    if (has_exact_flow<S> && !asked) return std::nullopt;
     const double steps = std::ceil(step * facts_.frequency / 5e-3 - 1e-9);  // 100.00000000000001 is 100
-    const double fine = fine_step.value_or(step / std::max(1.0, steps));
+    const double fine = asked.value_or(step / std::max(1.0, steps));
     const double ratio = step / fine;
     if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
       refuse(
@@ -187,7 +222,16 @@ class bundled_model final : public bundled_system {
       refuse("the step {} holds {:g} fine steps of {:g}, more than {:g}: take a larger --fine-step", step,
              ratio, fine, most);
     }
-    f(fine_steps<>(fine));
+    return fine;
+  }
+
+  /// Calls f(reference).
+  void reference_for(double step, std::optional<double> asked, const auto& f) const {
+    const auto fine = fine_step_for(step, asked);
+    if constexpr (has_exact_flow<S>) {
+      if (!fine) return f(exact_linear(system_));
+    }
+    f(fine_steps<>(*fine));
   }
 
   template <Family F>
@@ -195,6 +239,9 @@ class bundled_model final : public bundled_system {
     learn_options<F> options;
     options.coordinates = coordinates_named(how.coordinates);
     for (const auto& text : how.fix) fix_parameter<F>(text, options);
+    auto theta = options.start;
+    for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = options.fixed[k].value_or(theta[k]);
+    require_in_range<F>(theta);
     return options;
   }
 

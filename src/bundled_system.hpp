@@ -56,7 +56,6 @@ class bundled_system {
  public:
   virtual ~bundled_system() = default;
 
-  virtual std::string name() const = 0;
   virtual std::string description() const = 0;
   /// Name and parameters, as scheme files hold them.
   virtual nlohmann::ordered_json parameters() const = 0;
@@ -65,10 +64,14 @@ class bundled_system {
   virtual std::string default_observable() const = 0;
   virtual std::string law() const = 0;
 
+  /// Throws refusal for what cannot be learned, before any work is done.
+  virtual void require_learnable(const std::string& family, const learn_settings& how, double step) const = 0;
   virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
 
-  /// Throws refusal if there is no such measure of this system, before any work is done.
-  virtual void require_measure(const std::string& metric, const std::string& observable) const = 0;
+  /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, or
+  /// the paths do not fit into memory; before any work is done.
+  virtual void require_measure(const std::string& metric, const std::string& observable,
+                               const trajectories_plan& plan, std::optional<double> fine_step) const = 0;
 
   /// Errors of several methods at one step against one reference.
   virtual trajectory_errors_result errors(const std::vector<tabulated>& methods,
@@ -82,7 +85,8 @@ class bundled_system {
                    const std::function<void(std::int64_t, const record&)>& take,
                    const counter& progress) const = 0;
 
-  /// Force evaluations of one whole trajectory, start-up included, counted while it runs.
+  /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
+  /// step after them costs the same.
   virtual std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const = 0;
 
   /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.

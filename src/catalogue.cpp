@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catalogue.hpp"
 
+#include <algorithm>
+
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"

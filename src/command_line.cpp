@@ -306,6 +306,7 @@ int run_command_line(int argc, char** argv) {
     const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();
     refuse("{}; {} --help tells what it takes", problem.what(), where);
   }
+  to.common.options = app.config_to_str();
   const auto asked = app.get_subcommands();
   if (asked.empty()) {
     print(three_commands);

@@ -50,7 +50,6 @@ void comparison::require_sound_command() const {
   }
   require_at_least_one("--trajectories", command_.trajectories);
   require_sound(command_.learning, "--learn-");
-  system_->require_measure(command_.metric, command_.observable);
 }
 
 void comparison::plan_rows() {
@@ -78,10 +77,11 @@ void comparison::add_row(const method_source& source, double nominal) {
   const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
-  steps_within("--horizon", command_.horizon, step);
+  system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step);
   row its{source.typed, nominal, step};
   if (source.family) {
     steps_within("--learn-horizon", command_.learning.horizon, step);
+    system_->require_learnable(*source.family, command_.learning, step);
   } else {
     its.coefficients = coefficients_at(source, *system_, step, common_.force, warnings_);
   }
@@ -120,9 +120,11 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
   std::vector<tabulated> methods;
   std::vector<row*> measured;
   for (row* its : group) {
-    const auto evaluations = static_cast<double>(system_->count_evaluations(*its->coefficients, plan));
-    its->evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * step);
-    if (!its->reason.empty()) continue;
+    if (!its->reason.empty()) {
+      const auto evaluations = static_cast<double>(system_->count_evaluations(*its->coefficients, plan));
+      its->evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * step);
+      continue;
+    }
     methods.push_back(*its->coefficients);
     measured.push_back(its);
   }
@@ -137,6 +139,7 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
   for (std::size_t k = 0; k < measured.size(); ++k) {
     row& its = *measured[k];
     its.error = found.methods[k].error;
+    its.evaluations_per_time = found.methods[k].evaluations_per_time;
     its.diverged = found.methods[k].diverged;
     if (found.reference_error) its.reference_error = found.reference_error->mean;
     if (its.diverged == plan.count) {

@@ -32,7 +32,8 @@ std::string comparison::at_equal_cost(bool markdown) const {
     if (!is_learned(its)) continue;
     const row* best = nullptr;
     for (const auto& other : rows_) {
-      if (is_learned(other) || other.nominal != its.nominal || std::isnan(other.error.mean)) continue;
+      const bool stays = other.diverged == 0 && !std::isnan(other.error.mean);
+      if (is_learned(other) || other.nominal != its.nominal || !stays) continue;
       if (best == nullptr || other.error.mean < best->error.mean) best = &other;
     }
     if (best == nullptr) continue;

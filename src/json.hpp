@@ -3,9 +3,15 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace nysalt::program {
 
 using json = nlohmann::ordered_json;
+
+/// For people and files; bytes that are no UTF-8, as names of files may hold, become U+FFFD.
+inline std::string text_of(const json& document) {
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
 
 }  // namespace nysalt::program

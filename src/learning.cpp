@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "learning.hpp"
 
-#include <algorithm>
-
 #include "catalogue.hpp"
 #include "checks.hpp"
 
@@ -18,10 +16,7 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
 }
 
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
-  const auto names = family_names();
-  if (std::find(names.begin(), names.end(), plan.family) == names.end()) {
-    refuse("unknown family '{}': it is one of {}", plan.family, listed(names));
-  }
+  system.require_learnable(plan.family, plan.how, plan.step);
   shown.part(fmt::format("learning {} at step {:g}", plan.family, plan.step));
   return system.learn(plan, shown.counter(plan.how.trajectories));
 }

@@ -13,7 +13,7 @@ namespace nysalt::program {
 /// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
 void require_sound(const learn_settings& how, const std::string& prefix);
 
-/// Throws refusal for an unknown family, before any work is done.
+/// Throws refusal for what cannot be learned, before any work is done.
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
 
 /// What both commands tell of a fit.

@@ -18,7 +18,7 @@ int refused(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_DFL);  // a reader who has seen enough ends us quietly
+  std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
   try {
     return nysalt::program::run_command_line(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "method_file.hpp"
 
+#include <algorithm>
 #include <boost/crc.hpp>
-
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "build_info.hpp"
@@ -31,7 +32,7 @@ std::string checksum(json document) {
   return fmt::format("crc32:{:08x}", crc.checksum());
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::string contents_of(const std::filesystem::path& path) {
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, ignored)) {
@@ -114,6 +115,15 @@ scheme scheme_in(const json& document, const reader& read) {
   });
 }
 
+/// "A adds up to 1, B adds up to 0.9"
+std::string sums_of(const std::string& letters, const std::vector<double>& coefficients) {
+  std::map<char, double> sums;
+  for (std::size_t i = 0; i < letters.size(); ++i) sums[letters[i]] += coefficients[i];
+  std::vector<std::string> texts;
+  for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
+  return listed(texts);
+}
+
 tabulated table_in(const json& document, const reader& read) {
   const std::string letters = read.text("letters");
   constexpr std::size_t most_letters = 200;  // finding the order takes their square: a second
@@ -128,22 +138,17 @@ tabulated table_in(const json& document, const reader& read) {
     const run_time_word word(letters);
     const std::string name = document.contains("name") ? read.text("name") : "table";
     const tabulated bare(name, word, coefficients, {1, false, false});
-    for (const char letter : {'A', 'B'}) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < letters.size(); ++i) sum += letters[i] == letter ? coefficients[i] : 0.0;
-      // Tables are printed with ten digits or more.
-      if (std::abs(sum - 1.0) <= 1e-9) continue;
-      refuse("{}: the coefficients of the letter {} add up to {}, but to be consistent they must add up to 1",
-             read.file(), letter, sum);
-    }
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
-      refuse("{}: its steps do not agree with the flow to order 1: are its coefficients too large?",
-             read.file());
+      refuse("{}: it is not consistent: {}, but each must add up to 1, to ten digits", read.file(),
+             sums_of(letters, coefficients));
     }
     if (document.contains("order")) {
       const double declared = read.number("order");
-      if (!(declared <= found.quadratic_kinetic)) {
+      if (!(declared >= 1.0) || declared != std::floor(declared)) {
+        refuse("{}: \"order\" must be 1, 2, ..., not {}", read.file(), declared);
+      }
+      if (declared > found.quadratic_kinetic) {
         refuse(
             "{}: it declares the order {}, but its steps agree with the flow to order {} only; is a "
             "coefficient mistyped?",
@@ -191,15 +196,19 @@ std::string scheme_text(const learned_scheme& learned, const bundled_system& sys
                 {"versions", {{"nysalt", version}}}};
   if (learned.energies) document["energy_range"] = {learned.energies->low, learned.energies->high};
   document["checksum"] = checksum(document);
-  return document.dump(2) + "\n";
+  return text_of(document);
 }
 
 method_file read_method_file(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const std::string text = text_of(path);
+  const std::string text = contents_of(path);
   json document;
   try {
-    document = json::parse(text);
+    constexpr int deepest = 8;
+    document = json::parse(text, [&](int depth, json::parse_event_t, json&) {
+      if (depth > deepest) refuse("{}: it is nested too deeply to be a scheme or a table", file);
+      return true;
+    });
   } catch (const json::parse_error& problem) {
     refuse("{}: this is not whole JSON (it ends or breaks at byte {}); was it cut off?", file, problem.byte);
   } catch (const json::out_of_range&) {

@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "bundled_system.hpp"
 #include "json.hpp"

@@ -41,6 +41,7 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
   const json manifest{{"file", file.filename().string()},
                       {"command", common.command},
+                      {"options", common.options},
                       {"seed", common.seed},
                       {"versions",
                        {{"nysalt", version},
@@ -51,7 +52,7 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
                       {"compiler", compiler},
                       {"flags", compiler_flags},
                       {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-  write_file(manifest_of(file), manifest.dump(2) + "\n");
+  write_file(manifest_of(file), text_of(manifest));
 }
 
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
@@ -77,8 +78,12 @@ void require_writable(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   for (const fs::path& path : {file, manifest_of(file)}) {
-    if (!fs::is_directory(path, ignored)) continue;
-    refuse("cannot write {}: it is a folder; name another file", path.string());
+    if (fs::is_directory(path, ignored)) {
+      refuse("cannot write {}: it is a folder; name another file", path.string());
+    }
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+      refuse("cannot write {}: it is no ordinary file; name another, or leave --output away", path.string());
+    }
   }
   const fs::path folder = folder_of(file);
   if (!fs::is_directory(folder, ignored)) {

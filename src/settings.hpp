@@ -15,6 +15,7 @@ struct common_settings {
   bool json = false;
   bool force = false;
   std::string command;  // the whole command line, for manifests
+  std::string options;  // what was asked for by it and by files of options, as TOML
 };
 
 struct system_settings {

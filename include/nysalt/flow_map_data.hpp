@@ -9,10 +9,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -68,7 +66,7 @@ struct data_options {
   std::int64_t trajectories = 100;  // independent starts
   std::uint64_t seed = 1;
   int threads = 1;  // changes no bit of the data
-  // Told after each trajectory how many are done; from any thread, several at once, in no certain order.
+  // Told after each trajectory how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
 
@@ -99,7 +97,7 @@ void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
 namespace detail {
 
 /// floor(horizon/step), if that and the number of trajectories can be.
-inline std::int64_t steps_of_each(const data_options& options) {
+inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) {
   if (!(options.step > 0.0) || !std::isfinite(options.step) || !std::isfinite(options.horizon)) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
@@ -111,7 +109,8 @@ inline std::int64_t steps_of_each(const data_options& options) {
         "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
         options.trajectories, options.horizon, options.step));
   }
-  if (steps * static_cast<double>(options.trajectories) > 1e9) {
+  const double of_a_pair = 4.0 * static_cast<double>(dimension);  // numbers: two states
+  if (steps * static_cast<double>(options.trajectories) * of_a_pair > 1e9) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
         options.trajectories, steps));
@@ -132,7 +131,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
                                                const data_options& options) {
   constexpr std::size_t checks = 16;  // enough for the size of an error
   const auto began = std::chrono::steady_clock::now();
-  const std::int64_t steps = detail::steps_of_each(options);
+  const std::int64_t steps = detail::steps_of_each(options, size(system));
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
   const std::size_t check_every = total / checks + 1;
   const R finer = reference.finer();
@@ -146,7 +145,6 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   data.finer.resize((total - 1) / check_every + 1);
   std::vector<energy_range> energies(data.trajectories());
   std::atomic<std::int64_t> evaluations = 0;
-  std::atomic<std::int64_t> done = 0;
 
   const auto follow = [&](std::int64_t m) {
     const auto index = static_cast<std::size_t>(m);
@@ -177,10 +175,8 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     }
     energies[index] = seen;
     evaluations += watched.evaluations;
-    const std::int64_t so_far = ++done;
-    if (options.progress) options.progress(so_far);
   };
-  for_each_trajectory(options.trajectories, options.threads, follow);
+  for_each_trajectory(options.trajectories, options.threads, follow, options.progress);
 
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();

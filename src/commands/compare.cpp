@@ -15,7 +15,7 @@ int compare(const compare_command& command, const common_settings& common) {
   all.learn_and_measure();
   if (!command.output.empty()) all.write(folder);
   if (common.json) {
-    print(all.document().dump(2) + "\n");
+    print(text_of(all.document()));
   } else {
     print(all.readable());
     for (const auto& text : all.warnings()) warn(text);

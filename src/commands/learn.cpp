@@ -59,7 +59,7 @@ int learn(const learn_command& command, const common_settings& common) {
   if (common.json) {
     json result = document(learned, *system);
     result["output"] = keep ? json(command.output) : json(nullptr);
-    print(result.dump(2) + "\n");
+    print(text_of(result));
   } else {
     print(fit.full());
     if (keep) print(fmt::format("Written: {}\n", command.output));

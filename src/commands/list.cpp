@@ -123,7 +123,7 @@ int list(const common_settings& common) {
   json all{{"systems", systems_json()}, {"methods", methods_json()}, {"families", families_json()}};
   for (const auto& [name, meaning] : metrics)
     all["metrics"].push_back({{"name", name}, {"meaning", meaning}});
-  print(common.json ? all.dump(2) + "\n" : readable(all));
+  print(common.json ? text_of(all) : readable(all));
   return done;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "../checks.hpp"
 #include "../commands.hpp"
@@ -159,6 +161,10 @@ int run(const run_command& asked, const common_settings& common) {
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
   if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
   if (!command.output.empty()) require_writable(command.output);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(command.method, command.output, ignored)) {
+    refuse("--output {} is the file of the method: name another", command.output);
+  }
   const std::string ending = std::filesystem::path(command.output).extension();
   if (command.plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
     refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
@@ -202,7 +208,7 @@ int run(const run_command& asked, const common_settings& common) {
     result["evaluations"] = evaluations;
     result["seconds"] = seconds;
     result["warnings"] = warnings;
-    print(result.dump(2) + "\n");
+    print(text_of(result));
   } else {
     if (!command.output.empty()) {
       print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",

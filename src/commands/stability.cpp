@@ -74,7 +74,7 @@ int stability(const stability_command& command, const common_settings& common) {
     result["step"] = *command.step;
     result["bands"] = bands;
   }
-  print(common.json ? result.dump(2) + "\n" : text);
+  print(common.json ? text_of(result) : text);
   return done;
 }
 

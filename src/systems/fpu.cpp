@@ -12,7 +12,7 @@ std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain) {
   using model = bundled_model<fpu_chain<Pairs>, fpu_law<Pairs>>;
   const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
   return std::make_unique<model>(chain, fpu_law<Pairs>(chain),
-                                 model_facts{"fpu", parameters, chain.omega(), "stiff_energy"});
+                                 model_facts{parameters, chain.omega(), "stiff_energy"});
 }
 }  // namespace
 

@@ -13,9 +13,7 @@ std::unique_ptr<bundled_system> make_henon_heiles() {
   const normal_around<2> law({rest, rest}, 0.1, 0.1);
   const henon_heiles system;
   return std::make_unique<bundled_model<henon_heiles, normal_around<2>>>(
-      system, law,
-      model_facts{
-          "henon_heiles", {{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
+      system, law, model_facts{{{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -11,7 +11,7 @@ std::unique_ptr<bundled_system> make_oscillator(double omega) {
   const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0 / omega, 1.0);
   const json parameters{{"name", "oscillator"}, {"omega", omega}};
   return std::make_unique<bundled_model<harmonic_oscillator, normal_around<1>>>(
-      oscillator, law, model_facts{"oscillator", parameters, omega, "energy"});
+      oscillator, law, model_facts{parameters, omega, "energy"});
 }
 
 }  // namespace nysalt::program

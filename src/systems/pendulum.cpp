@@ -11,7 +11,7 @@ std::unique_ptr<bundled_system> make_pendulum() {
   // Swings: it goes over the top from |p| = 2 at the bottom.
   const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
   return std::make_unique<bundled_model<pendulum, normal_around<1>>>(
-      pendulum(), law, model_facts{"pendulum", {{"name", "pendulum"}}, 1.0, "energy"});
+      pendulum(), law, model_facts{{{"name", "pendulum"}}, 1.0, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -158,10 +158,14 @@ BOOST_AUTO_TEST_CASE(a_closed_standard_output_is_told) {
 
 BOOST_AUTO_TEST_CASE(a_reader_who_leaves_is_no_error) {
   const scratch folder("pipe");
-  const finished done = shell(
-      folder, "\"$nysalt\" run --method verlet --step 1e-4 --horizon 100 --observables energy | head -n 2");
-  BOOST_TEST(done.out == "trajectory,step,t,energy\n" + done.out.substr(done.out.find('\n') + 1));
+  const finished done =
+      shell(folder,
+            "{ \"$nysalt\" run --method verlet --step 1e-4 --horizon 100 --observables energy; "
+            "echo $? >code; } | head -n 2");
+  BOOST_TEST(done.out.starts_with("trajectory,step,t,energy\n0,0,0,"));
+  BOOST_TEST(std::count(done.out.begin(), done.out.end(), '\n') == 2);
   BOOST_TEST(done.err == "");
+  BOOST_TEST(contents(folder / "code") == "0\n");
 }
 
 BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
@@ -198,9 +202,8 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
   BOOST_TEST(has(table, "bcss2"));
 }
 
-BOOST_AUTO_TEST_CASE(a_comparison_that_fails_late_leaves_no_folder) {
+BOOST_AUTO_TEST_CASE(a_comparison_that_cannot_be_leaves_no_folder) {
   const scratch folder("no_folder");
-  // Known only when the second step is reached.
   refused_and_left(folder,
                    run(folder,
                        "compare --methods verlet --steps 0.01,0.0105 --fine-step 0.001 --horizon 0.1 "

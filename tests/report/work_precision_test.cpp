@@ -22,39 +22,6 @@ std::vector<work_precision_row> power_law() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(between_rows_a_power_law_is_exact) {
-  for (const double cost : {100.0, 130.0, 200.0, 399.0, 400.0, 900.0, 1600.0}) {
-    const auto error = error_at_cost(power_law(), "a", cost);
-    BOOST_REQUIRE(error.has_value());
-    // Within 5 % a row counts as it is: at 399, .25 % from one, this error is then .5 % off. Elsewhere
-    // rounding.
-    BOOST_TEST(*error == 7 * std::pow(cost, -2), boost::test_tools::tolerance(cost == 399.0 ? 6e-3 : 1e-13));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(start_up_is_no_difference_in_cost) {
-  // A row that costs 2 % more, and nothing cheaper beside it: it is the rival at 100 all the same.
-  const std::vector<work_precision_row> rows{at_cost("a", 102.1, 1.89e-3), at_cost("a", 300, 1e-5)};
-  BOOST_TEST(error_at_cost(rows, "a", 100.0).value() == 1.89e-3);
-  BOOST_TEST(!error_at_cost(rows, "a", 90.0).has_value());
-}
-
-BOOST_AUTO_TEST_CASE(outside_the_rows_there_is_nothing) {
-  BOOST_TEST(!error_at_cost(power_law(), "a", 90.0).has_value());
-  BOOST_TEST(!error_at_cost(power_law(), "a", 1700.0).has_value());
-  BOOST_TEST(!error_at_cost(power_law(), "b", 300.0).has_value());
-  BOOST_TEST(!error_at_cost(power_law(), "c", 200.0).has_value());
-  BOOST_TEST(!error_at_cost({}, "a", 200.0).has_value());
-}
-
-BOOST_AUTO_TEST_CASE(rows_with_diverged_trajectories_do_not_count) {
-  auto rows = power_law();
-  rows[2].diverged = 1;  // that at 100
-  BOOST_TEST(!error_at_cost(rows, "a", 200.0).has_value());
-  BOOST_TEST(!error_at_cost(rows, "a", 100.0).has_value());
-  BOOST_TEST(error_at_cost(rows, "a", 900.0).has_value());
-}
-
 BOOST_AUTO_TEST_CASE(the_table_has_cost_and_error_side_by_side) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto csv = work_precision_table({at_cost("a", 200, 0.0123), at_cost("b", 50, nan, 40)}).csv();

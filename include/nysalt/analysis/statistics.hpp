@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -31,14 +30,6 @@ inline estimate mean_and_error(std::span<const double> samples) {
   if (n < 2.0) return {mean, std::numeric_limits<double>::quiet_NaN()};
   const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); }, n - 1.0);
   return {mean, std::sqrt(variance / n)};
-}
-
-/// The middle sample, or the mean of the two in the middle. NaN if there is none.
-inline double median(std::vector<double> samples) {
-  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(samples.begin(), samples.end());
-  const std::size_t half = samples.size() / 2;
-  return samples.size() % 2 == 1 ? samples[half] : 0.5 * (samples[half - 1] + samples[half]);
 }
 
 /// Slope of the least-squares line through (x_i, y_i).

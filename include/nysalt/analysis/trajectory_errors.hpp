@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -44,15 +43,17 @@ template <class C>
 concept Methods =
     std::ranges::contiguous_range<C> && std::ranges::sized_range<C> && Method<std::ranges::range_value_t<C>>;
 
-namespace detail {
-
-inline void require_sound(const trajectory_options& options, std::size_t methods, std::size_t width) {
+/// Throws std::invalid_argument unless there are steps and trajectories, and `width` numbers of each step and
+/// a score of each method and trajectory fit into memory.
+inline void require_room(const trajectory_options& options, std::size_t methods, std::size_t width) {
   if (options.steps < 1 || options.trajectories < 1) {
     throw std::invalid_argument(
         fmt::format("trajectory_errors: {} trajectories of {} steps: at least one of each is needed",
                     options.trajectories, options.steps));
   }
-  const double numbers = static_cast<double>(options.steps) * static_cast<double>(width);
+  // Two paths on each thread while the reference is checked.
+  const double numbers =
+      2.0 * options.threads * static_cast<double>(options.steps) * static_cast<double>(width);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(methods);
   if (numbers > 1e9 || scores > 1e9) {
     throw std::invalid_argument(
@@ -61,6 +62,8 @@ inline void require_sound(const trajectory_options& options, std::size_t methods
                     options.trajectories, options.steps));
   }
 }
+
+namespace detail {
 
 /// The start of trajectory m. Throws std::invalid_argument if it is not finite or does not fit.
 template <System S, Ensemble<S> E>
@@ -102,7 +105,7 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
                                            const trajectory_options& options) {
   constexpr std::int64_t most_checks = 16;  // enough for the size of an error
   const std::size_t count = std::ranges::size(methods);
-  detail::require_sound(options, count, measure.needs_reference ? measure.width : 0);
+  require_room(options, count, measure.needs_reference ? measure.width : 0);
   std::vector<decltype(make_stepper(system, *std::ranges::data(methods), options.step))> steppers;
   for (const auto& method : methods) steppers.push_back(make_stepper(system, method, options.step));
 
@@ -111,9 +114,7 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
   std::vector<double> checks;
   if (measure.needs_reference) checks.resize(std::min<std::size_t>(trajectories, most_checks));
 
-  std::mutex telling;
-  std::int64_t done = 0;
-  for_each_trajectory(options.trajectories, options.threads, [&](std::int64_t m) {
+  const auto follow = [&](std::int64_t m) {
     const auto slot = static_cast<std::size_t>(m);
     const auto start = detail::sound_start(system, ensemble, options.seed, m);
     const auto at_start = measure.numbers_of(start);
@@ -130,10 +131,8 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
       const error_sum errors(measure, expected, at_start);
       runs[k][slot] = score_of_run(steppers[k], start, options.steps, measure, errors);
     }
-    const std::lock_guard lock(telling);
-    ++done;
-    if (options.progress) options.progress(done);
-  });
+  };
+  for_each_trajectory(options.trajectories, options.threads, follow, options.progress);
 
   trajectory_errors_result result;
   const auto first = ensemble(options.seed, 0);

@@ -2,10 +2,13 @@
 // For which z = h omega a method is stable on the harmonic oscillator, exactly.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "nysalt/derivatives/turning_points.hpp"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,33 +35,6 @@ inline table work_precision_table(const std::vector<work_precision_row>& rows) {
                 number(row.error.standard_error), fmt::format("{}/{}", row.diverged, row.trajectories)});
   }
   return result;
-}
-
-/// A method's error at a cost: that of the row nearest to it if that is within 5 % (evaluations to start up
-/// make as much in a short run), else on a straight log-log line between its neighbours; nothing outside.
-/// Rows with diverged trajectories do not count.
-inline std::optional<double> error_at_cost(const std::vector<work_precision_row>& rows,
-                                           const std::string& method, double evaluations_per_time) {
-  const work_precision_row* below = nullptr;
-  const work_precision_row* above = nullptr;
-  for (const auto& row : rows) {
-    if (row.method != method || row.diverged > 0) continue;
-    const double cost = row.evaluations_per_time;
-    if (cost <= evaluations_per_time && (below == nullptr || cost > below->evaluations_per_time))
-      below = &row;
-    if (cost >= evaluations_per_time && (above == nullptr || cost < above->evaluations_per_time))
-      above = &row;
-  }
-  const auto distance = [&](const work_precision_row* row) {
-    return row == nullptr ? std::numeric_limits<double>::infinity()
-                          : std::abs(row->evaluations_per_time / evaluations_per_time - 1.0);
-  };
-  const auto* nearest = distance(below) <= distance(above) ? below : above;
-  if (distance(nearest) <= 0.05) return nearest->error.mean;
-  if (below == nullptr || above == nullptr) return std::nullopt;
-  const double s = std::log(evaluations_per_time / below->evaluations_per_time) /
-                   std::log(above->evaluations_per_time / below->evaluations_per_time);
-  return std::exp((1.0 - s) * std::log(below->error.mean) + s * std::log(above->error.mean));
 }
 
 /// Error against a cost, a curve a method, from cheap to dear; rows without a finite error leave a gap.
