@@ -189,6 +189,7 @@ void add_stability(CLI::App& app, typed& to) {
   add_system(command, to.stability_system);
   add_number(command, "--step", to.stability.step, "with --system: is the system stable there?");
   add_common(command, to.common);
+  add_force(command, to.common, "look at a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt stability --family nystrom --parameters 0.5,0.4\n"
@@ -222,7 +223,7 @@ int run_parsed(const CLI::App& command, typed& to) {
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring"}) {
+  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);
@@ -301,6 +302,10 @@ int run_command_line(int argc, char** argv) {
     refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
   } catch (const CLI::ExtrasError&) {
     refuse_extras(app);
+  } catch (const CLI::RequiredError& problem) {
+    if (!app.remaining(true).empty()) refuse_extras(app);  // a mistyped option is why
+    refuse("{}; nysalt {} --help tells what it takes", problem.what(),
+           app.get_subcommands().front()->get_name());
   } catch (const CLI::ParseError& problem) {
     const auto asked = app.get_subcommands();
     const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();

@@ -143,8 +143,9 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
     its.diverged = found.methods[k].diverged;
     if (found.reference_error) its.reference_error = found.reference_error->mean;
     if (its.diverged == plan.count) {
-      its.reason = fmt::format("every trajectory diverged, the first of them at step {}",
-                               found.methods[k].diverged_at.front().step);
+      const auto& all = found.methods[k].diverged_at;
+      const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
+      its.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
     }
   }
 }

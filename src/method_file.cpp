@@ -5,7 +5,6 @@
 #include <boost/crc.hpp>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -33,12 +32,17 @@ std::string checksum(json document) {
 }
 
 std::string contents_of(const std::filesystem::path& path) {
+  constexpr std::streamsize most = 1 << 20;  // bytes: schemes and tables are far shorter
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, ignored)) {
     refuse("cannot read {}: is it there, a file, and readable?", path.string());
   }
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string text(static_cast<std::size_t>(most), '\0');
+  stream.read(text.data(), most);
+  if (stream) refuse("{}: it is too long to be a scheme or a table", path.string());
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
 }
 
 /// Members of a JSON object, each of its type, or a refusal that names file and member.
@@ -117,7 +121,7 @@ scheme scheme_in(const json& document, const reader& read) {
 
 /// "A adds up to 1, B adds up to 0.9"
 std::string sums_of(const std::string& letters, const std::vector<double>& coefficients) {
-  std::map<char, double> sums;
+  std::map<char, double> sums{{'A', 0.0}, {'B', 0.0}};  // a method needs both
   for (std::size_t i = 0; i < letters.size(); ++i) sums[letters[i]] += coefficients[i];
   std::vector<std::string> texts;
   for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
@@ -140,8 +144,8 @@ tabulated table_in(const json& document, const reader& read) {
     const tabulated bare(name, word, coefficients, {1, false, false});
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
-      refuse("{}: it is not consistent: {}, but each must add up to 1, to ten digits", read.file(),
-             sums_of(letters, coefficients));
+      refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
+             read.file(), sums_of(letters, coefficients));
     }
     if (document.contains("order")) {
       const double declared = read.number("order");

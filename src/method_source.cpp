@@ -57,14 +57,15 @@ bool is_at(const scheme& learned, double step) {
 }
 
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step) {
+  std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
-    return fmt::format("it was learned for the step {}, not {}", learned.step, step);
+    reasons.push_back(fmt::format("it was learned for the step {}, not {}", learned.step, step));
   }
   if (learned.system != system.description()) {
-    return fmt::format("it was learned for {}, not {}", learned.system, system.description());
+    reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
   }
-  if (!learned.usable) return "its fit was not usable: " + learned.reason;
-  return {};
+  if (!learned.usable) reasons.push_back("its fit was not usable: " + learned.reason);
+  return listed(reasons);
 }
 
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
@@ -77,7 +78,13 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
     return source.learned->method;
   }
-  if (source.is_adaptive()) return tabulated(s_aia2(step * highest_frequency(system)));
+  if (source.is_adaptive()) {
+    try {
+      return tabulated(s_aia2(step * highest_frequency(system)));
+    } catch (const std::invalid_argument& problem) {
+      refuse("{} at step {}: {}", source.typed, step, problem.what());
+    }
+  }
   refuse("{} must be learned first: nysalt learn --family {} --step {} --output scheme.json", source.typed,
          *source.family, step);
 }

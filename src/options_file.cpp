@@ -2,6 +2,8 @@
 #include "options_file.hpp"
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 #include "refusal.hpp"
 
@@ -19,8 +21,68 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// A line without its comment. Throws refusal if a text holds a #, which CLI11 would cut there.
+std::string without_comment(const std::string& line, int number) {
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '#' && quote != 0) refuse("--config, line {}: a text cannot hold a #: {}", number, line);
+    if (c == '#') return trimmed(line.substr(0, i));
+    if (quote == 0 && (c == '"' || c == '\'')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = 0;
+    }
+  }
+  return line;
+}
+
+/// CLI11 reads a part of TOML, and the rest wrongly without a word. So each line must be empty, a comment, a
+/// [section], or name = value with the value whole on that line, and nothing may be said twice. What is
+/// handed on has no comments.
+std::string plain_toml(std::istream& input) {
+  std::string plain;
+  std::set<std::string> sections;
+  std::set<std::string> names;
+  int number = 0;
+  for (std::string raw; std::getline(input, raw);) {
+    const std::string line = without_comment(trimmed(raw), ++number);
+    const auto wrong = [&](const char* what) { refuse("--config, line {}: {}: {}", number, what, line); };
+    plain += line + "\n";
+    if (line.empty()) continue;
+    if (line.front() == '[') {
+      if (line.back() != ']') wrong("a section is [NAME], alone on its line");
+      if (!sections.insert(line).second) wrong("this section is there twice");
+      names.clear();
+      continue;
+    }
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) wrong("this is neither name = value nor [section]");
+    if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("this option is there twice");
+    const std::string value = trimmed(line.substr(equals + 1));
+    if (value.empty()) wrong("there is no value");
+    const char first = value.front();
+    const char last = first == '[' ? ']' : first;
+    const bool is_closed = value.size() > 1 && value.back() == last;
+    if ((first == '[' || first == '"' || first == '\'') && !is_closed) {
+      wrong("a text or list must end on its line");
+    }
+  }
+  return plain;
+}
+
+}  // namespace
+
 std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) const {
-  auto items = CLI::ConfigTOML::from_config(input);
+  std::istringstream text(plain_toml(input));
+  auto items = CLI::ConfigTOML::from_config(text);
   const auto running = app_.get_subcommands();
   // Of two values for one option the first is taken.
   std::stable_partition(items.begin(), items.end(), [](const auto& item) { return !item.parents.empty(); });

@@ -67,7 +67,8 @@ void write_pictures(const figure& picture, const std::filesystem::path& folder,
                      picture.name));
     return;
   }
-  for (const char* kind : {".svg", ".png"}) write_manifest(folder / (picture.name + kind), common);
+  for (const char* kind : {".svg", ".png", ".gp", ".dat"})
+    write_manifest(folder / (picture.name + kind), common);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -97,7 +97,7 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   const metric<S::dimension> measure(system, data, options.coordinates);
   const one_step<F, counted<S>> loss(watched, data, measure);
   const one_step<F, counted<S>> held_out_loss(watched, held_out, measure);
-  const double held_out_start_loss = loss_value(held_out_loss, theta);
+  const auto held_out_at_start = block_losses(held_out_loss, theta);
 
   std::vector<Eigen::Index> free;
   for (std::size_t k = 0; k < theta.size(); ++k) {
@@ -144,7 +144,8 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   }
   fit.loss = loss_value(loss, theta);
   fit.held_out_loss = loss_value(held_out_loss, theta);
-  fit.held_out_start_loss = held_out_start_loss;
+  fit.held_out_start_loss = tree_sum(held_out_at_start);
+  fit.held_out_noise = detail::noise_of_difference(block_losses(held_out_loss, theta), held_out_at_start);
   fit.samples = data.pairs();
   fit.trajectories = data.trajectories();
   fit.held_out_samples = held_out.pairs();

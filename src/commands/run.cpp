@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -84,7 +85,9 @@ class samples {
   void add(std::int64_t trajectory, std::int64_t n, std::span<const double> values) {
     const double t = static_cast<double>(n) * command_.step;
     if (is_csv()) {
-      text_ += fmt::format("{},{},{},{}\n", trajectory, n, t, fmt::join(values, ","));
+      text_ += fmt::format("{},{},{}", trajectory, n, t);
+      for (const double x : values) text_ += std::isfinite(x) ? fmt::format(",{}", x) : std::string(",");
+      text_ += '\n';
       if (text_.size() > 1U << 20U) flush();
     } else {
       json& row = rows_.emplace_back(json{trajectory, n, t});

@@ -16,34 +16,40 @@ struct subject {
   tabulated method;
 };
 
-subject subject_of(const stability_command& command, const bundled_system* system) {
+subject subject_of(const stability_command& command, const bundled_system* system, bool force,
+                   std::vector<std::string>& warnings) {
   if (command.family && command.method) refuse("--family and --method contradict each other: give one");
-  if (command.family) return {*command.family, family_member(*command.family, command.parameters)};
-  if (!command.method) refuse("whose stability? Give --method NAME or FILE, or --family with --parameters");
+  if (!command.method) {
+    if (!command.family && command.parameters.empty()) {
+      refuse("whose stability? Give --method NAME or FILE, or --family with --parameters");
+    }
+    const std::string family = command.family.value_or("nystrom");
+    return {family, family_member(family, command.parameters)};
+  }
   if (!command.parameters.empty()) refuse("--parameters belong to a --family, not to --method");
   const method_source source = find_method(*command.method);
+  if (system != nullptr)
+    return {source.typed, coefficients_at(source, *system, *command.step, force, warnings)};
   if (source.learned) return {source.typed, source.learned->method};
-  if (source.is_adaptive() && (system == nullptr || !command.step)) {
-    refuse("{} depends on step and highest frequency: give --system and --step", source.typed);
-  }
   if (source.fixed) return {source.typed, *source.fixed};
-  std::vector<std::string> warnings;
-  if (system == nullptr) {
-    refuse("{} must be learned first: nysalt learn --family {} --output scheme.json", source.typed,
-           *source.family);
+  if (source.is_adaptive()) {
+    refuse("{} depends on step and highest frequency: give --step, and --system if it is not fpu",
+           source.typed);
   }
-  return {source.typed, coefficients_at(source, *system, command.step.value_or(0.0), false, warnings)};
+  refuse("{} must be learned first: nysalt learn --family {} --step STEP --output scheme.json", source.typed,
+         *source.family);
 }
 
 }  // namespace
 
 int stability(const stability_command& command, const common_settings& common) {
   if (command.step) require_positive("--step", *command.step);
-  if (command.step.has_value() != command.system.has_value()) {
-    refuse("--system and --step go together: they say which frequencies must be stable");
+  if (command.system && !command.step) {
+    refuse("--system needs --step: together they say which frequencies must be stable");
   }
   const auto system = command.system ? make_system(*command.system) : nullptr;
-  const auto [name, method] = subject_of(command, system.get());
+  std::vector<std::string> warnings;
+  const auto [name, method] = subject_of(command, system.get(), common.force, warnings);
   const auto windows = stability_windows(method);
   const bool from_zero = !windows.empty() && windows.front().low == 0.0;
   const double limit = from_zero ? windows.front().high : 0.0;
@@ -73,6 +79,11 @@ int stability(const stability_command& command, const common_settings& common) {
     result["system"] = system->description();
     result["step"] = *command.step;
     result["bands"] = bands;
+  }
+  if (common.json) {
+    if (system) result["warnings"] = warnings;
+  } else {
+    for (const auto& warning : warnings) warn(warning);
   }
   print(common.json ? text_of(result) : text);
   return done;

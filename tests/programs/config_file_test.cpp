@@ -91,3 +91,15 @@ BOOST_AUTO_TEST_CASE(what_is_no_option_is_refused) {
     BOOST_TEST(done.err.find("nosuch") != std::string::npos, done.err);
   }
 }
+
+// What CLI11 would read wrongly without a word.
+BOOST_AUTO_TEST_CASE(what_is_not_plain_is_refused_with_its_line) {
+  const std::string good = "step = 0.02\n";
+  for (const char* text :
+       {"fix = [\"b1=0.5\"\n", "output = \"h#b.json\"\n", "step = 0.03\n", "horizon = [\n0.5]\n", "horizon\n",
+        "horizon =\n", "[learn]\n[compare]\n[learn]\n"}) {
+    const auto done = run(folder_with(good + text), "learn --config options.toml");
+    BOOST_TEST(done.code == 2, text);
+    BOOST_TEST(done.err.starts_with("nysalt: --config, line "), done.err);
+  }
+}

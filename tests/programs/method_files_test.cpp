@@ -248,20 +248,18 @@ BOOST_FIXTURE_TEST_CASE(parameters_are_read_by_name, learned) {
              run(folder, "run --method scheme.json --step 0.02" + samples).out);
 }
 
-// Three trajectories teach too little.
+// With the step itself as fine step the reference errs as much as what is learned.
 BOOST_AUTO_TEST_CASE(a_fit_that_is_not_usable_says_so_wherever_it_goes) {
   const scratch folder("not_usable");
-  const std::string poor =
-      "learn --trajectories 3 --horizon 0.1 --fine-step 0.001 --step 0.02 --output poor.json";
+  const std::string poor = "learn --trajectories 3 --step 0.1 --fine-step 0.1 --output poor.json";
   const finished withheld = run(folder, poor);
   BOOST_TEST(withheld.code == 3);
   BOOST_TEST(withheld.err.find("not written") != std::string::npos);
   BOOST_TEST(folder.files().empty());
   BOOST_TEST(run(folder, poor + " --force").code == 3);
-  const std::string use = "run --method poor.json --step 0.02 --horizon 0.2 --json";
+  const std::string use = "run --method poor.json --step 0.1 --horizon 0.2 --json";
   BOOST_TEST(refused(run(folder, use), {"poor.json", "not usable", "--force"}));
   const finished forced = run(folder, use + " --force");
-  BOOST_TEST(forced.code == 0);
   BOOST_TEST(json_of(forced)["warnings"].dump().find("not usable") != std::string::npos);
 }
 
@@ -283,7 +281,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_method_at_all_is_refused) {
                                    {R"({"name": "another program", "version": 3})", "\"format\""},
                                    {"not json", "whole"},
                                    {"{\"format\": \"nysalt table\",}", "whole"},
-                                   {std::string(100'000, '['), "whole"},
+                                   {std::string(100'000, '['), "nested"},
                                    {std::string("\0\0\0\x1b[31m", 8), "whole"},
                                    {"\xff\xfe{}", "whole"},
                                    {R"({"format": "\u001b[31m\nnysalt"})", "\"format\""}}) {
@@ -351,9 +349,9 @@ BOOST_AUTO_TEST_CASE(a_table_that_is_not_true_is_refused) {
     return document.dump();
   };
   for (const auto& [text, words] : std::vector<file>{
-           {table("ABA", {0.5, 1.0, 0.4}), {"letter A", "0.9", "1"}},
-           {table("ABA", {0.5, 1.01, 0.5}), {"letter B", "1.01"}},
-           {table("A", {1.0}), {"letter B", "0"}},
+           {table("ABA", {0.5, 1.0, 0.4}), {"A adds up to 0.9"}},
+           {table("ABA", {0.5, 1.01, 0.5}), {"B adds up to 1.01"}},
+           {table("A", {1.0}), {"B adds up to 0"}},
            {table("ABA", {0.5, 1.0, 0.5}, {{"order", 4}}), {"order 4", "order 2"}},
            {table("AB", {1.0, 1.0}, {{"order", 2}}), {"order 2", "order 1"}},
            {table("BABABABABABAB", mistyped, {{"order", 4}}), {"order 4", "mistyped"}},
@@ -362,7 +360,7 @@ BOOST_AUTO_TEST_CASE(a_table_that_is_not_true_is_refused) {
            {table("", {}), {"letter"}},
            {table("ABA", {0.5, 1.0}), {"2 coefficients", "3 letters"}},
            {table("ABA", {0.5, 1.0, 0.25, 0.25}), {"4 coefficients", "3 letters"}},
-           {table("ABABA", {1e308, 0.5, -1e308, 0.5, 1.0}), {"order 1", "too large"}},
+           {table("ABABA", {1e308, 0.5, -1e308, 0.5, 1.0}), {"consistent", "moderate"}},
            {table(std::string(40'000, 'A'), std::vector<double>(40'000, 2.5e-5)),
             {"at most 200 letters", "40000"}},
            {but("coefficients", {0.5, nullptr, 0.5}), {"\"coefficients\"", "finite numbers"}},

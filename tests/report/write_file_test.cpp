@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A file is written whole or not at all.
+#include <fmt/format.h>
+#include <unistd.h>
 #include <boost/test/unit_test.hpp>
 
 #include "../support/refusal.hpp"
@@ -43,7 +45,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_told) {
   if (!std::filesystem::is_character_file("/dev/full")) return;
   const scratch folder("write_file");
   write_file(folder / "a.txt", "before");
-  std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
+  std::filesystem::create_symlink("/dev/full", folder / fmt::format("a.txt.{}.part", getpid()));
   BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", std::string(100'000, 'x')); },
                                          {"cannot write", "full"}));
   BOOST_TEST(contents(folder / "a.txt") == "before");

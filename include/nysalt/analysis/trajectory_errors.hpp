@@ -55,7 +55,7 @@ inline void require_room(const trajectory_options& options, std::size_t methods,
   const double numbers =
       2.0 * options.threads * static_cast<double>(options.steps) * static_cast<double>(width);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(methods);
-  if (numbers > 1e9 || scores > 1e9) {
+  if (numbers > 1e9 || scores > 1e8) {
     throw std::invalid_argument(
         fmt::format("trajectory_errors: {} trajectories of {} steps do not fit into memory; take fewer or a "
                     "shorter horizon",

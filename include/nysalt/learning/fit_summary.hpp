@@ -34,6 +34,7 @@ struct fit_summary {
   double loss = 0.0;                 // mean over pairs of the sum over coordinates of r^2/Sigma
   double held_out_loss = 0.0;        // the same on data that was not learned from
   double held_out_start_loss = 0.0;  // and with the parameters that the search began with
+  double held_out_noise = 0.0;       // standard error of the difference of these two; 0 from one trajectory
   std::size_t samples = 0;           // pairs
   std::size_t trajectories = 0;
   std::size_t held_out_samples = 0;

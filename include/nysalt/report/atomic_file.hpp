@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,13 +13,14 @@
 
 namespace nysalt {
 
-/// A file that is there whole or not at all: what is written goes into NAME.part, and commit() renames it.
-/// Without a commit nothing of it is left.
+/// A file that is there whole or not at all: what is written goes into NAME.PROCESS.part, and commit()
+/// renames it. Without a commit nothing of it is left, and programs that write the same file at once do not
+/// mix.
 class atomic_file {
  public:
   /// Throws std::runtime_error if it cannot be made.
   explicit atomic_file(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
-    part_ += ".part";
+    part_ += fmt::format(".{}.part", getpid());
     stream_.open(part_, std::ios::binary | std::ios::trunc);
     if (!stream_) fail();
   }
