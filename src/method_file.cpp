@@ -159,6 +159,9 @@ tabulated table_in(const json& document, const reader& read) {
             read.file(), declared, found.quadratic_kinetic);
       }
     }
+    if (stability_limit(bare) == 0.0) {  // throws where there are too many letters to tell
+      refuse("{}: it is not linearly stable at any small step", read.file());
+    }
     const auto palindrome = [](const auto& x) { return std::equal(x.begin(), x.end(), x.rbegin()); };
     return tabulated(name, word, coefficients,
                      {found.quadratic_kinetic, palindrome(letters) && palindrome(coefficients),

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "catalogue.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "refusal.hpp"
 
@@ -68,8 +69,10 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
   return listed(reasons);
 }
 
-tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
-                          std::vector<std::string>& warnings) {
+namespace {
+
+tabulated found_at(const method_source& source, const bundled_system& system, double step, bool force,
+                   std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     const std::string why = out_of_place(*source.learned, system, step);
@@ -87,6 +90,26 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
   }
   refuse("{} must be learned first: nysalt learn --family {} --step {} --output scheme.json", source.typed,
          *source.family, step);
+}
+
+void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
+                         double step, std::vector<std::string>& warnings) {
+  const auto windows = stability_windows(method);
+  for (const auto& [low, high] : system.frequency_bands()) {
+    if (is_stable(windows, step * low, step * high)) continue;
+    warnings.push_back(
+        fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
+                    source.typed, step, low, high, system.description()));
+  }
+}
+
+}  // namespace
+
+tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
+                          std::vector<std::string>& warnings) {
+  tabulated method = found_at(source, system, step, force, warnings);
+  warn_of_instability(source, method, system, step, warnings);
+  return method;
 }
 
 }  // namespace nysalt::program

@@ -31,7 +31,7 @@ bool is_at(const scheme& learned, double step);
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step);
 
 /// The coefficients of a source that needs no learning. A scheme that is out of place is refused unless
-/// `force`; then a warning is added.
+/// `force`; then a warning is added, and also where the step is not linearly stable for the system.
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
                           std::vector<std::string>& warnings);
 

@@ -13,24 +13,12 @@
 #include "../output.hpp"
 #include "../progress.hpp"
 #include "../seeds.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/report/atomic_file.hpp"
 #include "nysalt/report/plot.hpp"
 
 namespace nysalt::program {
 
 namespace {
-
-void warn_of_instability(const tabulated& method, const bundled_system& system, double step,
-                         std::vector<std::string>& warnings) {
-  const auto windows = stability_windows(method);
-  for (const auto& [low, high] : system.frequency_bands()) {
-    if (is_stable(windows, step * low, step * high)) continue;
-    warnings.push_back(
-        fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
-                    method.name(), step, low, high, system.description()));
-  }
-}
 
 /// Refuses what would fill the memory, before any work: `run` keeps the samples of a block of trajectories,
 /// and a JSON document all of them.
@@ -179,7 +167,6 @@ int run(const run_command& asked, const common_settings& common) {
   std::vector<std::string> warnings;
   const tabulated method =
       coefficients_at(find_method(command.method), *system, command.step, common.force, warnings);
-  warn_of_instability(method, *system, command.step, warnings);
   if (!common.json) {
     for (const auto& text : warnings) warn(text);
   }

@@ -25,6 +25,8 @@ BOOST_AUTO_TEST_CASE(worse_than_the_start_by_chance_is_no_objection) {
   BOOST_TEST(objection(0.0).find("worse than the parameters") != std::string::npos);
   BOOST_TEST(objection(0.016e-6).find("worse than the parameters") != std::string::npos);
   BOOST_TEST(objection(0.017e-6) == "");  // three of these make .051
+  fit.held_out_loss = 1.51e-6;
+  BOOST_TEST(objection(1.0e-6).find("worse than the parameters") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_noise_is_that_of_paired_differences) {

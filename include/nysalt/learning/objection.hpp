@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -38,8 +39,10 @@ std::string objection(const S& system, const fit_summary& fit, const parameters_
                        fit.held_out_loss);
   }
   // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
-  // that other data prefer now the one and now the other. Equal to rounding is no objection either.
-  const double chance = 3.0 * fit.held_out_noise + 1e-9 * fit.held_out_start_loss;
+  // that other data prefer now the one and now the other. Half as much again is more than chance, whatever a
+  // few trajectories say of their noise. Equal to rounding is no objection either.
+  const double chance =
+      std::min(3.0 * fit.held_out_noise, 0.5 * fit.held_out_start_loss) + 1e-9 * fit.held_out_start_loss;
   if (!(fit.held_out_loss <= fit.held_out_start_loss + chance || fit.held_out_loss <= 1e-24)) {
     return "on held-out data it is worse than the parameters that the search began with";
   }
