@@ -91,8 +91,7 @@ class bundled_model final : public bundled_system {
                description());
       }
     }
-    const bool known = with_family(family, [&]<class F>(F) { options_for<F>(how); });
-    if (!known) refuse("unknown family '{}': it is one of {}", family, listed(family_names()));
+    with_family(family, [&]<class F>(F) { options_for<F>(how); });
   }
 
   learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
@@ -157,7 +156,6 @@ class bundled_model final : public bundled_system {
         };
         const auto start = law_(plan.seed, static_cast<std::uint64_t>(first + i));
         const auto end = integrate(stepper, start, plan.steps, look, sample_every);
-        its.steps = end.steps;
         its.diverged_at = end.diverged_at;
       });
       for (std::int64_t i = 0; i < std::ssize(records); ++i) {

@@ -48,7 +48,6 @@ struct learned_scheme {
 /// Samples of a trajectory: values of all observables at steps 0, every, 2 every, ...
 struct record {
   std::vector<double> values;
-  std::int64_t steps;
   std::optional<std::int64_t> diverged_at;
 };
 

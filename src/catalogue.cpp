@@ -8,7 +8,6 @@
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/verlet.hpp"
-#include "refusal.hpp"
 
 namespace nysalt::program {
 
@@ -20,7 +19,7 @@ std::vector<std::string> family_names() {
 
 tabulated family_member(const std::string& family, const std::vector<double>& parameters) {
   std::optional<tabulated> result;
-  const bool known = with_family(family, [&]<class F>(F) {
+  with_family(family, [&]<class F>(F) {
     parameters_of<F> theta;
     if (parameters.size() != theta.size()) {
       refuse("the family {} has {} parameters ({}), got {}", family, theta.size(), listed(F::parameter_names),
@@ -29,7 +28,6 @@ tabulated family_member(const std::string& family, const std::vector<double>& pa
     std::copy(parameters.begin(), parameters.end(), theta.begin());
     result.emplace(member<F>(theta));
   });
-  if (!known) refuse("unknown family '{}': it is one of {}", family, listed(family_names()));
   return *result;
 }
 

@@ -11,19 +11,22 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "refusal.hpp"
 
 namespace nysalt::program {
 
 /// Every family that can be learned. A new one is one name here.
 using families = std::tuple<nystrom>;
 
-/// Calls f(F{}) for the family of that name; false if there is none.
-template <class Action>
-bool with_family(std::string_view name, Action&& f) {
-  return std::apply([&](auto... family) { return ((family.name == name && (f(family), true)) || ...); },
-                    families{});
-}
 std::vector<std::string> family_names();
+
+/// Calls f(F{}) for the family of that name. Throws refusal, listing the names, if there is none.
+template <class Action>
+void with_family(std::string_view name, Action&& f) {
+  const bool known = std::apply(
+      [&](auto... family) { return ((family.name == name && (f(family), true)) || ...); }, families{});
+  if (!known) refuse("unknown family '{}': it is one of {}", name, listed(family_names()));
+}
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
 tabulated family_member(const std::string& family, const std::vector<double>& parameters);

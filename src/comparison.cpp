@@ -94,12 +94,7 @@ trajectories_plan comparison::plan_at(double step) const {
 }
 
 void comparison::learn_for(row& its, const std::string& family) {
-  const learn_plan plan{family,
-                        its.step,
-                        command_.learning,
-                        seed_for(role::training, common_.seed),
-                        seed_for(role::held_out, common_.seed),
-                        common_.threads};
+  const learn_plan plan = plan_for(family, its.step, command_.learning, common_);
   const learned_scheme learned = learn_with(*system_, plan, shown_);
   json fit{{"method", its.method}};
   fit.update(fit_json(learned.fit));

@@ -3,6 +3,7 @@
 
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "seeds.hpp"
 
 namespace nysalt::program {
 
@@ -21,16 +22,23 @@ learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, 
   return system.learn(plan, shown.counter(plan.how.trajectories));
 }
 
+learn_plan plan_for(const std::string& family, double step, const learn_settings& how,
+                    const common_settings& common) {
+  return {
+      family,        step, how, seed_for(role::training, common.seed), seed_for(role::held_out, common.seed),
+      common.threads};
+}
+
+json by_name(const fit_summary& fit, double fitted_parameter::*field) {
+  json result = json::object();
+  for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
+  return result;
+}
+
 json fit_json(const fit_summary& fit) {
-  json parameters = json::object();
-  json errors = json::object();
-  for (const auto& p : fit.parameters) {
-    parameters[p.name] = p.value;
-    errors[p.name] = p.standard_error;
-  }
   return {{"family", fit.family},
-          {"parameters", parameters},
-          {"standard_errors", errors},
+          {"parameters", by_name(fit, &fitted_parameter::value)},
+          {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
           {"step", fit.step},
           {"loss", fit.loss},
           {"held_out_loss", fit.held_out_loss},

@@ -16,6 +16,13 @@ void require_sound(const learn_settings& how, const std::string& prefix);
 /// Throws refusal for what cannot be learned, before any work is done.
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
 
+/// Training and held-out seeds are the roles of the user's.
+learn_plan plan_for(const std::string& family, double step, const learn_settings& how,
+                    const common_settings& common);
+
+/// A field of each parameter, by its name.
+json by_name(const fit_summary& fit, double fitted_parameter::*field);
+
 /// What both commands tell of a fit.
 json fit_json(const fit_summary& fit);
 

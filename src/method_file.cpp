@@ -10,6 +10,7 @@
 
 #include "build_info.hpp"
 #include "catalogue.hpp"
+#include "learning.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "refusal.hpp"
@@ -89,15 +90,16 @@ auto in_file(const std::string& file, const auto& f) {
 std::vector<double> parameters_in(const json& parameters, const std::string& family, const reader& read) {
   std::vector<double> theta;
   const reader values(parameters, read.file());
-  const bool known = with_family(family, [&]<class F>(F) {
+  const auto known = family_names();
+  if (std::find(known.begin(), known.end(), family) == known.end()) {
+    refuse("{}: unknown family '{}': it is one of {}", read.file(), family, listed(known));
+  }
+  with_family(family, [&]<class F>(F) {
     for (const auto name : F::parameter_names) theta.push_back(values.number(std::string(name).c_str()));
     if (parameters.size() == theta.size()) return;
     refuse("{}: the family {} has the parameters {} and no others", read.file(), family,
            listed(F::parameter_names));
   });
-  if (!known) {
-    refuse("{}: unknown family '{}': it is one of {}", read.file(), family, listed(family_names()));
-  }
   return theta;
 }
 
@@ -173,19 +175,13 @@ tabulated table_in(const json& document, const reader& read) {
 
 std::string scheme_text(const learned_scheme& learned, const bundled_system& system, const learn_plan& plan) {
   const fit_summary& fit = learned.fit;
-  json parameters = json::object();
-  json errors = json::object();
-  for (const auto& p : fit.parameters) {
-    parameters[p.name] = p.value;
-    errors[p.name] = p.standard_error;
-  }
   json of_system = system.parameters();
   of_system["description"] = system.description();
   json document{{"format", scheme_format},
                 {"version", known_version},
                 {"family", fit.family},
-                {"parameters", parameters},
-                {"standard_errors", errors},
+                {"parameters", by_name(fit, &fitted_parameter::value)},
+                {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
                 {"step", fit.step},
                 {"system", of_system},
                 {"energy_range", nullptr},

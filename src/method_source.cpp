@@ -35,11 +35,8 @@ method_source find_method(const std::string& text) {
     source.evaluations_per_step = s_aia2::word::evaluations_per_step;
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
-    const bool known = with_family(
-        *source.family, [&]<class F>(F) { source.evaluations_per_step = F::word::evaluations_per_step; });
-    if (!known) {
-      refuse("unknown family '{}' in '{}': it is one of {}", *source.family, text, listed(family_names()));
-    }
+    with_family(*source.family,
+                [&]<class F>(F) { source.evaluations_per_step = F::word::evaluations_per_step; });
   } else if (is_file_name(text)) {
     method_file file = read_method_file(text);
     source.learned = std::move(file.learned);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../bundled_system.hpp"
-#include "../catalogue.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
 #include "../learning.hpp"
 #include "../method_file.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
-#include "../seeds.hpp"
 
 namespace nysalt::program {
 
@@ -44,12 +42,7 @@ int learn(const learn_command& command, const common_settings& common) {
   if (!command.output.empty()) require_writable(command.output);
 
   progress shown;
-  const learn_plan plan{command.family,
-                        command.step,
-                        command.learning,
-                        seed_for(role::training, common.seed),
-                        seed_for(role::held_out, common.seed),
-                        common.threads};
+  const learn_plan plan = plan_for(command.family, command.step, command.learning, common);
   const learned_scheme learned = learn_with(*system, plan, shown);
   shown.clear();
 
