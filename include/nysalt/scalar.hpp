@@ -34,4 +34,9 @@ concept CoefficientOf = Scalar<C> && Scalar<T> && (std::same_as<C, double> || st
 template <class T, class C>
 concept SteppedBy = CoefficientOf<C, T>;
 
+/// a where the condition holds, else b. Systems that write it instead of a branch serve packs and their duals
+/// too, where the condition may differ from lane to lane.
+inline double select(bool condition, double a, double b) { return condition ? a : b; }
+inline bool any(bool condition) { return condition; }
+
 }  // namespace nysalt

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <compare>
 #include <concepts>
 
 #include "nysalt/scalar.hpp"
@@ -71,10 +70,12 @@ struct dual {
   friend dual operator/(double c, const dual& a) { return dual(c) / a; }
 
   // Order is that of the values: a branch is taken as it would be without derivatives.
-  friend auto operator<=>(const dual& a, const dual& b) { return a.value <=> b.value; }
-  friend bool operator==(const dual& a, const dual& b) { return a.value == b.value; }
-  friend auto operator<=>(const dual& a, double b) { return a.value <=> b; }
-  friend bool operator==(const dual& a, double b) { return a.value == b; }
+  friend auto operator<(const dual& a, const dual& b) { return a.value < b.value; }
+  friend auto operator<=(const dual& a, const dual& b) { return a.value <= b.value; }
+  friend auto operator>(const dual& a, const dual& b) { return a.value > b.value; }
+  friend auto operator>=(const dual& a, const dual& b) { return a.value >= b.value; }
+  friend auto operator==(const dual& a, const dual& b) { return a.value == b.value; }
+  friend auto operator!=(const dual& a, const dual& b) { return a.value != b.value; }
 
   /// f(a) from f(a.value) and f'(a.value).
   dual chain(const T& f, const T& slope) const {
@@ -91,6 +92,17 @@ struct dual {
     return result;
   }
 };
+
+/// a where the condition holds, else b: what a branch is for scalars that may differ from lane to lane.
+template <class T, int N>
+dual<T, N> select(const auto& condition, const dual<T, N>& a, const dual<T, N>& b) {
+  dual<T, N> result;
+  result.value = select(condition, a.value, b.value);
+  for (std::size_t k = 0; k < N; ++k) {
+    result.derivative[k] = select(condition, a.derivative[k], b.derivative[k]);
+  }
+  return result;
+}
 
 template <class T>
 inline constexpr bool is_dual = false;
@@ -166,7 +178,7 @@ dual<T, N> pow(const dual<T, N>& a, double exponent) {
 /// The derivative at 0 is taken from the right.
 template <class T, int N>
 dual<T, N> abs(const dual<T, N>& a) {
-  return a.value < 0.0 ? -a : a;
+  return select(a.value < 0.0, -a, a);
 }
 
 }  // namespace nysalt
