@@ -48,8 +48,8 @@ class metric {
   const Eigen::MatrixXd& weight_deviations() const { return deviations_; }
 
   /// r[0..residuals()) of the difference a - b; b is data, a may carry derivatives.
-  template <Scalar T>
-  void residual(const vector<T, N>& aq, const vector<T, N>& ap, const phase_point<double, N>& b, T* r) const {
+  template <Scalar T, Scalar R>
+  void residual(const vector<T, N>& aq, const vector<T, N>& ap, const phase_point<R, N>& b, T* r) const {
     for (std::size_t k = 0; k < active_.size(); ++k) {
       const Eigen::Index row = active_[k];
       const bool is_q = row < size_;
