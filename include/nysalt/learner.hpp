@@ -118,12 +118,14 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   }
   fit_summary fit;
   bool converged = false;
+  Eigen::MatrixXd hessian;
   for (bool inside = false; !inside;) {
     const auto found =
         minimise(objective_of(loss), detail::is_defined<F>, column_of(theta), free, options.max_iterations);
     theta = array_of<parameters_of<F>{}.size()>(found.theta);
     converged = found.converged;
     fit.loss = found.loss;
+    hessian = found.hessian;
     fit.iterations += found.iterations;
     inside = 0 == std::erase_if(free, [&](Eigen::Index index) {
                constexpr double met =
@@ -136,7 +138,7 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
              });
   }
 
-  const curvature bend(hessian(loss, theta), free);
+  const curvature bend(hessian, free);
   const Eigen::VectorXd errors = bend.standard_errors(detail::scores(loss, measure, theta));
   fit.family = F::name;
   fit.system = data.system;

@@ -19,6 +19,7 @@ namespace nysalt {
 struct minimum {
   Eigen::VectorXd theta;
   double loss = 0.0;
+  Eigen::MatrixXd hessian;
   int iterations = 0;
   bool converged = false;
 };
@@ -49,11 +50,14 @@ inline int search(ceres::Problem& problem, Eigen::VectorXd& theta, const std::ve
   return static_cast<int>(summary.iterations.size());
 }
 
-/// Newton steps with the Hessian of where they begin, until rounding is reached.
+/// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
+/// to a part in a million.
 inline void polish(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
                    const std::vector<Eigen::Index>& free, minimum& found) {
-  const curvature bend(hessian(loss, found.theta), free);
-  squares here = loss(found.theta);
+  const Eigen::VectorXd began = found.theta;
+  found.hessian = hessian(loss, began);
+  const curvature bend(found.hessian, free);
+  squares here = loss(began);
   found.loss = here.value;
   if (!bend.is_minimum()) return;
   const auto decrease_of = [&](const squares& at) {  // by the next step
@@ -73,6 +77,7 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
     ++found.iterations;
   }
   found.loss = here.value;
+  if ((found.theta - began).norm() > 1e-6) found.hessian = hessian(loss, found.theta);
   // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
   found.converged = decrease <= 1e-6 * found.loss + 1e-24;
 }
@@ -87,6 +92,7 @@ inline minimum minimise(const objective& loss, const std::function<bool(const Ei
   minimum found{start};
   if (free.empty()) {
     found.loss = loss(start).value;
+    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // nobody asks in which direction
     found.converged = true;
     return found;
   }

@@ -34,6 +34,7 @@ class one_step {
       : system_(&system),
         metric_(&measure),
         step_(data.step),
+        share_(1.0 / static_cast<double>(data.pairs())),
         threads_(threads),
         first_of_(data.first_of),
         parts_(gather<R>(data)) {}
@@ -62,6 +63,7 @@ class one_step {
       std::vector<R> terms(static_cast<std::size_t>(zero.size()));
       std::size_t trajectory = part.first_trajectory;
       std::size_t pair = first_of_[trajectory];
+      Sum sum = zero;  // of one trajectory: local, so that it may stay in registers
       for (const auto& [start, finish] : part.entries) {
         for (Eigen::Index i = 0; i < start.size(); ++i) {
           x.q[i] = C(start.q[i]);
@@ -70,18 +72,21 @@ class one_step {
         one.step(x);
         metric_->residual(x.q, x.p, finish, r.data());
         of_pair(r, terms);
-        for (int lane = 0; lane < detail::lanes<R> && pair < first_of_[part.end_trajectory]; ++lane, ++pair) {
-          while (pair == first_of_[trajectory + 1]) ++trajectory;
-          double* sum = result[trajectory].data();
-          for (const R& term : terms) *sum++ += detail::in_lane(term, lane);
+        for (int lane = 0; lane < detail::lanes<R> && pair < part.end; ++lane, ++pair) {
+          for (; pair == first_of_[trajectory + 1]; ++trajectory) {
+            result[trajectory] = sum * share_;
+            sum = zero;
+          }
+          for (Eigen::Index k = 0; k < sum.size(); ++k) {
+            sum.data()[k] += detail::in_lane(terms[static_cast<std::size_t>(k)], lane);
+          }
         }
       }
-      const auto entries = static_cast<std::int64_t>(part.entries.size());
-      const std::size_t pairs = first_of_[part.end_trajectory] - first_of_[part.first_trajectory];
-      evaluations_ += watched.evaluations / entries * static_cast<std::int64_t>(pairs);
+      result[trajectory] = sum * share_;
+      const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
+      evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     for_each_trajectory(std::ssize(parts_), threads_, visit);
-    for (Sum& sum : result) sum *= 1.0 / static_cast<double>(first_of_.back());
     return result;
   }
 
@@ -89,6 +94,7 @@ class one_step {
   const S* system_;
   const metric<S::dimension>* metric_;
   double step_;
+  double share_;
   int threads_;
   std::vector<std::size_t> first_of_;
   std::vector<pairs_in_lanes<R, S::dimension>> parts_;

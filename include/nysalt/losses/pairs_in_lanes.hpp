@@ -55,8 +55,8 @@ struct scalar_of_passes<F, S> {
 template <Family F, System S>
 using scalar_of_passes = typename detail::scalar_of_passes<F, S>::type;
 
-/// The pairs of some consecutive trajectories, R::lanes of them in each entry; the last pair fills what is
-/// left of the last entry.
+/// The pairs begin .. end - 1 of some consecutive trajectories, as many in each entry as R has lanes; the
+/// last pair fills what is left of the last entry.
 template <Scalar R, int N>
 struct pairs_in_lanes {
   struct entry {
@@ -64,7 +64,8 @@ struct pairs_in_lanes {
     phase_point<R, N> finish;
   };
   std::size_t first_trajectory;
-  std::size_t end_trajectory;
+  std::size_t begin;
+  std::size_t end;
   std::vector<entry> entries;
 };
 
@@ -79,13 +80,15 @@ void put_in_lane(phase_point<R, N>& to, int lane, const phase_point<double, N>& 
 }
 
 template <Scalar R, int N>
-pairs_in_lanes<R, N> gather(const flow_map_data<N>& data, std::size_t first, std::size_t end) {
+pairs_in_lanes<R, N> gather(const flow_map_data<N>& data, std::size_t first_trajectory,
+                            std::size_t end_trajectory) {
   constexpr auto width = static_cast<std::size_t>(lanes<R>);
-  const std::size_t begin = data.first_of[first];
-  const std::size_t pairs = data.first_of[end] - begin;
+  const std::size_t begin = data.first_of[first_trajectory];
+  const std::size_t end = data.first_of[end_trajectory];
+  const std::size_t pairs = end - begin;
   const Eigen::Index n = data.start.front().size();
   const phase_point<R, N> blank{vector<R, N>(n), vector<R, N>(n)};
-  pairs_in_lanes<R, N> result{first, end, {}};
+  pairs_in_lanes<R, N> result{first_trajectory, begin, end, {}};
   result.entries.resize((pairs + width - 1) / width, {blank, blank});
   for (std::size_t i = 0; i < result.entries.size() * width; ++i) {
     const std::size_t pair = begin + std::min(i, pairs - 1);
