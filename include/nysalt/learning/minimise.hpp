@@ -19,7 +19,7 @@ namespace nysalt {
 struct minimum {
   Eigen::VectorXd theta;
   double loss = 0.0;
-  Eigen::MatrixXd hessian;
+  Eigen::MatrixXd hessian{};
   int iterations = 0;
   bool converged = false;
 };
