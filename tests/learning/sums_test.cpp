@@ -105,7 +105,9 @@ BOOST_AUTO_TEST_CASE(weights_are_summed_over_trajectories_in_a_tree) {
     }
   }
   const auto weights_of = [](const Eigen::VectorXd& sigma) {
-    return Eigen::VectorXd(sigma.cwiseSqrt().cwiseInverse());
+    Eigen::VectorXd weights = sigma;
+    for (double& x : weights) x = 1.0 / std::sqrt(x);  // Eigen's own roots round differently
+    return weights;
   };
   const vector<double, 6> ones = vector<double, 6>::Ones();
   const phase_point<double, 6> zero{vector<double, 6>::Zero(), vector<double, 6>::Zero()};
