@@ -30,7 +30,6 @@ flow_map_data<S::dimension> uneven_data(const S& system) {
   while (data.first_of.back() + 32 < 1900) {
     data.first_of.push_back(data.first_of.back() + data.first_of.size() % 31);
   }
-  data.first_of.push_back(3700);
   data.first_of.push_back(3783);
   data.first_of.push_back(3783);
   return data;

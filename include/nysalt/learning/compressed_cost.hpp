@@ -18,10 +18,12 @@ namespace nysalt {
 /// With J^T J = V D V^T the residuals r' = (D^{-1/2} V^T J^T r, the root of what r^T r has more) and their
 /// Jacobian J' = (D^{1/2} V^T, 0) have the loss, gradient and normal matrix of r and J, hence the same steps.
 /// Directions with an eigenvalue below 1e-13 of the largest, where it is rounding, are left out: no residual
-/// changes along them.
+/// changes along them. Where residuals are small, twice J^T J is the Hessian, so that such a direction is one
+/// of the flat ones that `curvature` finds, with a coarser sieve.
 ///
-/// Normal equations square the condition number, which decides how well a step is known and not where it
-/// ends: that is where J^T r, summed from the residuals themselves, vanishes.
+/// Normal equations square the condition number, which decides how well a step is known and not where the
+/// search ends: that is where J^T r, summed from the residuals themselves, vanishes. Ceres' own damping,
+/// the same for blocks, stops steps along directions that are left out here.
 class compressed_cost final : public ceres::CostFunction {
  public:
   /// Points where `defined` is false, or anything is not finite, are rejected.

@@ -55,6 +55,7 @@ class one_step {
     const auto coefficients = F::coefficients(theta);
     const auto visit = [&](std::int64_t index) {
       const auto& part = parts_[static_cast<std::size_t>(index)];
+      if (part.entries.empty()) return;  // trajectories without a pair
       const counted<S> watched(*system_);
       const stepper<counted<S>, typename F::word, C> one(watched, coefficients, step_);
       flow_state<C, S::dimension> x{make_vector<C>(watched), make_vector<C>(watched),
