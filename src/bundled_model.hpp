@@ -21,9 +21,8 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/learner.hpp"
-#include "nysalt/lockstep.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
@@ -148,28 +147,11 @@ class bundled_model final : public bundled_system {
            const std::vector<std::string>& observables, std::int64_t sample_every,
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
-    const auto stepper = make_stepper(system_, method, plan.step);
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    const bool singly = plan.count < lanes / 4 || size(system_) > 1000;
-    const int width = singly ? 1 : lanes;
-    // In memory at a time: a million numbers, or a few blocks of long trajectories.
-    const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
-    const std::int64_t blocks = std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / width);
-    for (std::int64_t first = 0; first < plan.count; first += blocks * width) {
-      std::vector<record> records(static_cast<std::size_t>(std::min(blocks * width, plan.count - first)));
-      for_each_block(std::ssize(records), width, plan.threads, [&](std::int64_t i, int count) {
-        const auto of_block =
-            std::span(records).subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(count));
-        if (singly) {
-          follow<double>(stepper, plan, observables, sample_every, first + i, of_block);
-        } else {
-          follow<T>(stepper, plan, observables, sample_every, first + i, of_block);
-        }
-      });
-      for (std::int64_t i = 0; i < std::ssize(records); ++i) {
-        take(first + i, records[static_cast<std::size_t>(i)]);
-      }
-      if (progress) progress(std::min(first + std::ssize(records), plan.count));
+    if (plan.count < lanes / 4 || size(system_) > 1000) {
+      run_over<double>(method, plan, observables, sample_every, take, progress);
+    } else {
+      run_over<T>(method, plan, observables, sample_every, take, progress);
     }
   }
 
@@ -180,8 +162,8 @@ class bundled_model final : public bundled_system {
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
     std::vector<lanes_state> starts;
     for (std::int64_t m = 0; m < plan.count; m += lanes) {
-      starts.push_back(
-          starts_of<T>(plan, m, static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m))));
+      const auto count = static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m));
+      starts.push_back(sound_starts<T>(system_, law_, plan.seed, m, count));
     }
     const auto stepper = make_stepper(system_, method, plan.step);
     return [stepper, starts = std::move(starts), steps = plan.steps] {
@@ -196,39 +178,40 @@ class bundled_model final : public bundled_system {
  private:
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
 
-  /// Starts of consecutive trajectories, one in each lane of P.
   template <class P>
-  phase_point<P, S::dimension> starts_of(const trajectories_plan& plan, std::int64_t first, int count) const {
-    return gather<P, S::dimension>(
-        count, [&](int k) { return law_(plan.seed, static_cast<std::uint64_t>(first + k)); });
-  }
-
-  /// The records of a block of trajectories.
-  template <class P, class Stepper>
-  void follow(const Stepper& stepper, const trajectories_plan& plan,
-              const std::vector<std::string>& observables, std::int64_t sample_every, std::int64_t first,
-              std::span<record> records) const {
+  void run_over(const tabulated& method, const trajectories_plan& plan,
+                const std::vector<std::string>& observables, std::int64_t sample_every,
+                const std::function<void(std::int64_t, const record&)>& take, const counter& progress) const {
     using states = phase_point<P, S::dimension>;
     std::vector<std::function<P(const states&)>> watched;
     for (const auto& name : observables) watched.push_back(observable<P>(system_, name));
     const auto read = [&](const states& x, std::span<P> values) {
       for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
     };
-    const auto keep = [&](std::int64_t, std::span<const P> values, const auto& live) {
-      for (std::size_t k = 0; k < records.size(); ++k) {
-        if (!lane(live, static_cast<int>(k))) continue;
-        for (const P& value : values) records[k].values.push_back(lane(value, static_cast<int>(k)));
+    const auto stepper = make_stepper(system_, method, plan.step);
+    // In memory at a time: a million numbers, or a few blocks of long trajectories.
+    const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
+    const std::int64_t at_a_time =
+        std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / lanes_in<P>) * lanes_in<P>;
+    for (std::int64_t first = 0; first < plan.count; first += at_a_time) {
+      const std::int64_t count = std::min(at_a_time, plan.count - first);
+      std::vector<record> records(static_cast<std::size_t>(count));
+      const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
+        auto& its = records[static_cast<std::size_t>(m - first)].values;
+        its.insert(its.end(), values.begin(), values.end());
+      };
+      const ensemble_options options{.trajectories = count,
+                                     .steps = plan.steps,
+                                     .every = sample_every,
+                                     .seed = plan.seed,
+                                     .threads = plan.threads,
+                                     .first = first};
+      const auto diverged_at = integrate_ensemble<P>(stepper, law_, options, watched.size(), read, keep);
+      for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].diverged_at = diverged_at[i];
+        take(first + static_cast<std::int64_t>(i), records[i]);
       }
-    };
-    const int count = static_cast<int>(records.size());
-    const auto start = starts_of<P>(plan, first, count);
-    std::vector<P> at_start(watched.size());
-    read(start, at_start);
-    keep(0, at_start, first_lanes<P>(count));
-    lockstep<Stepper, P> all(stepper, start, count);
-    all.go_on(plan.steps, sample_every, watched.size(), read, keep);
-    for (std::size_t k = 0; k < records.size(); ++k) {
-      records[k].diverged_at = all.diverged_at(static_cast<int>(k));
+      if (progress) progress(first + count);
     }
   }
 

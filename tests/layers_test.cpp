@@ -24,7 +24,7 @@ const std::vector<std::vector<std::string>> layers{
     {"family", "families/", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "ensemble", "ensembles/", "ensemble_loop",
-     "flow_map_data"},
+     "integrate_ensemble", "flow_map_data"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},
     {"report/"},

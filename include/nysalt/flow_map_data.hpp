@@ -118,17 +118,6 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
   return static_cast<std::int64_t>(steps);
 }
 
-/// Trajectory m from its start on. Throws std::invalid_argument if that is not finite or does not fit.
-template <System S, Ensemble<S> E>
-phase_point<double, S::dimension> start_of_data(const S& system, const E& ensemble, std::uint64_t seed,
-                                                std::int64_t m) {
-  auto x = ensemble(seed, static_cast<std::uint64_t>(m));
-  if (x.q.size() == size(system) && x.p.size() == size(system) && is_finite(x)) return x;
-  throw std::invalid_argument(
-      fmt::format("flow_map_data: start {} of {} is not finite or has not the dimension of {}", m,
-                  ensemble.description(), describe(system)));
-}
-
 /// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane; returns the
 /// force evaluations that they took.
 template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
@@ -144,8 +133,7 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
       for (int k = 0; k < count; ++k) energies[place(k)].include(lane(its, k));
     }
   };
-  auto x = gather<T, S::dimension>(
-      count, [&](int k) { return start_of_data(system, ensemble, options.seed, first + k); });
+  auto x = sound_starts<T>(system, ensemble, options.seed, first, count);
   include_energies(x);
   std::array<std::optional<std::size_t>, lanes_of<S>> lost;  // at which step a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];

@@ -24,6 +24,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/integrate.hpp"
+#include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"

@@ -12,6 +12,7 @@
 //   double inverse_mass(Eigen::Index i) const;                      K = sum p_i^2 / (2 m_i), else m_i = 1
 //   template <class T> T kinetic_energy(const vector<T, N>& p) const;                 any other K(p)
 //   template <class T> void velocity(const vector<T, N>& p, vector<T, N>& v) const;   v = grad K
+//   static constexpr int lanes = 1;                                 most trajectories side by side
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   std::string description() const;
 #pragma once

@@ -65,17 +65,6 @@ inline void require_room(const trajectory_options& options, std::size_t methods,
 
 namespace detail {
 
-/// The start of trajectory m. Throws std::invalid_argument if it is not finite or does not fit.
-template <System S, Ensemble<S> E>
-phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble, std::uint64_t seed,
-                                              std::int64_t m) {
-  auto start = ensemble(seed, static_cast<std::uint64_t>(m));
-  if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
-  throw std::invalid_argument(
-      fmt::format("trajectory_errors: start {} of {} is not finite or has not the dimension of {}", m,
-                  ensemble.description(), describe(system)));
-}
-
 /// Methods of one type beside the reference, from the same starts; one trajectory in each lane.
 template <class Stepper, SeparableSystem S, ReferenceFlow<S> R>
 class compared_block {
@@ -185,8 +174,7 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
   if (measure.needs_reference) checks.resize(std::min<std::size_t>(trajectories, most_checks));
 
   const auto follow = [&](std::int64_t first, int n) {
-    const auto start = gather<T, S::dimension>(
-        n, [&](int k) { return detail::sound_start(system, ensemble, options.seed, first + k); });
+    const auto start = sound_starts<T>(system, ensemble, options.seed, first, n);
     detail::compared_block<stepper_type, S, R> block(system, reference, steppers, measure, start, n,
                                                      first < std::ssize(checks));
     block.run(options.step, options.steps);

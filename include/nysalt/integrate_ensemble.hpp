@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+// Many trajectories from start to finish, in lanes and on threads, each watched over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "nysalt/ensemble.hpp"
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/lockstep.hpp"
+#include "nysalt/method.hpp"
+
+namespace nysalt {
+
+struct ensemble_options {
+  std::int64_t trajectories = 100;
+  std::int64_t steps = 1000;                             // of each
+  std::int64_t every = 1;                                // steps between looks
+  std::uint64_t seed = 1;                                // of the starts
+  int threads = 1;                                       // changes no bit
+  std::int64_t first = 0;                                // number of the first trajectory
+  std::function<void(std::int64_t done)> progress = {};  // after each block; never two calls at once
+};
+
+/// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T
+/// has lanes. At steps n = 0, every, 2 every, ... read(x, numbers) writes `width` numbers of the states over
+/// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
+/// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken.
+/// Neither lanes nor threads change a bit; whoever sums over m then takes tree_sum.
+///
+/// Returns where each trajectory diverged, if it did; divergence is looked for as in integrate(). Memory:
+/// none that grows with the steps. Throws std::invalid_argument if trajectories, steps, every or threads
+/// cannot be, or a start does not fit.
+template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class Take>
+std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepper, const E& ensemble,
+                                                            const ensemble_options& options,
+                                                            std::size_t width, const Read& read,
+                                                            const Take& take) {
+  if (options.trajectories < 1 || options.steps < 0 || options.every < 1) {
+    throw std::invalid_argument(
+        fmt::format("integrate_ensemble: {} trajectories of {} steps, observed every {}: cannot be",
+                    options.trajectories, options.steps, options.every));
+  }
+  std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
+  const auto follow = [&](std::int64_t block, int count) {
+    const std::int64_t first = options.first + block;
+    const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
+    std::vector<T> numbers(width);
+    std::vector<double> of_one(width);
+    const auto hand_over = [&](std::int64_t n, std::span<const T> all, const auto& live) {
+      for (int k = 0; k < count; ++k) {
+        if (!lane(live, k)) continue;
+        for (std::size_t i = 0; i < width; ++i) of_one[i] = lane(all[i], k);
+        take(first + k, n, std::span<const double>(of_one));
+      }
+    };
+    read(start, std::span<T>(numbers));
+    hand_over(0, numbers, first_lanes<T>(count));
+    lockstep<Stepper, T> all(stepper, start, count);
+    all.go_on(options.steps, options.every, width, read, hand_over);
+    for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(block + k)] = all.diverged_at(k);
+  };
+  for_each_block(options.trajectories, lanes_in<T>, options.threads, follow, options.progress);
+  return diverged_at;
+}
+
+/// The same with one observable: take(m, n, observable(x)). The observable is called for one trajectory after
+/// the other, or for all lanes at a time if it is marked by over_lanes.
+template <System S, Method M, Ensemble<S> E, class Observable, class Take>
+std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const M& method, double step,
+                                                            const E& ensemble,
+                                                            const ensemble_options& options,
+                                                            const Observable& observable, const Take& take) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  const auto read = [&](const phase_point<T, S::dimension>& x, std::span<T> number) {
+    number[0] = value_in_lanes<T>(observable, x);
+  };
+  const auto take_one = [&](std::int64_t m, std::int64_t n, std::span<const double> number) {
+    take(m, n, number[0]);
+  };
+  return integrate_ensemble<T>(make_stepper(system, method, step), ensemble, options, 1, read, take_one);
+}
+
+}  // namespace nysalt
