@@ -63,10 +63,10 @@ void fix_parameter(const std::string& text, learn_options<F>& options) {
 
 template <class S, Ensemble<S> E>
 class bundled_model final : public bundled_system {
-  static constexpr int lanes = lanes_of<S>;
-  using T = scalar_of_lanes<lanes>;
+  static constexpr int width = lanes_of<S>;
+  using T = scalar_of_lanes<width>;
   using lanes_state = phase_point<T, S::dimension>;
-  using measure_type = error_measure<S::dimension, lanes>;
+  using measure_type = error_measure<S::dimension, width>;
 
  public:
   bundled_model(S system, E law, model_facts facts)
@@ -78,6 +78,7 @@ class bundled_model final : public bundled_system {
   std::vector<std::string> observables() const override { return observable_names(system_); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string law() const override { return law_.description(); }
+  int lanes() const override { return width; }
 
   void require_learnable(const std::string& family, const learn_settings& how, double step) const override {
     fine_step_for(step, how.fine_step);
@@ -148,7 +149,7 @@ class bundled_model final : public bundled_system {
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    if (plan.count < lanes / 4 || size(system_) > 1000) {
+    if (plan.count < width / 4 || size(system_) > 1000) {
       run_over<double>(method, plan, observables, sample_every, take, progress);
     } else {
       run_over<T>(method, plan, observables, sample_every, take, progress);
@@ -161,8 +162,8 @@ class bundled_model final : public bundled_system {
 
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
     std::vector<lanes_state> starts;
-    for (std::int64_t m = 0; m < plan.count; m += lanes) {
-      const auto count = static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m));
+    for (std::int64_t m = 0; m < plan.count; m += width) {
+      const auto count = static_cast<int>(std::min<std::int64_t>(width, plan.count - m));
       starts.push_back(sound_starts<T>(system_, law_, plan.seed, m, count));
     }
     const auto stepper = make_stepper(system_, method, plan.step);

@@ -63,6 +63,9 @@ class bundled_system {
   virtual std::string default_observable() const = 0;
   virtual std::string law() const = 0;
 
+  /// Trajectories that are stepped at a time.
+  virtual int lanes() const = 0;
+
   /// Throws refusal for what cannot be learned, before any work is done.
   virtual void require_learnable(const std::string& family, const learn_settings& how, double step) const = 0;
   virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;

@@ -159,8 +159,9 @@ void comparison::measure_seconds() {
     trajectories_plan plan = plan_at(its.step);
     const double time = static_cast<double>(plan.steps) * its.step;
     const double wanted = std::max(1.0, std::floor(1e5 / (its.evaluations_per_time * time)));
-    plan.count = static_cast<std::int64_t>(
-        std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories))));
+    const double count = std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories)));
+    const std::int64_t lanes = system_->lanes();  // all of them full, as in a large ensemble
+    plan.count = (static_cast<std::int64_t>(count) + lanes - 1) / lanes * lanes;
     const auto once = system_->timed_run(*its.coefficients, plan);
     const double seconds = interleaved_seconds({once}, 1).front();
     const double repeats = std::max(1.0, std::ceil(job / std::max(seconds, 1e-9)));

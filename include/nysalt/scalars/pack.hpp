@@ -4,307 +4,185 @@
 
 #include <Eigen/Core>
 
-#if defined __SSE2__
-#include <immintrin.h>
-#endif
-
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <cstdint>
-#include <type_traits>
 
 #include "nysalt/scalar.hpp"
+#include "nysalt/scalars/lane_mask.hpp"
 
 namespace nysalt {
-
-namespace detail {
-
-/// Doubles in one register of the target that is compiled for.
-#if defined __AVX512F__
-inline constexpr int native_lanes = 8;
-#elif defined __AVX__
-inline constexpr int native_lanes = 4;
-#else
-inline constexpr int native_lanes = 2;  // SSE2, NEON
-#endif
-
-/// The widest register that W lanes fill without a rest.
-constexpr int lanes_of_part(int w) {
-  int lanes = native_lanes;
-  while (w % lanes != 0) lanes /= 2;
-  return lanes;
-}
-
-/// The compilers' own vectors: + - * / and comparisons are theirs.
-template <int N>
-struct native_vector {
-  typedef double type __attribute__((vector_size(8 * N)));
-  typedef std::int64_t mask __attribute__((vector_size(8 * N)));
-};
-template <>
-struct native_vector<1> {
-  using type = double;
-  using mask = std::int64_t;
-};
-
-/// The square root of each lane. The compilers have no word for it, and a loop over std::sqrt would set
-/// errno.
-inline double native_sqrt(double x) { return std::sqrt(x); }
-#if defined __SSE2__
-inline native_vector<2>::type native_sqrt(native_vector<2>::type x) { return _mm_sqrt_pd(x); }
-#if defined __AVX__
-inline native_vector<4>::type native_sqrt(native_vector<4>::type x) { return _mm256_sqrt_pd(x); }
-#endif
-#if defined __AVX512F__
-inline native_vector<8>::type native_sqrt(native_vector<8>::type x) {
-  return _mm512_maskz_sqrt_pd(0xff, x);  // g++ 12 warns of the plain one
-}
-#endif
-#else
-inline native_vector<2>::type native_sqrt(native_vector<2>::type x) {
-  return native_vector<2>::type{std::sqrt(x[0]), std::sqrt(x[1])};
-}
-#endif
-
-}  // namespace detail
-
-/// Lanes that keep the processor busy: two registers for each number hide each other's latency, and a state
-/// of small systems still fits into the first cache.
-inline constexpr int default_lanes = 2 * detail::native_lanes;
-
-/// Which lanes: what comparing packs gives. It is no bool, as lanes may differ.
-template <int W>
-class lane_mask {
- public:
-  static constexpr int lanes = W;
-  static constexpr int of_part = detail::lanes_of_part(W);
-  using part = typename detail::native_vector<of_part>::mask;
-
-  lane_mask() = default;
-  explicit lane_mask(bool all) {
-    for (int lane = 0; lane < W; ++lane) set(lane, all);
-  }
-
-  bool operator[](int lane) const {
-    if constexpr (of_part == 1) {
-      return parts[static_cast<std::size_t>(lane)] != 0;
-    } else {
-      return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] != 0;
-    }
-  }
-  void set(int lane, bool value) {
-    if constexpr (of_part == 1) {
-      parts[static_cast<std::size_t>(lane)] = value ? -1 : 0;
-    } else {
-      parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] = value ? -1 : 0;
-    }
-  }
-
-  friend lane_mask operator&(const lane_mask& a, const lane_mask& b) {
-    lane_mask result;
-    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] & b.parts[i];
-    return result;
-  }
-  friend lane_mask operator|(const lane_mask& a, const lane_mask& b) {
-    lane_mask result;
-    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] | b.parts[i];
-    return result;
-  }
-  friend lane_mask operator!(const lane_mask& a) {
-    lane_mask result;
-    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = !a.parts[i];
-    return result;
-  }
-
-  /// `if (x < y)` of a system means one branch for all lanes, which there is not.
-  template <class T = bool>
-  operator bool() const {
-    static_assert(!std::same_as<T, bool>,
-                  "lanes may differ in a comparison, so it cannot choose a branch: write "
-                  "nysalt::select(condition, a, b), or let the system say `static constexpr int lanes = 1;`");
-    return false;
-  }
-
-  std::array<part, W / of_part> parts;
-};
 
 /// W lanes of T = double. Every operation acts lane by lane and rounds as it does for double, so that lane k
 /// of a step over packs has the bits of a step over double. Elementary functions but sqrt are libm's, one
 /// lane after the other. A double next to a pack stands for all its lanes.
 template <class T, int W = default_lanes>
-  requires std::same_as<T, double> &&(1 <= W && W <= 16) class pack {
-   public:
-    static constexpr int lanes = W;
-    static constexpr int of_part = detail::lanes_of_part(W);
-    using value_type = T;
-    using part = typename detail::native_vector<of_part>::type;
-    using mask = lane_mask<W>;
+  requires(std::same_as<T, double> && 1 <= W && W <= 16)
+class pack {
+ public:
+  static constexpr int lanes = W;
+  static constexpr int of_part = detail::lanes_of_part(W);
+  using value_type = T;
+  using part = typename detail::native_vector<of_part>::type;
+  using mask = lane_mask<W>;
 
-    pack() = default;
-    pack(double all) {
-      for (part& mine : parts) mine = all - part{};  // - keeps the sign of zero
-    }
+  pack() = default;
+  pack(double all) {
+    for (part& mine : parts) mine = all - part{};  // - keeps the sign of zero
+  }
 
-    double operator[](int lane) const {
-      if constexpr (of_part == 1) {
-        return parts[static_cast<std::size_t>(lane)];
-      } else {
-        return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part];
-      }
+  double operator[](int lane) const {
+    if constexpr (of_part == 1) {
+      return parts[static_cast<std::size_t>(lane)];
+    } else {
+      return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part];
     }
-    void set(int lane, double value) {
-      if constexpr (of_part == 1) {
-        parts[static_cast<std::size_t>(lane)] = value;
-      } else {
-        parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] = value;
-      }
+  }
+  void set(int lane, double value) {
+    if constexpr (of_part == 1) {
+      parts[static_cast<std::size_t>(lane)] = value;
+    } else {
+      parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] = value;
     }
+  }
 
-    pack& operator+=(const pack& b) { return *this = *this + b; }
-    pack& operator-=(const pack& b) { return *this = *this - b; }
-    pack& operator*=(const pack& b) { return *this = *this * b; }
-    pack& operator/=(const pack& b) { return *this = *this / b; }
+  pack& operator+=(const pack& b) { return *this = *this + b; }
+  pack& operator-=(const pack& b) { return *this = *this - b; }
+  pack& operator*=(const pack& b) { return *this = *this * b; }
+  pack& operator/=(const pack& b) { return *this = *this / b; }
 
-    friend pack operator+(const pack& a, const pack& b) {
-      return each(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x + y; });
-    }
-    friend pack operator-(const pack& a, const pack& b) {
-      return each(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x - y; });
-    }
-    friend pack operator*(const pack& a, const pack& b) {
-      return each(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x * y; });
-    }
-    friend pack operator/(const pack& a, const pack& b) {
-      return each(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x / y; });
-    }
-    friend pack operator-(const pack& a) {
-      return each(
-          a, a, [](part x, part) __attribute__((always_inline)) { return -x; });
-    }
+  friend pack operator+(const pack& a, const pack& b) {
+    return each(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x + y; });
+  }
+  friend pack operator-(const pack& a, const pack& b) {
+    return each(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x - y; });
+  }
+  friend pack operator*(const pack& a, const pack& b) {
+    return each(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x * y; });
+  }
+  friend pack operator/(const pack& a, const pack& b) {
+    return each(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x / y; });
+  }
+  friend pack operator-(const pack& a) {
+    return each(
+        a, a, [](part x, part) __attribute__((always_inline)) { return -x; });
+  }
 
-    friend mask operator<(const pack& a, const pack& b) {
-      return compare(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x < y; });
-    }
-    friend mask operator<=(const pack& a, const pack& b) {
-      return compare(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x <= y; });
-    }
-    friend mask operator>(const pack& a, const pack& b) { return b < a; }
-    friend mask operator>=(const pack& a, const pack& b) { return b <= a; }
-    friend mask operator==(const pack& a, const pack& b) {
-      return compare(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x == y; });
-    }
-    friend mask operator!=(const pack& a, const pack& b) {
-      return compare(
-          a, b, [](part x, part y) __attribute__((always_inline)) { return x != y; });
-    }
+  friend mask operator<(const pack& a, const pack& b) {
+    return compare(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x < y; });
+  }
+  friend mask operator<=(const pack& a, const pack& b) {
+    return compare(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x <= y; });
+  }
+  friend mask operator>(const pack& a, const pack& b) { return b < a; }
+  friend mask operator>=(const pack& a, const pack& b) { return b <= a; }
+  friend mask operator==(const pack& a, const pack& b) {
+    return compare(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x == y; });
+  }
+  friend mask operator!=(const pack& a, const pack& b) {
+    return compare(
+        a, b, [](part x, part y) __attribute__((always_inline)) { return x != y; });
+  }
 
-    friend pack select(const mask& which, const pack& a, const pack& b) {
-      pack result;
-      for (std::size_t i = 0; i < a.parts.size(); ++i) {
-        result.parts[i] = which.parts[i] ? a.parts[i] : b.parts[i];
-      }
-      return result;
+  friend pack select(const mask& which, const pack& a, const pack& b) {
+    pack result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) {
+      result.parts[i] = which.parts[i] ? a.parts[i] : b.parts[i];
     }
-
-    std::array<part, W / of_part> parts;
-
-   private:
-    [[gnu::always_inline]] static pack each(const pack& a, const pack& b, auto f) {
-      pack result;
-      for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = f(a.parts[i], b.parts[i]);
-      return result;
-    }
-    [[gnu::always_inline]] static mask compare(const pack& a, const pack& b, auto f) {
-      mask result;
-      for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = f(a.parts[i], b.parts[i]);
-      return result;
-    }
-  };
-
-  template <class T>
-  inline constexpr bool is_pack = false;
-  template <class T, int W>
-  inline constexpr bool is_pack<pack<T, W>> = true;
-
-  template <int W>
-  bool any(const lane_mask<W>& which) {
-    bool result = false;
-    for (int lane = 0; lane < W; ++lane) result = result || which[lane];
     return result;
   }
 
-  /// Rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
-  template <int W>
-  pack<double, W> sqrt(const pack<double, W>& a) {
-    pack<double, W> result;
-    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = detail::native_sqrt(a.parts[i]);
+  std::array<part, W / of_part> parts;
+
+ private:
+  [[gnu::always_inline]] static pack each(const pack& a, const pack& b, auto f) {
+    pack result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = f(a.parts[i], b.parts[i]);
     return result;
   }
-  template <int W>
-  pack<double, W> abs(const pack<double, W>& a) {
-    return select(a < 0.0, -a, a + 0.0);  // + 0.0: that of -0 is 0
-  }
-
-  namespace detail {
-  /// f of each lane: the bits of f over double.
-  template <int W>
-  [[gnu::always_inline]] inline pack<double, W> by_lane(const pack<double, W>& a, auto f) {
-    pack<double, W> result;
-    for (int lane = 0; lane < W; ++lane) result.set(lane, f(a[lane]));
+  [[gnu::always_inline]] static mask compare(const pack& a, const pack& b, auto f) {
+    mask result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = f(a.parts[i], b.parts[i]);
     return result;
   }
-  }  // namespace detail
+};
 
-  template <int W>
-  pack<double, W> exp(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::exp(x); });
-  }
-  template <int W>
-  pack<double, W> log(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::log(x); });
-  }
-  template <int W>
-  pack<double, W> sin(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::sin(x); });
-  }
-  template <int W>
-  pack<double, W> cos(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::cos(x); });
-  }
-  template <int W>
-  pack<double, W> tan(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::tan(x); });
-  }
-  template <int W>
-  pack<double, W> atan(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::atan(x); });
-  }
-  template <int W>
-  pack<double, W> sinh(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::sinh(x); });
-  }
-  template <int W>
-  pack<double, W> cosh(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::cosh(x); });
-  }
-  template <int W>
-  pack<double, W> tanh(const pack<double, W>& a) {
-    return detail::by_lane(a, [](double x) { return std::tanh(x); });
-  }
-  /// The exponent is a constant.
-  template <int W>
-  pack<double, W> pow(const pack<double, W>& a, double exponent) {
-    return detail::by_lane(a, [&](double x) { return std::pow(x, exponent); });
-  }
+template <class T>
+inline constexpr bool is_pack = false;
+template <class T, int W>
+inline constexpr bool is_pack<pack<T, W>> = true;
+
+/// Rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
+template <int W>
+pack<double, W> sqrt(const pack<double, W>& a) {
+  pack<double, W> result;
+  for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = detail::native_sqrt(a.parts[i]);
+  return result;
+}
+template <int W>
+pack<double, W> abs(const pack<double, W>& a) {
+  return select(a < 0.0, -a, a + 0.0);  // + 0.0: that of -0 is 0
+}
+
+namespace detail {
+/// f of each lane: the bits of f over double.
+template <int W>
+[[gnu::always_inline]] inline pack<double, W> by_lane(const pack<double, W>& a, auto f) {
+  pack<double, W> result;
+  for (int lane = 0; lane < W; ++lane) result.set(lane, f(a[lane]));
+  return result;
+}
+}  // namespace detail
+
+template <int W>
+pack<double, W> exp(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::exp(x); });
+}
+template <int W>
+pack<double, W> log(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::log(x); });
+}
+template <int W>
+pack<double, W> sin(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::sin(x); });
+}
+template <int W>
+pack<double, W> cos(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::cos(x); });
+}
+template <int W>
+pack<double, W> tan(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::tan(x); });
+}
+template <int W>
+pack<double, W> atan(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::atan(x); });
+}
+template <int W>
+pack<double, W> sinh(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::sinh(x); });
+}
+template <int W>
+pack<double, W> cosh(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::cosh(x); });
+}
+template <int W>
+pack<double, W> tanh(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::tanh(x); });
+}
+/// The exponent is a constant.
+template <int W>
+pack<double, W> pow(const pack<double, W>& a, double exponent) {
+  return detail::by_lane(a, [&](double x) { return std::pow(x, exponent); });
+}
 
 }  // namespace nysalt
 
