@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     race_ensemble();
     race_single_trajectory();
     race_long_chain();
+    race_growth();
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "nysalt_races: %s\n", problem.what());
     return 1;

@@ -9,5 +9,6 @@ namespace nysalt::bench {
 void race_ensemble();
 void race_single_trajectory();
 void race_long_chain();
+void race_growth();
 
 }  // namespace nysalt::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What our two-stage step and our Verlet step on the FPU chain of three pairs are compared with.
+// The two-stage step and the Verlet step on the FPU chain of three pairs: ours, and what it is compared with.
 #pragma once
 
 #include <array>
@@ -24,6 +24,14 @@ struct two_stage {
   double a1, b1, a2, b2, a3;
   double k;
 };
+
+/// Our stepper, its word a type, and its word data.
+template <contraction>
+NYSALT_BENCH_PEER void ours(std::span<chain_state<lanes>>, double omega, std::array<double, 2> theta,
+                            double h, std::int64_t steps);
+template <contraction>
+NYSALT_BENCH_PEER void ours_as_data(std::span<chain_state<lanes>>, double omega, std::array<double, 2> theta,
+                                    double h, std::int64_t steps);
 
 // Boost.Odeint, its own symplectic Nystrom stepper with our coefficients: one do_step a step. Its stages are
 // A B pairs, so the last drift brings a third evaluation with it, of coefficient 0.

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+// What google-benchmark wrote of the races of one build.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nysalt::bench {
+
+/// Nanoseconds for a unit of work, one for each round; the rounds of a race are the same for all its runners.
+using samples = std::vector<double>;
+
+struct measurements {
+  std::map<std::string, std::map<std::string, samples>> races;
+  nlohmann::json context;
+
+  bool has(const std::string& race, const std::string& runner) const {
+    const auto found = races.find(race);
+    return found != races.end() && found->second.contains(runner);
+  }
+  /// Throws std::runtime_error if nobody of that name ran.
+  const samples& of(const std::string& race, const std::string& runner) const {
+    if (has(race, runner)) return races.at(race).at(runner);
+    throw std::runtime_error(fmt::format("nobody called '{}' was measured in the race '{}'", runner, race));
+  }
+};
+
+/// The numbers in the middle: the mean of two if they are even in number.
+inline double median(samples x) {
+  std::sort(x.begin(), x.end());
+  return 0.5 * (x[(x.size() - 1) / 2] + x[x.size() / 2]);
+}
+
+/// One round is one repetition, with a counter "ns/RUNNER" for each. Throws std::runtime_error if that is not
+/// what is there.
+inline measurements read_measurements(const nlohmann::json& document) {
+  measurements result;
+  const auto refuse = [](const std::string& why) {
+    throw std::runtime_error("not what the races write: " + why);
+  };
+  if (!document.is_object() || !document.contains("benchmarks")) refuse("no benchmarks");
+  result.context = document.value("context", nlohmann::json::object());
+  for (const auto& round : document["benchmarks"]) {
+    if (round.value("run_type", "iteration") != "iteration") continue;  // means and medians of theirs
+    const std::string name = round.value("name", "");
+    auto& race = result.races[name.substr(0, name.find('/'))];
+    for (const auto& [key, value] : round.items()) {
+      if (key.rfind("ns/", 0) != 0) continue;
+      if (!value.is_number() || !(value.get<double>() > 0.0) || !std::isfinite(value.get<double>())) {
+        refuse(fmt::format("{} of {} is no time", key, name));
+      }
+      race[key.substr(3)].push_back(value.get<double>());
+    }
+  }
+  for (const auto& [race, runners] : result.races) {
+    if (runners.empty()) refuse(fmt::format("nobody ran in {}", race));
+    for (const auto& [runner, times] : runners) {
+      if (times.size() != runners.begin()->second.size()) {
+        refuse(fmt::format("{} missed a round of {}", runner, race));
+      }
+    }
+  }
+  return result;
+}
+
+/// Throws std::runtime_error if the file cannot be read or is something else.
+inline measurements read_measurements_of(const std::string& path) {
+  std::ifstream file(path);
+  const auto document = nlohmann::json::parse(file, nullptr, false);
+  if (document.is_discarded()) throw std::runtime_error(fmt::format("{} holds no JSON document", path));
+  return read_measurements(document);
+}
+
+}  // namespace nysalt::bench
