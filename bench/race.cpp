@@ -2,8 +2,8 @@
 #include "race.hpp"
 
 #include <benchmark/benchmark.h>
+#include <time.h>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,16 +13,16 @@ namespace nysalt::bench {
 
 namespace {
 
-double seconds_of(const runner& who, std::int64_t turns) {
-  const auto began = std::chrono::steady_clock::now();
-  for (std::int64_t n = 0; n < turns; ++n) who.turn();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+double now(clock_kind kind) {
+  timespec t{};
+  clock_gettime(kind == clock_kind::own_processor ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 class rounds {
  public:
-  rounds(std::vector<runner> runners, double turn_seconds)
-      : runners_(std::move(runners)), turn_seconds_(turn_seconds) {}
+  rounds(std::vector<runner> runners, const race_options& options)
+      : runners_(std::move(runners)), options_(options) {}
 
   void operator()(benchmark::State& state) {
     if (turns_.empty()) calibrate();
@@ -41,12 +41,19 @@ class rounds {
   }
 
  private:
+  double seconds_of(const runner& who, std::int64_t turns) const {
+    const double began = now(options_.clock);
+    for (std::int64_t n = 0; n < turns; ++n) who.turn();
+    return now(options_.clock) - began;
+  }
+
   /// The first turns, uncounted, also warm up caches and clocks.
   void calibrate() {
     for (const runner& who : runners_) {
       std::int64_t turns = 1;
-      for (double seconds = seconds_of(who, turns); seconds < turn_seconds_;) {
-        turns = 1 + static_cast<std::int64_t>(static_cast<double>(turns) * 1.2 * turn_seconds_ / seconds);
+      for (double seconds = seconds_of(who, turns); seconds < options_.turn_seconds;) {
+        turns =
+            1 + static_cast<std::int64_t>(static_cast<double>(turns) * 1.2 * options_.turn_seconds / seconds);
         seconds = seconds_of(who, turns);
       }
       turns_.push_back(turns);
@@ -54,14 +61,14 @@ class rounds {
   }
 
   std::vector<runner> runners_;
-  double turn_seconds_;
+  race_options options_;
   std::vector<std::int64_t> turns_;
 };
 
 }  // namespace
 
 void race(const std::string& name, std::vector<runner> runners, const race_options& options) {
-  const auto body = std::make_shared<rounds>(std::move(runners), options.turn_seconds);
+  const auto body = std::make_shared<rounds>(std::move(runners), options);
   auto* const made = benchmark::RegisterBenchmark(name.c_str(), [body](benchmark::State& s) { (*body)(s); });
   made->Iterations(1)->UseManualTime();
   if (options.repetitions > 0) made->Repetitions(options.repetitions);

@@ -15,9 +15,14 @@ struct runner {
   std::function<void()> turn;
 };
 
+/// One thread is timed by what it had of the processor, so that others on the machine take less part; several
+/// threads or processes by the clock on the wall.
+enum class clock_kind { own_processor, wall };
+
 struct race_options {
   double turn_seconds = 0.005;  // a turn is repeated for at least so long
   int repetitions = 0;          // 0: as the command line says
+  clock_kind clock = clock_kind::own_processor;
 };
 
 /// Makes a google-benchmark of the runners. One repetition is one round: each has its turn, and then each

@@ -4,14 +4,14 @@
 // other's.
 #pragma once
 
+#define NYSALT_BENCH_PEER __attribute__((visibility("default")))
+
 namespace nysalt::bench {
 
-enum class contraction { off, on };
+enum class NYSALT_BENCH_PEER contraction { off, on };
 
 #ifdef NYSALT_BENCH_CONTRACTION
 inline constexpr contraction this_build = contraction::NYSALT_BENCH_CONTRACTION;
 #endif
 
 }  // namespace nysalt::bench
-
-#define NYSALT_BENCH_PEER __attribute__((visibility("default")))
