@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -19,8 +20,10 @@
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/learner.hpp"
+#include "nysalt/lockstep.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
@@ -61,7 +64,10 @@ void fix_parameter(const std::string& text, learn_options<F>& options) {
 
 template <class S, Ensemble<S> E>
 class bundled_model final : public bundled_system {
-  using state = phase_point<double, S::dimension>;
+  static constexpr int lanes = lanes_of<S>;
+  using T = scalar_of_lanes<lanes>;
+  using lanes_state = phase_point<T, S::dimension>;
+  using measure_type = error_measure<S::dimension, lanes>;
 
  public:
   bundled_model(S system, E law, model_facts facts)
@@ -141,59 +147,79 @@ class bundled_model final : public bundled_system {
            const std::vector<std::string>& observables, std::int64_t sample_every,
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
-    std::vector<std::function<double(const state&)>> watched;
-    for (const auto& name : observables) watched.push_back(observable(system_, name));
     const auto stepper = make_stepper(system_, method, plan.step);
-    // In memory at a time: a million numbers, or a few long trajectories.
+    // In memory at a time: a million numbers, or a few blocks of long trajectories.
     const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
-    const std::int64_t block = std::max<std::int64_t>(4 * plan.threads, 1'000'000 / numbers);
-    for (std::int64_t first = 0; first < plan.count; first += block) {
-      std::vector<record> records(static_cast<std::size_t>(std::min(block, plan.count - first)));
-      for_each_trajectory(std::ssize(records), plan.threads, [&](std::int64_t i) {
-        record& its = records[static_cast<std::size_t>(i)];
-        const auto look = [&](std::int64_t, double, const state& x) {
-          for (const auto& value : watched) its.values.push_back(value(x));
-        };
-        const auto start = law_(plan.seed, static_cast<std::uint64_t>(first + i));
-        const auto end = integrate(stepper, start, plan.steps, look, sample_every);
-        its.diverged_at = end.diverged_at;
+    const std::int64_t blocks = std::max<std::int64_t>(4 * plan.threads, 1'000'000 / numbers / lanes);
+    for (std::int64_t first = 0; first < plan.count; first += blocks * lanes) {
+      std::vector<record> records(static_cast<std::size_t>(std::min(blocks * lanes, plan.count - first)));
+      for_each_block(std::ssize(records), lanes, plan.threads, [&](std::int64_t i, int count) {
+        const auto of_block = std::span(records).subspan(static_cast<std::size_t>(i));
+        follow(stepper, plan, observables, sample_every, first + i,
+               of_block.first(static_cast<std::size_t>(count)));
       });
       for (std::int64_t i = 0; i < std::ssize(records); ++i) {
         take(first + i, records[static_cast<std::size_t>(i)]);
       }
-      if (progress) progress(std::min(first + block, plan.count));
+      if (progress) progress(std::min(first + std::ssize(records), plan.count));
     }
   }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
-    const counted<S> watched(system_);
-    const auto stepper = make_stepper(watched, method, plan.step);
-    auto run = stepper.open(law_(plan.seed, 0));
-    const std::int64_t to_open = watched.evaluations;
-    stepper.advance(run, 1);  // may find no force at hand
-    const std::int64_t first = watched.evaluations - to_open;
-    stepper.advance(run, 1);
-    const std::int64_t each = watched.evaluations - first - to_open;
-    return to_open + first + (plan.steps - 1) * each;
+    return evaluations_of_run(system_, method, plan.step, plan.steps, law_(plan.seed, 0));
   }
 
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
-    std::vector<state> starts;
-    for (std::int64_t m = 0; m < plan.count; ++m) {
-      starts.push_back(law_(plan.seed, static_cast<std::uint64_t>(m)));
+    std::vector<lanes_state> starts;
+    for (std::int64_t m = 0; m < plan.count; m += lanes) {
+      starts.push_back(starts_of(plan, m, static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m))));
     }
     const auto stepper = make_stepper(system_, method, plan.step);
     return [stepper, starts = std::move(starts), steps = plan.steps] {
       for (const auto& start : starts) {
         auto run = stepper.open(start);
         stepper.advance(run, steps);
-        end_of_run = stepper.synchronous(run).q[0];
+        end_of_run = lane(stepper.synchronous(run).q[0], 0);
       }
     };
   }
 
  private:
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
+
+  /// One trajectory in each lane.
+  lanes_state starts_of(const trajectories_plan& plan, std::int64_t first, int count) const {
+    return gather<T, S::dimension>(
+        count, [&](int k) { return law_(plan.seed, static_cast<std::uint64_t>(first + k)); });
+  }
+
+  /// The records of a block of trajectories.
+  template <class Stepper>
+  void follow(const Stepper& stepper, const trajectories_plan& plan,
+              const std::vector<std::string>& observables, std::int64_t sample_every, std::int64_t first,
+              std::span<record> records) const {
+    std::vector<std::function<T(const lanes_state&)>> watched;
+    for (const auto& name : observables) watched.push_back(observable<T>(system_, name));
+    const auto read = [&](const lanes_state& x, std::span<T> values) {
+      for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
+    };
+    const auto keep = [&](std::int64_t, std::span<const T> values, const auto& live) {
+      for (std::size_t k = 0; k < records.size(); ++k) {
+        if (!lane(live, static_cast<int>(k))) continue;
+        for (const T& value : values) records[k].values.push_back(lane(value, static_cast<int>(k)));
+      }
+    };
+    const int count = static_cast<int>(records.size());
+    const auto start = starts_of(plan, first, count);
+    std::vector<T> at_start(watched.size());
+    read(start, at_start);
+    keep(0, at_start, first_lanes<T>(count));
+    lockstep<Stepper, T> all(stepper, start, count);
+    all.go_on(plan.steps, sample_every, watched.size(), read, keep);
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      records[k].diverged_at = all.diverged_at(static_cast<int>(k));
+    }
+  }
 
   static trajectory_options options_of(const trajectories_plan& plan, const counter& progress = {}) {
     return {.step = plan.step,
@@ -243,8 +269,8 @@ class bundled_model final : public bundled_system {
     return options;
   }
 
-  error_measure<S::dimension> measure_named(const std::string& metric, const std::string& name) const {
-    if (metric == "path") return path_measure(system_, observable(system_, name));
+  measure_type measure_named(const std::string& metric, const std::string& name) const {
+    if (metric == "path") return path_measure(system_, observable<T>(system_, name));
     if (metric == "state") return state_measure(system_);
     if (metric == "energy") return energy_measure(system_);
     if (metric != "exchange") {

@@ -40,14 +40,13 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
   return is_number && 1 <= index && index <= last ? index : 0;
 }
 
-/// Throws refusal, listing the names, if there is none of that name.
-template <System S>
-std::function<double(const phase_point<double, S::dimension>&)> observable(const S& system,
-                                                                           const std::string& name) {
-  using state = phase_point<double, S::dimension>;
-  if (name == "energy") return [&system](const state& x) { return energy<double>(system, x); };
+/// Of the trajectory in each lane of T. Throws refusal, listing the names, if there is none of that name.
+template <class T, System S>
+std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system, const std::string& name) {
+  using state = phase_point<T, S::dimension>;
+  if (name == "energy") return [&system](const state& x) { return energy<T>(system, x); };
   if (name == "kinetic_energy") {
-    return [&system](const state& x) { return kinetic_energy<double>(system, x.p); };
+    return [&system](const state& x) { return kinetic_energy<T>(system, x.p); };
   }
   if (name == "potential_energy") return [&system](const state& x) { return system.potential(x.q); };
   if (const auto i = index_after(name, "q", size(system))) return [i](const state& x) { return x.q[i - 1]; };

@@ -10,9 +10,7 @@ namespace nysalt {
 
 /// What a letter acts on: q and p, and f, which holds force(q) where the word knows it.
 template <Scalar T, int N>
-struct flow_state {
-  vector<T, N> q;
-  vector<T, N> p;
+struct flow_state : phase_point<T, N> {
   vector<T, N> f;
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -18,7 +19,6 @@
 #include <vector>
 
 #include "nysalt/counted.hpp"
-#include "nysalt/energy.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/reference.hpp"
@@ -118,10 +118,63 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
   return static_cast<std::int64_t>(steps);
 }
 
+/// Trajectory m from its start on. Throws std::invalid_argument if that is not finite or does not fit.
+template <System S, Ensemble<S> E>
+phase_point<double, S::dimension> start_of_data(const S& system, const E& ensemble, std::uint64_t seed,
+                                                std::int64_t m) {
+  auto x = ensemble(seed, static_cast<std::uint64_t>(m));
+  if (x.q.size() == size(system) && x.p.size() == size(system) && is_finite(x)) return x;
+  throw std::invalid_argument(
+      fmt::format("flow_map_data: start {} of {} is not finite or has not the dimension of {}", m,
+                  ensemble.description(), describe(system)));
+}
+
+/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane; returns the
+/// force evaluations that they took.
+template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
+std::int64_t follow_reference(const S& system, const E& ensemble, const R& reference,
+                              const data_options& options, std::int64_t first, int count,
+                              flow_map_data<S::dimension>& data, std::vector<energy_range>& energies) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  const counted<S> watched(system);
+  const auto place = [&](int k) { return static_cast<std::size_t>(first + k); };
+  const auto include_energies = [&](const auto& x) {
+    if constexpr (HasEnergy<S>) {
+      const T its = energy_in_lanes<T>(system, x);
+      for (int k = 0; k < count; ++k) energies[place(k)].include(lane(its, k));
+    }
+  };
+  auto x = gather<T, S::dimension>(
+      count, [&](int k) { return start_of_data(system, ensemble, options.seed, first + k); });
+  include_energies(x);
+  std::array<std::optional<std::size_t>, lanes_of<S>> lost;  // at which step a lane was not finite any more
+  const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
+  for (std::size_t n = 0; n < steps; ++n) {
+    for (int k = 0; k < count; ++k) data.start[data.first_of[place(k)] + n] = lane(x, k);
+    advance_lanes(watched, reference, x, options.step, count);
+    for (int k = 0; k < count; ++k) data.finish[data.first_of[place(k)] + n] = lane(x, k);
+    include_energies(x);
+    const auto sound = is_finite(x);
+    for (int k = 0; k < count; ++k) {
+      auto& its = lost[static_cast<std::size_t>(k)];
+      if (!its && !lane(sound, k)) its = n + 1;
+    }
+  }
+  for (int k = 0; k < count; ++k) {
+    if (!lost[static_cast<std::size_t>(k)]) continue;
+    throw std::runtime_error(
+        fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged",
+                    first + k, *lost[static_cast<std::size_t>(k)], reference.description()));
+  }
+  // Evaluated over packs, a force is one of each lane's trajectory.
+  return watched.evaluations * (AdvancesLanes<R, S, T> ? count : 1);
+}
+
 }  // namespace detail
 
-/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each. Threads share the
-/// ensemble and the reference; each trajectory has its own copy of the system.
+/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
+/// there are lanes. Threads share the ensemble and the reference; each block of trajectories has its own copy
+/// of the system. Neither lanes nor threads change a bit.
 ///
 /// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
 /// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
@@ -134,7 +187,6 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   const std::int64_t steps = detail::steps_of_each(options, size(system));
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
   const std::size_t check_every = total / checks + 1;
-  const R finer = reference.finer();
 
   flow_map_data<S::dimension> data;
   for (std::int64_t m = 0; m <= options.trajectories; ++m) {
@@ -142,41 +194,21 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   }
   data.start.resize(total);
   data.finish.resize(total);
-  data.finer.resize((total - 1) / check_every + 1);
   std::vector<energy_range> energies(data.trajectories());
   std::atomic<std::int64_t> evaluations = 0;
 
-  const auto follow = [&](std::int64_t m) {
-    const auto index = static_cast<std::size_t>(m);
-    const counted<S> watched(system);
-    auto x = ensemble(options.seed, static_cast<std::uint64_t>(m));
-    if (x.q.size() != size(system) || x.p.size() != size(system) || !is_finite(x)) {
-      throw std::invalid_argument(
-          fmt::format("flow_map_data: start {} of {} is not finite or has not the dimension of {}", m,
-                      ensemble.description(), describe(system)));
-    }
-    energy_range seen;
-    if constexpr (HasEnergy<S>) seen.include(energy<double>(system, x));
-    for (std::size_t pair = data.first_of[index]; pair < data.first_of[index + 1]; ++pair) {
-      if (pair % check_every == 0) {
-        auto& check = data.finer[pair / check_every];
-        check = {pair, x};
-        finer.advance(watched, check.second, options.step);
-      }
-      data.start[pair] = x;
-      reference.advance(watched, x, options.step);
-      if (!is_finite(x)) {
-        throw std::runtime_error(
-            fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged",
-                        m, pair - data.first_of[index] + 1, reference.description()));
-      }
-      data.finish[pair] = x;
-      if constexpr (HasEnergy<S>) seen.include(energy<double>(system, x));
-    }
-    energies[index] = seen;
-    evaluations += watched.evaluations;
+  const auto follow = [&](std::int64_t first, int count) {
+    evaluations +=
+        detail::follow_reference(system, ensemble, reference, options, first, count, data, energies);
   };
-  for_each_trajectory(options.trajectories, options.threads, follow, options.progress);
+  for_each_block(options.trajectories, lanes_of<S>, options.threads, follow, options.progress);
+
+  const counted<S> watched(system);
+  const R finer = reference.finer();
+  for (std::size_t pair = 0; pair < total; pair += check_every) {
+    data.finer.emplace_back(pair, data.start[pair]);
+    finer.advance(watched, data.finer.back().second, options.step);
+  }
 
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();
@@ -190,7 +222,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   data.ensemble = ensemble.description();
   data.reference = reference.description();
   data.seed = options.seed;
-  data.evaluations = evaluations;
+  data.evaluations = evaluations + watched.evaluations;
   data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return data;
 }

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/energy.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt {
@@ -19,28 +18,6 @@ struct outcome {
   phase_point<double, N> finish;
   std::int64_t steps = 0;
   std::optional<std::int64_t> diverged_at;
-};
-
-/// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, 1). Without an energy only the first.
-template <System S>
-class divergence {
- public:
-  divergence(const S& system, const phase_point<double, S::dimension>& start) : system_(&system) {
-    if constexpr (HasEnergy<S>) initial_ = energy<double>(system, start);
-  }
-
-  bool operator()(const phase_point<double, S::dimension>& x) const {
-    if (!is_finite(x)) return true;
-    if constexpr (HasEnergy<S>) {
-      const double change = std::abs(energy<double>(*system_, x) - initial_);
-      return !(change <= 1e3 * std::max(std::abs(initial_), 1.0));
-    }
-    return false;
-  }
-
- private:
-  const S* system_;
-  double initial_ = 0.0;
 };
 
 /// Takes `steps` steps of a stepper from start. The observer is called as observer(n, t, state) with
@@ -57,7 +34,7 @@ template <class Stepper, class Observer>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       const phase_point<double, Stepper::dimension>& start,
                                       std::int64_t steps, Observer&& observer, std::int64_t every) {
-  constexpr std::int64_t stretch = 64;  // an energy costs about a force: 2 % of a one-stage method
+  constexpr std::int64_t stretch = steps_between_checks;
   if (steps < 0 || every < 1) {
     throw std::invalid_argument(
         fmt::format("integrate: {} steps, observed every {}: cannot be", steps, every));

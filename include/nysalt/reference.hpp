@@ -7,7 +7,7 @@
 #include <concepts>
 #include <string>
 
-#include "nysalt/system.hpp"
+#include "nysalt/lanes.hpp"
 
 namespace nysalt {
 
@@ -21,6 +21,28 @@ concept ReferenceFlow = SeparableSystem<S> &&
   { reference.finer() } -> std::same_as<R>;
   { reference.description() } -> std::convertible_to<std::string>;
 };
+
+namespace detail {
+template <class R, class S, class T>
+concept AdvancesLanes = requires(const R& reference, const S& system, phase_point<T, S::dimension>& x) {
+  reference.advance(system, x, 1.0);
+};
+}  // namespace detail
+
+/// The same for the trajectories in the first `count` lanes of x: all at a time if the reference can.
+template <SeparableSystem S, ReferenceFlow<S> R, Scalar T>
+void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimension>& x, double t,
+                   int count) {
+  if constexpr (detail::AdvancesLanes<R, S, T>) {
+    reference.advance(system, x, t);
+  } else {
+    for (int k = 0; k < count; ++k) {
+      auto one = lane(x, k);
+      reference.advance(system, one, t);
+      set_lane(x, k, one);
+    }
+  }
+}
 
 /// Largest coordinate of the difference between a reference and its finer self after a time t from x.
 template <SeparableSystem S, ReferenceFlow<S> R>

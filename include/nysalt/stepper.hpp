@@ -2,6 +2,7 @@
 // The open run and the one loop through which every method steps.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -26,6 +27,7 @@ struct open_run {
 template <System S, Word W, Scalar C = double>
 class stepper {
  public:
+  using system_type = S;
   static constexpr int dimension = S::dimension;
 
   using coefficients_type = typename W::template coefficients<C>;
@@ -51,7 +53,7 @@ class stepper {
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x) const {
     require_size(x);
-    open_run<T, dimension> run{{x.q, x.p, make_vector<T>(*system_)}};
+    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);  // a checkpoint has no noise
     letters_.open(*system_, run.state);
@@ -71,6 +73,32 @@ class stepper {
     run.step += steps;
   }
 
+  /// The same, watched: calls look(n, x) with the synchronous state at each step n that `every` divides. The
+  /// run stays in a local copy, and looking does not change it.
+  template <Scalar T, class Look>
+  void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
+    if (steps < 0 || every < 1) {
+      throw std::invalid_argument(
+          fmt::format("a run cannot advance by {} steps, watched every {}", steps, every));
+    }
+    flow_state<T, dimension> x = std::move(run.state);
+    flow_state<T, dimension> y = x;
+    decltype(auto) letters = letters_.in_loop();
+    const S& system = *system_;
+    const std::int64_t end = run.step + steps;
+    std::int64_t step = run.step;
+    while (step < end) {
+      const std::int64_t next = std::min(end, (step / every + 1) * every);
+      for (; step < next; ++step) letters.loop(system, x);
+      if (step % every != 0) continue;
+      y = x;
+      letters_.close(system, y);
+      look(step, static_cast<const phase_point<T, dimension>&>(y));
+    }
+    run.state = std::move(x);
+    run.step = end;
+  }
+
   /// The state at the run's step, as a copy: looking does not change the run, and costs no evaluation.
   template <Scalar T>
   phase_point<T, dimension> synchronous(const open_run<T, dimension>& run) const {
@@ -88,7 +116,7 @@ class stepper {
   template <Scalar T>
   void step(phase_point<T, dimension>& x) const {
     require_size(x);
-    flow_state<T, dimension> state{std::move(x.q), std::move(x.p), make_vector<T>(*system_)};
+    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};
     step(state);
     x = {std::move(state.q), std::move(state.p)};
   }

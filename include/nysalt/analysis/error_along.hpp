@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// A measure along one trajectory: what it reads of the reference, and a method against that as it runs.
+// A measure along trajectories side by side: what it reads of the reference, and the errors added up.
 #pragma once
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,63 +15,82 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/integrate.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {
 
-/// What a measure reads along a reference at t_i = i step, i = 1..steps, `width` numbers a sample.
-/// Throws std::runtime_error if the reference, or a number, is not finite; `trajectory` names it then.
+/// What a measure reads along a reference, a stretch of samples at a time; one trajectory in each lane.
 template <SeparableSystem S, ReferenceFlow<S> R>
-std::vector<double> reference_numbers(const S& system, const R& reference, double step, std::int64_t steps,
-                                      phase_point<double, S::dimension> x,
-                                      const error_measure<S::dimension>& measure, std::int64_t trajectory) {
-  std::vector<double> result(static_cast<std::size_t>(steps) * measure.width);
-  for (std::int64_t n = 0; n < steps; ++n) {
-    reference.advance(system, x, step);
-    const auto here = std::span(result).subspan(static_cast<std::size_t>(n) * measure.width, measure.width);
-    measure.read(x, here);
-    if (is_finite(x) && std::all_of(here.begin(), here.end(), [](double y) { return std::isfinite(y); })) {
-      continue;
-    }
-    throw std::runtime_error(fmt::format(
-        "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
-        "take other starts, a finer reference or a shorter horizon",
-        trajectory, reference.description(), measure.name, n + 1));
-  }
-  return result;
-}
-
-/// The errors of one trajectory, added up in the order of time. None is kept.
-template <int N>
-class error_sum {
+class reference_along {
  public:
-  using numbers = std::span<const double>;
+  using measure_type = error_measure<S::dimension, lanes_of<S>>;
+  using T = typename measure_type::T;
+  using state = phase_point<T, S::dimension>;
 
-  /// Refers to all of them. `expected` is empty if the measure needs no reference.
-  error_sum(const error_measure<N>& measure, numbers expected, numbers at_start)
-      : measure_(&measure), expected_(expected), at_start_(at_start) {}
+  /// Refers to system and measure. `count` lanes hold a trajectory.
+  reference_along(const S& system, const R& reference, const measure_type& measure, const state& start,
+                  int count)
+      : system_(&system), reference_(reference), measure_(&measure), x_(start), count_(count) {}
 
-  /// Sample i = 1, 2, ..., in this order.
-  void add(std::int64_t i, numbers seen) {
-    const std::size_t first = static_cast<std::size_t>(i - 1) * seen.size();
-    const numbers there = expected_.empty() ? expected_ : expected_.subspan(first, seen.size());
-    sum_ += measure_->error(seen, there, at_start_);
-    samples_ += 1.0;
-    if (!std::isfinite(sum_) && !lost_at_) lost_at_ = i;
+  /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
+  void go_on(double step, std::int64_t samples) {
+    numbers_.resize(static_cast<std::size_t>(samples) * measure_->width);
+    for (std::int64_t i = 0; i < samples; ++i) {
+      advance_lanes(*system_, reference_, x_, step, count_);
+      const auto here =
+          std::span(numbers_).subspan(static_cast<std::size_t>(i) * measure_->width, measure_->width);
+      measure_->read(x_, here);
+      ++step_;
+      inspect(here);
+    }
   }
 
-  double score() const { return measure_->score(sum_, samples_); }
-  /// The first sample at which the sum was not finite, if there was one.
-  std::optional<std::int64_t> lost_at() const { return lost_at_; }
+  /// Sample i of the last stretch.
+  std::span<const T> at(std::int64_t i) const {
+    return std::span(numbers_).subspan(static_cast<std::size_t>(i) * measure_->width, measure_->width);
+  }
+
+  /// Throws for the first trajectory that came to grief: std::runtime_error where the reference, or what is
+  /// read of it, is not finite; std::invalid_argument where the measure has no scale. `first` is in lane 0.
+  void require_sound(std::int64_t first) const {
+    for (int k = 0; k < count_; ++k) {
+      const auto& its = failures_[static_cast<std::size_t>(k)];
+      if (!its) continue;
+      if (its->without_scale) throw std::invalid_argument(measure_->no_scale);
+      throw std::runtime_error(fmt::format(
+          "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
+          "take other starts, a finer reference or a shorter horizon",
+          first + k, reference_.description(), measure_->name, its->step));
+    }
+  }
 
  private:
-  const error_measure<N>* measure_;
-  numbers expected_;
-  numbers at_start_;
-  double sum_ = 0.0;
-  double samples_ = 0.0;
-  std::optional<std::int64_t> lost_at_;
+  struct failure {
+    std::int64_t step;
+    bool without_scale;
+  };
+
+  void inspect(std::span<const T> here) {
+    auto sound = is_finite(x_);
+    for (const T& number : here) sound = both(sound, number - number == T(0.0));
+    std::optional<T> scale;
+    if (measure_->scale) scale = measure_->scale(here);
+    for (int k = 0; k < count_; ++k) {
+      auto& its = failures_[static_cast<std::size_t>(k)];
+      const bool without_scale = scale && lane(*scale, k) == 0.0;
+      if (its || (lane(sound, k) && !without_scale)) continue;
+      its = failure{step_, lane(sound, k)};
+    }
+  }
+
+  const S* system_;
+  R reference_;
+  const measure_type* measure_;
+  state x_;
+  int count_;
+  std::int64_t step_ = 0;
+  std::vector<T> numbers_;
+  std::array<std::optional<failure>, lanes_of<S>> failures_{};
 };
 
 /// What is left of a run: its score, or NaN and the step at which it diverged.
@@ -80,30 +99,41 @@ struct run_score {
   std::optional<std::int64_t> diverged_at = {};
 };
 
-/// Takes `steps` steps from start and compares on the way; no path is stored. An error that is not finite is
-/// a divergence at its step, like a state that is not.
-template <class Stepper, int N>
-run_score score_of_run(const Stepper& stepper, const phase_point<double, N>& start, std::int64_t steps,
-                       const error_measure<N>& measure, error_sum<N> errors) {
-  std::vector<double> seen(measure.width);
-  const auto compare = [&](std::int64_t n, double, const auto& x) {
-    if (n == 0) return;
-    measure.read(x, seen);
-    errors.add(n, seen);
-  };
-  const auto end = integrate(stepper, start, steps, compare, 1);
-  const auto diverged_at = errors.lost_at() ? errors.lost_at() : end.diverged_at;
-  if (diverged_at) return {.diverged_at = diverged_at};
-  return {.value = errors.score()};
-}
+/// The errors of one trajectory in each lane, added up in the order of time. None is kept.
+template <int N, int W>
+class error_sum {
+ public:
+  using T = scalar_of_lanes<W>;
+  using numbers = std::span<const T>;
 
-/// The same for the numbers of a path that was kept.
-template <int N>
-double score_of_path(std::span<const double> path, const error_measure<N>& measure, error_sum<N> errors) {
-  for (std::size_t n = 0; n * measure.width < path.size(); ++n) {
-    errors.add(static_cast<std::int64_t>(n + 1), path.subspan(n * measure.width, measure.width));
+  /// Refers to the measure.
+  explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}
+
+  /// Sample i = 1, 2, ..., in this order, of the lanes that are live.
+  void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live) {
+    sum_ = select(live, sum_ + measure_->error(seen, reference), sum_);
+    samples_ = i;
+    const auto lost = both(!(sum_ - sum_ == T(0.0)), live);
+    if (!any(lost)) return;
+    for (int k = 0; k < W; ++k) {
+      auto& at = lost_at_[static_cast<std::size_t>(k)];
+      if (lane(lost, k) && !at) at = i;
+    }
   }
-  return errors.score();
-}
+
+  /// That of lane k, which diverged where its state did, or where the error was no longer finite.
+  run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
+    const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
+    if (lost_at) return {.diverged_at = lost_at};
+    if (diverged_at) return {.diverged_at = diverged_at};
+    return {.value = measure_->score(lane(sum_, k), static_cast<double>(samples_))};
+  }
+
+ private:
+  const error_measure<N, W>* measure_;
+  T sum_{0.0};
+  std::int64_t samples_ = 0;
+  std::array<std::optional<std::int64_t>, W> lost_at_{};
+};
 
 }  // namespace nysalt

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/phase_point.hpp"
+#include "nysalt/lanes.hpp"
 
 namespace nysalt {
 
@@ -20,21 +20,27 @@ namespace nysalt {
 ///   root_of_all    sqrt(mean over trajectories and times of e)
 enum class averaging { mean, root_of_each, root_of_all };
 
-/// A measure reads a few numbers of a state and compares those of a method with those of a reference at the
-/// same time. It is a value that is chosen at run time; models are in analysis/error_measures/. Its functions
-/// may be called from several threads at once.
-template <int N>
+/// A measure reads a few numbers of a state and compares those of a method with those of a reference: the
+/// exact state at the same time, or that at the start. It is a value that is chosen at run time; models are
+/// in analysis/error_measures/. It takes W trajectories at a time. Its functions may be called from several
+/// threads at once, and with lanes that hold no sound trajectory.
+template <int N, int W = default_lanes>
 struct error_measure {
-  using numbers = std::span<const double>;
+  static constexpr int lanes = W;
+  using T = scalar_of_lanes<W>;
+  using numbers = std::span<const T>;
 
   std::string name;
   std::size_t width;  // numbers that are read of a state
-  std::function<void(const phase_point<double, N>& x, std::span<double> result)> read;
-  /// The error of one sample. `expected` is empty if no reference is needed. May throw std::invalid_argument
-  /// where there is no such error.
-  std::function<double(numbers seen, numbers expected, numbers at_start)> error;
+  std::function<void(const phase_point<T, N>& x, std::span<T> result)> read;
+  /// The error of one sample.
+  std::function<T(numbers seen, numbers reference)> error;
   averaging how;
-  bool needs_reference = true;
+  bool needs_reference = true;  // false: the reference is the start
+  /// What the error is relative to; where that is 0 there is none, which `no_scale` says. Not given:
+  /// absolute.
+  std::function<T(numbers reference)> scale = {};
+  std::string no_scale = {};
 
   /// What a trajectory contributes whose `samples` errors add up to `sum`.
   double score(double sum, double samples) const {
@@ -51,8 +57,8 @@ struct error_measure {
     return {root, mean.standard_error / (2.0 * root)};
   }
 
-  std::vector<double> numbers_of(const phase_point<double, N>& x) const {
-    std::vector<double> result(width);
+  std::vector<T> numbers_of(const phase_point<T, N>& x) const {
+    std::vector<T> result(width);
     read(x, result);
     return result;
   }

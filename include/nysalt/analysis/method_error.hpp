@@ -24,8 +24,8 @@ struct method_error {
 };
 
 /// From the runs of all trajectories, in their order. What a run cost is counted elsewhere.
-template <int N>
-method_error error_of_runs(const std::vector<run_score>& runs, const error_measure<N>& measure) {
+template <int N, int W>
+method_error error_of_runs(const std::vector<run_score>& runs, const error_measure<N, W>& measure) {
   method_error result;
   std::vector<double> scores;
   for (const auto& run : runs) {

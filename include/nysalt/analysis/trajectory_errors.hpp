@@ -16,10 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/analysis/method_error.hpp"
-#include "nysalt/counted.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/lockstep.hpp"
 
 namespace nysalt {
 
@@ -43,23 +44,22 @@ template <class C>
 concept Methods =
     std::ranges::contiguous_range<C> && std::ranges::sized_range<C> && Method<std::ranges::range_value_t<C>>;
 
-/// Throws std::invalid_argument unless there are steps and trajectories, and `width` numbers of each step and
-/// a score of each method and trajectory fit into memory.
+/// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method and
+/// trajectory, and a stretch of samples of `width` numbers for each method and thread, fit into memory.
 inline void require_room(const trajectory_options& options, std::size_t methods, std::size_t width) {
   if (options.steps < 1 || options.trajectories < 1) {
     throw std::invalid_argument(
         fmt::format("trajectory_errors: {} trajectories of {} steps: at least one of each is needed",
                     options.trajectories, options.steps));
   }
-  // Two paths on each thread while the reference is checked.
-  const double numbers =
-      2.0 * options.threads * static_cast<double>(options.steps) * static_cast<double>(width);
+  const double stretches = static_cast<double>(methods + 2) * options.threads * default_lanes;
+  const double numbers = stretches * static_cast<double>(steps_between_checks) * static_cast<double>(width);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(methods);
   if (numbers > 1e9 || scores > 1e8) {
     throw std::invalid_argument(
-        fmt::format("trajectory_errors: {} trajectories of {} steps do not fit into memory; take fewer or a "
-                    "shorter horizon",
-                    options.trajectories, options.steps));
+        fmt::format("trajectory_errors: {} trajectories with {} numbers a sample, on {} threads, do not fit "
+                    "into memory; take fewer",
+                    options.trajectories, width, options.threads));
   }
 }
 
@@ -76,37 +76,102 @@ phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble
                   ensemble.description(), describe(system)));
 }
 
-/// Force evaluations per unit time along one trajectory, to its end whether it diverges or not.
-template <SeparableSystem S, Method M>
-double evaluations_per_time(const S& system, const M& method, const phase_point<double, S::dimension>& start,
-                            const trajectory_options& options) {
-  const counted<S> watched(system);
-  const auto stepper = make_stepper(watched, method, options.step);
-  auto run = stepper.open(start);
-  stepper.advance(run, options.steps);
-  const double time = static_cast<double>(options.steps) * std::abs(options.step);
-  return static_cast<double>(watched.evaluations) / time;
-}
+/// Methods of one type beside the reference, from the same starts; one trajectory in each lane.
+template <class Stepper, SeparableSystem S, ReferenceFlow<S> R>
+class compared_block {
+ public:
+  using measure_type = error_measure<S::dimension, lanes_of<S>>;
+  using T = typename measure_type::T;
+  using state = phase_point<T, S::dimension>;
+  using errors_type = error_sum<S::dimension, lanes_of<S>>;
+
+  /// Refers to all but the start.
+  compared_block(const S& system, const R& reference, const std::vector<Stepper>& steppers,
+                 const measure_type& measure, const state& start, int count, bool with_check)
+      : measure_(&measure), at_start_(measure.numbers_of(start)), live_(first_lanes<T>(count)) {
+    if (measure.needs_reference) reference_.emplace(system, reference, measure, start, count);
+    if (measure.needs_reference && with_check) {
+      finer_.emplace(system, reference.finer(), measure, start, count);
+      check_.emplace(measure);
+    }
+    for (const auto& stepper : steppers) runs_.push_back({{stepper, start, count}, errors_type(measure)});
+    if (!measure.needs_reference && measure.scale) require_scale(count);
+  }
+
+  /// All of them, a stretch after the other, so that no path is kept.
+  void run(double step, std::int64_t steps) {
+    for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
+      const std::int64_t next = std::min(done + steps_between_checks, steps);
+      if (reference_) reference_->go_on(step, next - done);
+      if (finer_) finer_->go_on(step, next - done);
+      const auto expected = [&](std::int64_t n) {
+        return reference_ ? reference_->at(n - done - 1) : std::span<const T>(at_start_);
+      };
+      for (std::int64_t n = done + 1; finer_ && n <= next; ++n) {
+        check_->add(n, expected(n), finer_->at(n - done - 1), live_);
+      }
+      for (auto& [run, errors] : runs_) {
+        run.go_on(next, 1, measure_->width, measure_->read,
+                  [&](std::int64_t n, std::span<const T> seen, const auto& live) {
+                    errors.add(n, seen, expected(n), live);
+                  });
+      }
+    }
+  }
+
+  void require_sound(std::int64_t first) const {
+    if (reference_) reference_->require_sound(first);
+    if (finer_) finer_->require_sound(first);
+  }
+  run_score score(std::size_t method, int k) const {
+    return runs_[method].errors.score(k, runs_[method].run.diverged_at(k));
+  }
+  double check(int k) const { return check_->score(k).value; }
+
+ private:
+  struct watched_run {
+    lockstep<Stepper, T> run;
+    errors_type errors;
+  };
+
+  void require_scale(int count) const {
+    const T scale = measure_->scale(at_start_);
+    for (int k = 0; k < count; ++k) {
+      if (lane(scale, k) == 0.0) throw std::invalid_argument(measure_->no_scale);
+    }
+  }
+
+  const measure_type* measure_;
+  std::vector<T> at_start_;
+  condition_of<T> live_;
+  std::optional<reference_along<S, R>> reference_;
+  std::optional<reference_along<S, R>> finer_;
+  std::optional<errors_type> check_;  // of the reference against its finer self
+  std::vector<watched_run> runs_;
+};
 
 }  // namespace detail
 
-/// Runs the reference once along each trajectory, keeps the numbers that the measure reads, and follows
-/// every method beside it. The reference's own error is taken on the first 16 trajectories. The number of
-/// threads changes no bit.
+/// Runs the reference once along each trajectory, and every method beside it, as many trajectories at a time
+/// as there are lanes. The reference's own error is taken on the first 16 trajectories. Neither lanes nor
+/// threads change a bit.
 ///
-/// System, reference, ensemble and measure are used by several threads at once. Memory: per thread
-/// steps * width numbers (twice that for the first 16), and 24 bytes for each method and trajectory.
+/// System, reference, ensemble and measure are used by several threads at once. Memory: 24 bytes for each
+/// method and trajectory, and none that grows with the steps.
 /// Throws std::invalid_argument if there is not one step or trajectory, they do not fit into memory, a start
 /// does not fit, or what method, reference and measure refuse; std::runtime_error if the reference is not
 /// finite. Of several trajectories in trouble it is the first that is named.
 template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Methods Given>
 trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
-                                           const Given& methods, const error_measure<S::dimension>& measure,
+                                           const Given& methods,
+                                           const error_measure<S::dimension, lanes_of<S>>& measure,
                                            const trajectory_options& options) {
   constexpr std::int64_t most_checks = 16;  // enough for the size of an error
+  using stepper_type = decltype(make_stepper(system, *std::ranges::data(methods), options.step));
+  using T = scalar_of_lanes<lanes_of<S>>;
   const std::size_t count = std::ranges::size(methods);
-  require_room(options, count, measure.needs_reference ? measure.width : 0);
-  std::vector<decltype(make_stepper(system, *std::ranges::data(methods), options.step))> steppers;
+  require_room(options, count, measure.width);
+  std::vector<stepper_type> steppers;
   for (const auto& method : methods) steppers.push_back(make_stepper(system, method, options.step));
 
   const auto trajectories = static_cast<std::size_t>(options.trajectories);
@@ -114,32 +179,29 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
   std::vector<double> checks;
   if (measure.needs_reference) checks.resize(std::min<std::size_t>(trajectories, most_checks));
 
-  const auto follow = [&](std::int64_t m) {
-    const auto slot = static_cast<std::size_t>(m);
-    const auto start = detail::sound_start(system, ensemble, options.seed, m);
-    const auto at_start = measure.numbers_of(start);
-    const auto along = [&](const R& its) {
-      return reference_numbers(system, its, options.step, options.steps, start, measure, m);
-    };
-    std::vector<double> expected;
-    if (measure.needs_reference) expected = along(reference);
-    if (slot < checks.size()) {
-      const auto finer = along(reference.finer());
-      checks[slot] = score_of_path<S::dimension>(expected, measure, error_sum(measure, finer, at_start));
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const error_sum errors(measure, expected, at_start);
-      runs[k][slot] = score_of_run(steppers[k], start, options.steps, measure, errors);
+  const auto follow = [&](std::int64_t first, int n) {
+    const auto start = gather<T, S::dimension>(
+        n, [&](int k) { return detail::sound_start(system, ensemble, options.seed, first + k); });
+    detail::compared_block<stepper_type, S, R> block(system, reference, steppers, measure, start, n,
+                                                     first < std::ssize(checks));
+    block.run(options.step, options.steps);
+    block.require_sound(first);
+    for (int k = 0; k < n; ++k) {
+      const auto slot = static_cast<std::size_t>(first + k);
+      if (slot < checks.size()) checks[slot] = block.check(k);
+      for (std::size_t method = 0; method < count; ++method) runs[method][slot] = block.score(method, k);
     }
   };
-  for_each_trajectory(options.trajectories, options.threads, follow, options.progress);
+  for_each_block(options.trajectories, lanes_of<S>, options.threads, follow, options.progress);
 
   trajectory_errors_result result;
   const auto first = ensemble(options.seed, 0);
+  const double time = static_cast<double>(options.steps) * std::abs(options.step);
   for (const auto& method : methods) {
     const auto& its_runs = runs[result.methods.size()];
     result.methods.push_back(error_of_runs(its_runs, measure));
-    result.methods.back().evaluations_per_time = detail::evaluations_per_time(system, method, first, options);
+    const auto evaluations = evaluations_of_run(system, method, options.step, options.steps, first);
+    result.methods.back().evaluations_per_time = static_cast<double>(evaluations) / time;
   }
   if (measure.needs_reference) {
     result.reference_error = measure.average(checks);
@@ -151,7 +213,8 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
 /// The same for one method.
 template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Method M>
 trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
-                                           const M& method, const error_measure<S::dimension>& measure,
+                                           const M& method,
+                                           const error_measure<S::dimension, lanes_of<S>>& measure,
                                            const trajectory_options& options) {
   return trajectory_errors(system, reference, ensemble, std::span<const M>(&method, 1), measure, options);
 }

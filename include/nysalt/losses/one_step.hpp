@@ -38,7 +38,7 @@ class one_step {
                 C* r) const {
     using word = typename F::word;
     const stepper<S, word, C> one(*system_, F::coefficients(theta), data_->step);
-    flow_state<C, S::dimension> x{make_vector<C>(*system_), make_vector<C>(*system_),
+    flow_state<C, S::dimension> x{{make_vector<C>(*system_), make_vector<C>(*system_)},
                                   make_vector<C>(*system_)};
     const double share = 1.0 / std::sqrt(static_cast<double>(data_->pairs()));
     const Eigen::Index rows = metric_->residuals();

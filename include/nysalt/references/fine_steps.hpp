@@ -27,8 +27,8 @@ class fine_steps {
   }
 
   /// Throws std::invalid_argument unless t is a multiple of the step, to 1e-9 relative.
-  template <SeparableSystem S>
-  void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
+  template <SeparableSystem S, Scalar T>
+  void advance(const S& system, phase_point<T, S::dimension>& x, double t) const {
     const double ratio = t / step_;
     const double steps = std::round(ratio);
     if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {

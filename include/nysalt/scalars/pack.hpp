@@ -46,7 +46,7 @@ struct native_vector {
 template <>
 struct native_vector<1> {
   using type = double;
-  using mask = bool;
+  using mask = std::int64_t;
 };
 
 /// The square root of each lane. The compilers have no word for it, and a loop over std::sqrt would set
@@ -87,14 +87,14 @@ class lane_mask {
 
   bool operator[](int lane) const {
     if constexpr (of_part == 1) {
-      return parts[static_cast<std::size_t>(lane)];
+      return parts[static_cast<std::size_t>(lane)] != 0;
     } else {
       return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] != 0;
     }
   }
   void set(int lane, bool value) {
     if constexpr (of_part == 1) {
-      parts[static_cast<std::size_t>(lane)] = value;
+      parts[static_cast<std::size_t>(lane)] = value ? -1 : 0;
     } else {
       parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] = value ? -1 : 0;
     }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <span>
-#include <stdexcept>
 
 #include "nysalt/analysis/error_measure.hpp"
 #include "nysalt/energy.hpp"
@@ -11,25 +10,30 @@
 namespace nysalt {
 
 /// The relative error of the energy, sqrt(mean over trajectories and times of ((H - H_0)/|H_0|)^2). It needs
-/// no reference. The system is copied. Throws std::invalid_argument, when used, where H_0 is 0.
+/// no reference. The system is copied. There is no such error where H_0 is 0.
 template <HasEnergy S>
-error_measure<S::dimension> energy_measure(const S& system) {
-  using numbers = std::span<const double>;
-  const auto read = [system](const auto& x, std::span<double> result) {
-    result[0] = energy<double>(system, x);
+error_measure<S::dimension, lanes_of<S>> energy_measure(const S& system) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  using numbers = std::span<const T>;
+  const auto read = [system](const auto& x, std::span<T> result) {
+    result[0] = energy_in_lanes<T>(system, x);
   };
-  const auto error = [](numbers seen, numbers, numbers at_start) {
-    const double initial = at_start[0];
-    if (initial == 0.0) {
-      throw std::invalid_argument(
-          "the energy error is relative to the energy at the start, which is 0; take other starts, or "
-          "another "
-          "measure");
-    }
-    const double relative = (seen[0] - initial) / std::abs(initial);
+  const auto error = [](numbers seen, numbers at_start) {
+    using std::abs;
+    const T relative = (seen[0] - at_start[0]) / abs(at_start[0]);
     return relative * relative;
   };
-  return {"energy", 1, read, error, averaging::root_of_all, false};
+  const auto scale = [](numbers at_start) { return at_start[0]; };
+  return {
+      "energy",
+      1,
+      read,
+      error,
+      averaging::root_of_all,
+      false,
+      scale,
+      "the energy error is relative to the energy at the start, which is 0; take other starts, or another "
+      "measure"};
 }
 
 }  // namespace nysalt

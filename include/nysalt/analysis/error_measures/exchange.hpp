@@ -5,7 +5,6 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
 
 #include "nysalt/analysis/error_measure.hpp"
 #include "nysalt/system.hpp"
@@ -13,39 +12,52 @@
 namespace nysalt {
 
 /// Has pairs() stiff springs, the energy of spring j being stiff_energy(x, j) >= 0.
-template <class S>
-concept HasStiffEnergies = System<S> &&
-    requires(const S& system, const phase_point<double, S::dimension>& x, Eigen::Index j) {
+template <class S, class T>
+concept HasStiffEnergiesOver = System<S> &&
+    requires(const S& system, const phase_point<T, S::dimension>& x, Eigen::Index j) {
   { system.pairs() } -> std::convertible_to<Eigen::Index>;
-  { system.stiff_energy(x, j) } -> std::same_as<double>;
+  { system.stiff_energy(x, j) } -> std::same_as<T>;
 };
+template <class S>
+concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 
 /// How wrongly the stiff springs exchange their energies I_j, relative to their sum I: the mean over
-/// trajectories and times of sum_j |I_j - I_j^ref| / I^ref. The system is copied. Throws
-/// std::invalid_argument, when used, where I^ref is 0.
+/// trajectories and times of sum_j |I_j - I_j^ref| / I^ref. The system is copied. There is no such error
+/// where I^ref is 0.
 template <HasStiffEnergies S>
-error_measure<S::dimension> exchange_measure(const S& system) {
-  using numbers = std::span<const double>;
-  const auto read = [system](const auto& x, std::span<double> result) {
+error_measure<S::dimension, lanes_of<S>> exchange_measure(const S& system) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  using numbers = std::span<const T>;
+  const auto read = [system](const auto& x, std::span<T> result) {
     for (std::size_t j = 0; j < result.size(); ++j) {
-      result[j] = system.stiff_energy(x, static_cast<Eigen::Index>(j));
+      const auto energy = [&](const auto& y) { return system.stiff_energy(y, static_cast<Eigen::Index>(j)); };
+      if constexpr (HasStiffEnergiesOver<S, T>) {
+        result[j] = energy(x);
+      } else {
+        result[j] = value_in_lanes<T>(energy, x);
+      }
     }
   };
-  const auto error = [](numbers seen, numbers expected, numbers) {
-    double differences = 0.0;
-    double total = 0.0;
-    for (std::size_t j = 0; j < expected.size(); ++j) {
-      differences += std::abs(seen[j] - expected[j]);
-      total += expected[j];
-    }
-    if (total == 0.0) {
-      throw std::invalid_argument(
+  const auto scale = [](numbers expected) {
+    T total(0.0);
+    for (const T& energy : expected) total += energy;
+    return total;
+  };
+  const auto error = [scale](numbers seen, numbers expected) {
+    using std::abs;
+    T differences(0.0);
+    for (std::size_t j = 0; j < expected.size(); ++j) differences += abs(seen[j] - expected[j]);
+    return differences / scale(expected);
+  };
+  return {"exchange",
+          static_cast<std::size_t>(system.pairs()),
+          read,
+          error,
+          averaging::mean,
+          true,
+          scale,
           "the exchange error is relative to the stiff energy on the reference, which is 0 somewhere; take "
-          "starts at which the stiff springs move, or measure states");
-    }
-    return differences / total;
-  };
-  return {"exchange", static_cast<std::size_t>(system.pairs()), read, error, averaging::mean};
+          "starts at which the stiff springs move, or measure states"};
 }
 
 }  // namespace nysalt

@@ -71,16 +71,17 @@ weighted_modes modes_with_weights(const S& system) {
 /// weights 1. Throws std::invalid_argument if modes() has not the system's size. Cost of a sample: a product
 /// with each entry of 2 N modes that is not zero.
 template <System S>
-error_measure<S::dimension> state_measure(const S& system) {
-  using numbers = std::span<const double>;
+error_measure<S::dimension, lanes_of<S>> state_measure(const S& system) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  using numbers = std::span<const T>;
   const auto n = static_cast<std::size_t>(size(system));
-  const auto read = [n, modes = detail::modes_with_weights(system)](const auto& x, std::span<double> result) {
-    std::fill(result.begin(), result.end(), 0.0);
-    for (const auto& [k, i, value] : modes.to_x) result[k] += value * x.q[i];
-    for (const auto& [k, i, value] : modes.to_y) result[n + k] += value * x.p[i];
+  const auto read = [n, modes = detail::modes_with_weights(system)](const auto& x, std::span<T> result) {
+    std::fill(result.begin(), result.end(), T(0.0));
+    for (const auto& [k, i, value] : modes.to_x) result[k] += x.q[i] * value;
+    for (const auto& [k, i, value] : modes.to_y) result[n + k] += x.p[i] * value;
   };
-  const auto error = [](numbers seen, numbers expected, numbers) {
-    double sum = 0.0;
+  const auto error = [](numbers seen, numbers expected) {
+    T sum(0.0);
     for (std::size_t k = 0; k < seen.size(); ++k) {
       sum += (seen[k] - expected[k]) * (seen[k] - expected[k]);
     }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSL-1.0
+// When a trajectory has run away.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "nysalt/lanes.hpp"
+
+namespace nysalt {
+
+/// How often to look: an energy costs about a force, 2 % of so many steps of a one-stage method.
+inline constexpr std::int64_t steps_between_checks = 64;
+
+/// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, 1). Without an energy only the first.
+/// Over packs it tells them lane by lane.
+template <System S, Scalar T = double>
+class divergence {
+ public:
+  using state = phase_point<T, S::dimension>;
+
+  divergence(const S& system, const state& start) : system_(&system) {
+    if constexpr (HasEnergy<S>) {
+      initial_ = energy_in_lanes<T>(system, start);
+      const T size = magnitude(initial_);
+      most_ = 1e3 * select(size > 1.0, size, T(1.0));
+    }
+  }
+
+  condition_of<T> operator()(const state& x) const {
+    condition_of<T> sound = is_finite(x);
+    if constexpr (HasEnergy<S>)
+      sound = both(sound, magnitude(energy_in_lanes<T>(*system_, x) - initial_) <= most_);
+    return !sound;
+  }
+
+  /// That of the trajectory in lane k.
+  divergence<S, double> in_lane(int k) const { return {*system_, lane(initial_, k), lane(most_, k)}; }
+
+ private:
+  template <System, Scalar>
+  friend class divergence;
+
+  divergence(const S& system, const T& initial, const T& most)
+      : system_(&system), initial_(initial), most_(most) {}
+
+  static T magnitude(const T& x) {
+    using std::abs;
+    return abs(x);
+  }
+  const S* system_;
+  T initial_{};
+  T most_{};
+};
+
+}  // namespace nysalt

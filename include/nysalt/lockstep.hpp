@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+// Trajectories side by side, each watched over.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nysalt/divergence.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+/// The trajectories in the lanes of T, all at the same step. Each goes as it would alone, to the bit: one
+/// that diverges drops out, and the others go on.
+///
+/// Divergence is looked for every 64 steps and where go_on ends, as in integrate(); where it is found, that
+/// lane's stretch is gone through again, alone, to name the first bad step.
+template <class Stepper, Scalar T>
+class lockstep {
+ public:
+  static constexpr int dimension = Stepper::dimension;
+  static constexpr int lanes = lanes_in<T>;
+  using state = phase_point<T, dimension>;
+  using condition = condition_of<T>;
+
+  /// Refers to the stepper. Lanes from `count` on hold no trajectory. Throws std::invalid_argument if the
+  /// start does not fit; that it is finite is up to the caller.
+  lockstep(const Stepper& stepper, const state& start, int count)
+      : stepper_(&stepper),
+        run_(stepper.open(start)),
+        good_(run_),
+        diverged_(stepper.system(), start),
+        live_(first_lanes<T>(count)) {}
+
+  /// Goes on to step `end`, unless no lane is live any more. At each step n that `every` divides, read(x, r)
+  /// writes `width` numbers of the state to r, a span, a few steps ahead perhaps and of lost lanes too;
+  /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
+  template <class Read, class Take>
+  void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, const Take& take) {
+    seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
+    while (run_.step < end && any(live_)) {
+      good_ = run_;
+      const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
+      T* here = seen_.data();
+      stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
+        read(x, std::span<T>(here, width));
+        here += width;
+      });
+      const condition failed = both(diverged_(stepper_->synchronous(run_)), live_);
+      const bool all_well = !any(failed);
+      if (!all_well) drop(failed, next);
+      here = seen_.data();
+      for (std::int64_t n = (good_.step / every + 1) * every; n <= next; n += every, here += width) {
+        take(n, std::span<const T>(here, width), all_well ? live_ : good_at(n));
+      }
+    }
+  }
+  /// The same unobserved.
+  void go_on(std::int64_t end) {
+    go_on(
+        end, std::max<std::int64_t>(end, 1), 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
+  }
+
+  std::int64_t step() const { return run_.step; }
+  /// Of lanes that diverged nothing is known but when.
+  state synchronous() const { return stepper_->synchronous(run_); }
+  const condition& live() const { return live_; }
+  std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[static_cast<std::size_t>(k)]; }
+
+ private:
+  void drop(const condition& failed, std::int64_t end) {
+    for (int k = 0; k < lanes; ++k) {
+      if (!lane(failed, k)) continue;
+      set_lane(live_, k, false);
+      diverged_at_[static_cast<std::size_t>(k)] = first_bad_step(k, end);
+    }
+  }
+
+  std::int64_t first_bad_step(int k, std::int64_t end) const {
+    const auto diverged = diverged_.in_lane(k);
+    const auto& all = good_.state;
+    const auto one = lane(static_cast<const state&>(all), k);
+    open_run<double, dimension> run{{one, one.q}, good_.step};
+    for (Eigen::Index i = 0; i < one.size(); ++i) run.state.f[i] = lane(all.f[i], k);
+    while (run.step < end) {
+      stepper_->advance(run, 1);
+      if (diverged(stepper_->synchronous(run))) break;
+    }
+    return run.step;
+  }
+
+  condition good_at(std::int64_t n) const {
+    condition result = live_;
+    for (int k = 0; k < lanes; ++k) {
+      const auto at = diverged_at(k);
+      if (at && n < *at) set_lane(result, k, true);
+    }
+    return result;
+  }
+
+  const Stepper* stepper_;
+  open_run<T, dimension> run_;
+  open_run<T, dimension> good_;
+  divergence<typename Stepper::system_type, T> diverged_;
+  condition live_;
+  std::array<std::optional<std::int64_t>, lanes> diverged_at_{};
+  std::vector<T> seen_;
+};
+
+}  // namespace nysalt
