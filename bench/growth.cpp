@@ -3,16 +3,13 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
-#include "nysalt/scalars/pack.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
+#include "chain_run.hpp"
+#include "ensemble_run.hpp"
 #include "peers/textbook_chain.hpp"
 #include "races.hpp"
 
@@ -20,60 +17,45 @@ namespace nysalt::bench {
 
 namespace {
 
-constexpr double omega = 50.0;
-constexpr double h = 0.01;
-using lanes = pack<double, default_lanes>;
-
-void add_ensemble(std::vector<runner>& runners, std::int64_t trajectories) {
-  static const fpu_chain<3> chain(omega);
+/// A hundred steps from state to state, as in making data or observing now and then.
+runner ensemble_of(std::int64_t trajectories) {
   constexpr std::int64_t steps = 100;
-  const std::int64_t blocks = trajectories / default_lanes;
-  auto states = std::make_shared<std::vector<phase_point<lanes, 6>>>(blocks);
-  for (auto& x : *states)
-    for (int i = 0; i < 6; ++i) {
-      x.q[i] = lanes(0.01 * i);
-      x.p[i] = lanes(0.1);
-    }
-  runners.push_back(
-      {fmt::format("{}", trajectories), static_cast<double>(blocks * default_lanes * steps), [=] {
-         const auto stepper = make_stepper(chain, member<nystrom>({0.5, 0.4}), h);
-         for (auto& x : *states) {
-           auto run = stepper.open(x);
-           stepper.advance(run, steps);
-           x = stepper.synchronous(run);
-         }
-       }});
+  const auto all = std::make_shared<states>(starts_of(trajectories));
+  return {fmt::format("{}", trajectories), static_cast<double>(trajectories * steps),
+          [all] { run_ensemble(*all, steps, 1); }};
 }
 
-void add_chain(std::vector<runner>& runners, Eigen::Index masses) {
-  const auto chain = std::make_shared<fpu_chain<>>(masses / 2, omega);
-  phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(masses), Eigen::VectorXd(masses)};
-  for (Eigen::Index i = 0; i < masses; ++i) {
-    x.q[i] = 0.1 * std::sin(0.7 * static_cast<double>(i / 2));
-    x.p[i] = 0.1 * std::cos(0.3 * static_cast<double>(i));
-  }
-  const auto stepper = make_stepper(*chain, verlet{}, h);
-  auto run = std::make_shared<open_run<double, Eigen::Dynamic>>(stepper.open(x));
-  const std::int64_t steps = std::max<std::int64_t>(1, 1'000'000 / masses);
-  runners.push_back({fmt::format("{}", masses), static_cast<double>(masses * steps),
-                     [=] { make_stepper(*chain, verlet{}, h).advance(*run, steps); }});
-  auto y = std::make_shared<phase_point<double, Eigen::Dynamic>>(x);
-  runners.push_back(
-      {fmt::format("stream {}", masses), static_cast<double>(masses * steps), [=] {
-         stream<contraction::off>({y->q.data(), (size_t)masses}, {y->p.data(), (size_t)masses}, 1.0, steps);
-       }});
+std::int64_t steps_of_turn(Eigen::Index masses) { return std::max<std::int64_t>(1, 1'000'000 / masses); }
+
+runner chain_of(Eigen::Index masses) {
+  const auto chain = std::make_shared<fpu_chain<>>(masses / 2, chain_omega);
+  const auto opened = make_stepper(*chain, verlet{}, chain_step).open(start_of_chain(masses));
+  const auto run = std::make_shared<open_run<double, Eigen::Dynamic>>(opened);
+  const std::int64_t steps = steps_of_turn(masses);
+  return {fmt::format("{}", masses), static_cast<double>(masses * steps),
+          [chain, run, steps] { make_stepper(*chain, verlet{}, chain_step).advance(*run, steps); }};
+}
+
+runner stream_of(Eigen::Index masses) {
+  const auto x = std::make_shared<chain_point>(start_of_chain(masses));
+  const std::int64_t steps = steps_of_turn(masses);
+  return {fmt::format("stream {}", masses), static_cast<double>(masses * steps),
+          [x, steps] { stream<contraction::off>(numbers(x->q), numbers(x->p), 1.0, steps); }};
 }
 
 }  // namespace
 
 void race_growth() {
-  std::vector<runner> runners;
-  for (const std::int64_t n : {1'000, 10'000, 100'000, 1'000'000}) add_ensemble(runners, n);
-  race("growing ensemble", std::move(runners));
-  runners.clear();
-  for (const Eigen::Index n : {1'000, 3'000, 10'000, 30'000, 100'000, 300'000, 1'000'000})
-    add_chain(runners, n);
-  race("growing chain", std::move(runners));
+  std::vector<runner> ensembles;
+  for (const std::int64_t n : {1'000, 10'000, 100'000, 1'000'000}) ensembles.push_back(ensemble_of(n));
+  race("growing ensemble", std::move(ensembles));
+
+  std::vector<runner> chains;
+  for (const Eigen::Index n : {1'000, 3'000, 10'000, 30'000, 100'000, 300'000, 1'000'000}) {
+    chains.push_back(chain_of(n));
+    chains.push_back(stream_of(n));
+  }
+  race("growing chain", std::move(chains));
 }
 
 }  // namespace nysalt::bench

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
     race_single_trajectory();
     race_long_chain();
     race_growth();
+    race_threads();
+    race_compiling();
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "nysalt_races: %s\n", problem.what());
     return 1;

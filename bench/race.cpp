@@ -2,6 +2,7 @@
 #include "race.hpp"
 
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 #include <time.h>
 
 #include <cstddef>
@@ -14,6 +15,14 @@ namespace nysalt::bench {
 namespace {
 
 double now(clock_kind kind) {
+  if (kind == clock_kind::children) {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
   timespec t{};
   clock_gettime(kind == clock_kind::own_processor ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
@@ -26,13 +35,15 @@ class rounds {
 
   void operator()(benchmark::State& state) {
     if (turns_.empty()) calibrate();
+    const bool once = options_.turn_seconds == 0.0;
     for (auto _ : state) {
       std::vector<double> seconds(runners_.size(), 0.0);
       for (std::size_t j = 0; j < runners_.size(); ++j) seconds[j] += seconds_of(runners_[j], turns_[j]);
-      for (std::size_t j = runners_.size(); j-- > 0;) seconds[j] += seconds_of(runners_[j], turns_[j]);
+      for (std::size_t j = runners_.size(); j-- > 0 && !once;)
+        seconds[j] += seconds_of(runners_[j], turns_[j]);
       double sum = 0.0;
       for (std::size_t j = 0; j < runners_.size(); ++j) {
-        const double work = 2.0 * static_cast<double>(turns_[j]) * runners_[j].work;
+        const double work = (once ? 1.0 : 2.0) * static_cast<double>(turns_[j]) * runners_[j].work;
         state.counters["ns/" + runners_[j].name] = 1e9 * seconds[j] / work;
         sum += seconds[j];
       }
@@ -51,6 +62,10 @@ class rounds {
   void calibrate() {
     for (const runner& who : runners_) {
       std::int64_t turns = 1;
+      if (options_.turn_seconds == 0.0) {
+        turns_.push_back(turns);
+        continue;
+      }
       for (double seconds = seconds_of(who, turns); seconds < options_.turn_seconds;) {
         turns =
             1 + static_cast<std::int64_t>(static_cast<double>(turns) * 1.2 * options_.turn_seconds / seconds);

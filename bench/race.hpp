@@ -16,11 +16,11 @@ struct runner {
 };
 
 /// One thread is timed by what it had of the processor, so that others on the machine take less part; several
-/// threads or processes by the clock on the wall.
-enum class clock_kind { own_processor, wall };
+/// threads by the clock on the wall; other programs by what they had.
+enum class clock_kind { own_processor, wall, children };
 
 struct race_options {
-  double turn_seconds = 0.005;  // a turn is repeated for at least so long
+  double turn_seconds = 0.005;  // a turn is repeated for at least so long; 0: one turn a round
   int repetitions = 0;          // 0: as the command line says
   clock_kind clock = clock_kind::own_processor;
 };

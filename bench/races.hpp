@@ -10,5 +10,7 @@ void race_ensemble();
 void race_single_trajectory();
 void race_long_chain();
 void race_growth();
+void race_threads();
+void race_compiling();
 
 }  // namespace nysalt::bench
