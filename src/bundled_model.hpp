@@ -150,7 +150,7 @@ class bundled_model final : public bundled_system {
     const auto stepper = make_stepper(system_, method, plan.step);
     // In memory at a time: a million numbers, or a few blocks of long trajectories.
     const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
-    const std::int64_t blocks = std::max<std::int64_t>(4 * plan.threads, 1'000'000 / numbers / lanes);
+    const std::int64_t blocks = std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / lanes);
     for (std::int64_t first = 0; first < plan.count; first += blocks * lanes) {
       std::vector<record> records(static_cast<std::size_t>(std::min(blocks * lanes, plan.count - first)));
       for_each_block(std::ssize(records), lanes, plan.threads, [&](std::int64_t i, int count) {

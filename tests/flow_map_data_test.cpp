@@ -17,6 +17,7 @@
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/linear_chain.hpp"
+#include "support/in_lanes.hpp"
 #include "support/refusal.hpp"
 #include "support/rounding.hpp"
 
@@ -211,6 +212,19 @@ BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
   BOOST_TEST(!without.energies.has_value());  // a force alone has no energy
 }
 
+// 21 trajectories fill no number of lanes.
+BOOST_AUTO_TEST_CASE(the_number_of_lanes_changes_no_bit) {
+  const auto of = [](const auto& system) {
+    const data_options options{.step = 0.02, .horizon = 0.1, .trajectories = 21, .threads = 2};
+    return make_flow_map_data(system, law, fine_steps<>(1e-3), options);
+  };
+  const auto one = of(in_lanes<fpu_chain<3>, 1>(chain));
+  BOOST_TEST(same_bits(one, of(in_lanes<fpu_chain<3>, 3>(chain))));
+  BOOST_TEST(same_bits(one, of(in_lanes<fpu_chain<3>, 8>(chain))));
+  BOOST_TEST(same_bits(one, of(in_lanes<fpu_chain<3>, 16>(chain))));
+  BOOST_TEST(!same_bits(one, made({.step = 0.02, .horizon = 0.1, .trajectories = 21, .seed = 2})));
+}
+
 BOOST_AUTO_TEST_CASE(progress_counts_to_the_number_of_trajectories) {
   for (const int threads : {1, 3}) {
     std::mutex guard;
@@ -224,7 +238,8 @@ BOOST_AUTO_TEST_CASE(progress_counts_to_the_number_of_trajectories) {
             told.push_back(done);
           }});
     std::sort(told.begin(), told.end());  // several threads tell in any order
-    BOOST_REQUIRE(told.size() == 30U);
-    for (std::size_t n = 0; n < told.size(); ++n) BOOST_TEST(told[n] == static_cast<std::int64_t>(n + 1));
+    BOOST_REQUIRE(!told.empty());
+    BOOST_TEST(told.back() == 30);
+    for (std::size_t n = 1; n < told.size(); ++n) BOOST_TEST(told[n - 1] < told[n]);
   }
 }

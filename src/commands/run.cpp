@@ -26,7 +26,7 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
   const auto samples = static_cast<double>(steps / command.sample_every + 1);
-  const std::int64_t at_a_time = whole_document ? command.trajectories : 4 * threads;
+  const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
   if (columns * samples * trajectories <= most) return;
   refuse("{:g} samples of {} trajectories would not fit into memory: take a larger --sample-every{}", samples,

@@ -27,16 +27,16 @@ class reference_along {
   using T = typename measure_type::T;
   using state = phase_point<T, S::dimension>;
 
-  /// Refers to system and measure. `count` lanes hold a trajectory.
+  /// Refers to system, reference and measure. `count` lanes hold a trajectory.
   reference_along(const S& system, const R& reference, const measure_type& measure, const state& start,
                   int count)
-      : system_(&system), reference_(reference), measure_(&measure), x_(start), count_(count) {}
+      : system_(&system), reference_(&reference), measure_(&measure), x_(start), count_(count) {}
 
   /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
   void go_on(double step, std::int64_t samples) {
     numbers_.resize(static_cast<std::size_t>(samples) * measure_->width);
     for (std::int64_t i = 0; i < samples; ++i) {
-      advance_lanes(*system_, reference_, x_, step, count_);
+      advance_lanes(*system_, *reference_, x_, step, count_);
       const auto here =
           std::span(numbers_).subspan(static_cast<std::size_t>(i) * measure_->width, measure_->width);
       measure_->read(x_, here);
@@ -60,7 +60,7 @@ class reference_along {
       throw std::runtime_error(fmt::format(
           "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
           "take other starts, a finer reference or a shorter horizon",
-          first + k, reference_.description(), measure_->name, its->step));
+          first + k, reference_->description(), measure_->name, its->step));
     }
   }
 
@@ -84,7 +84,7 @@ class reference_along {
   }
 
   const S* system_;
-  R reference_;
+  const R* reference_;
   const measure_type* measure_;
   state x_;
   int count_;

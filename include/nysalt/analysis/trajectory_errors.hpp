@@ -85,18 +85,22 @@ class compared_block {
   using state = phase_point<T, S::dimension>;
   using errors_type = error_sum<S::dimension, lanes_of<S>>;
 
-  /// Refers to all but the start.
+  /// Refers to all but the start, and partly to itself.
   compared_block(const S& system, const R& reference, const std::vector<Stepper>& steppers,
                  const measure_type& measure, const state& start, int count, bool with_check)
       : measure_(&measure), at_start_(measure.numbers_of(start)), live_(first_lanes<T>(count)) {
     if (measure.needs_reference) reference_.emplace(system, reference, measure, start, count);
     if (measure.needs_reference && with_check) {
-      finer_.emplace(system, reference.finer(), measure, start, count);
+      its_finer_self_.emplace(reference.finer());
+      finer_.emplace(system, *its_finer_self_, measure, start, count);
       check_.emplace(measure);
     }
     for (const auto& stepper : steppers) runs_.push_back({{stepper, start, count}, errors_type(measure)});
     if (!measure.needs_reference && measure.scale) require_scale(count);
   }
+
+  compared_block(const compared_block&) = delete;
+  compared_block& operator=(const compared_block&) = delete;
 
   /// All of them, a stretch after the other, so that no path is kept.
   void run(double step, std::int64_t steps) {
@@ -145,6 +149,7 @@ class compared_block {
   std::vector<T> at_start_;
   condition_of<T> live_;
   std::optional<reference_along<S, R>> reference_;
+  std::optional<R> its_finer_self_;
   std::optional<reference_along<S, R>> finer_;
   std::optional<errors_type> check_;  // of the reference against its finer self
   std::vector<watched_run> runs_;

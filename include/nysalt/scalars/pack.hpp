@@ -58,7 +58,9 @@ inline native_vector<2>::type native_sqrt(native_vector<2>::type x) { return _mm
 inline native_vector<4>::type native_sqrt(native_vector<4>::type x) { return _mm256_sqrt_pd(x); }
 #endif
 #if defined __AVX512F__
-inline native_vector<8>::type native_sqrt(native_vector<8>::type x) { return _mm512_sqrt_pd(x); }
+inline native_vector<8>::type native_sqrt(native_vector<8>::type x) {
+  return _mm512_maskz_sqrt_pd(0xff, x);  // g++ 12 warns of the plain one
+}
 #endif
 #else
 inline native_vector<2>::type native_sqrt(native_vector<2>::type x) {

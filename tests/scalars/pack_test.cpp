@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSL-1.0
+// A pack computes in each lane what double computes, to the bit, in any number of lanes.
+#include <boost/test/unit_test.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "../support/draws.hpp"
+#include "nysalt/scalars/dual.hpp"
+#include "nysalt/scalars/pack.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <int W>
+using lanes = std::integral_constant<int, W>;
+using all_widths =
+    std::tuple<lanes<1>, lanes<2>, lanes<3>, lanes<4>, lanes<5>, lanes<6>, lanes<7>, lanes<8>, lanes<9>,
+               lanes<10>, lanes<11>, lanes<12>, lanes<13>, lanes<14>, lanes<15>, lanes<16>>;
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// Numbers of all kinds, the odd ones among them.
+template <int W>
+pack<double, W> drawn(draws& random, bool with_odd_ones = true) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr double odd[] = {0.0, -0.0, infinite, -infinite, 1e-310, 1e300};
+  pack<double, W> result;
+  for (int k = 0; k < W; ++k) {
+    const double x = random.uniform(-3.0, 3.0);
+    const bool is_odd = with_odd_ones && random.uniform(0.0, 1.0) < 0.3;
+    result.set(k, is_odd ? odd[static_cast<std::size_t>(random.uniform(0.0, 5.999))] : x);
+  }
+  return result;
+}
+
+/// f over packs against f over double; NaN is as good as NaN.
+template <int W>
+void must_agree(const auto& f, const pack<double, W>& a, const pack<double, W>& b) {
+  const pack<double, W> result = f(a, b);
+  for (int k = 0; k < W; ++k) {
+    const double expected = f(a[k], b[k]);
+    const bool agrees = same_bits(result[k], expected) || (std::isnan(result[k]) && std::isnan(expected));
+    if (!agrees) BOOST_ERROR(W << " lanes, lane " << k << ": " << result[k] << " not " << expected);
+  }
+}
+
+static_assert(Scalar<pack<double, 1>> && Scalar<pack<double, 3>> && Scalar<pack<double>>);
+static_assert(Scalar<dual<pack<double, 16>, 2>> && Scalar<dual<dual<pack<double, 4>, 1>, 3>>);
+static_assert(CoefficientOf<double, pack<double, 8>> && CoefficientOf<pack<double, 8>, pack<double, 8>>);
+static_assert(!CoefficientOf<pack<double, 8>, pack<double, 16>> && !CoefficientOf<pack<double, 8>, double>);
+static_assert(default_lanes == 2 * detail::native_lanes && default_lanes <= 16);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(arithmetic_has_the_bits_of_double, Lanes, all_widths) {
+  constexpr int W = Lanes::value;
+  draws random;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto a = drawn<W>(random);
+    const auto b = drawn<W>(random);
+    must_agree<W>([](const auto& x, const auto& y) { return x + y; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return x - y; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return x * y; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return x / y; }, a, b);
+    must_agree<W>([](const auto& x, const auto&) { return -x; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return 2.5 * x - y / 3.0 + 1.0; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return x * y + x; }, a, b);  // not fused
+    must_agree<W>([](auto x, const auto& y) { return ((x += y) -= 0.5) *= y; }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x < y, x, y); }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x <= y, y, -x); }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x == y, x, y + 1.0); }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x != y, x, y); }, a, a);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x > y, x, y); }, a, b);
+    must_agree<W>([](const auto& x, const auto& y) { return select(x >= y, x, y); }, a, a);
+  }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(elementary_functions_have_the_bits_of_double, Lanes, all_widths) {
+  constexpr int W = Lanes::value;
+  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::pow, std::sin, std::sinh;
+  using std::sqrt, std::tan, std::tanh;
+  draws random;
+  const auto a = drawn<W>(random, false);
+  const auto odd = drawn<W>(random);
+  const auto agree = [&](const auto& f) {
+    must_agree<W>([&](const auto& x, const auto&) { return f(x); }, a, a);
+    must_agree<W>([&](const auto& x, const auto&) { return f(x); }, odd, odd);
+  };
+  agree([](const auto& x) { return sqrt(x); });
+  agree([](const auto& x) { return abs(x); });
+  agree([](const auto& x) { return exp(x); });
+  agree([](const auto& x) { return log(x * x); });
+  agree([](const auto& x) { return sin(x); });
+  agree([](const auto& x) { return cos(x); });
+  agree([](const auto& x) { return tan(x); });
+  agree([](const auto& x) { return atan(x); });
+  agree([](const auto& x) { return sinh(x); });
+  agree([](const auto& x) { return cosh(x); });
+  agree([](const auto& x) { return tanh(x); });
+  agree([](const auto& x) { return pow(x * x, 1.5); });
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(masks_say_which, Lanes, all_widths) {
+  constexpr int W = Lanes::value;
+  lane_mask<W> none(false);
+  BOOST_TEST(!any(none));
+  BOOST_TEST(any(lane_mask<W>(true)));
+  for (int k = 0; k < W; ++k) {
+    auto one = none;
+    one.set(k, true);
+    BOOST_TEST(any(one));
+    for (int j = 0; j < W; ++j) {
+      BOOST_TEST(one[j] == (j == k));
+      BOOST_TEST((!one)[j] == (j != k));
+      BOOST_TEST((one & !one)[j] == false);
+      BOOST_TEST((one | !one)[j] == true);
+    }
+  }
+}
+
+// A pair of derivatives in each lane.
+BOOST_AUTO_TEST_CASE(duals_over_packs_have_the_bits_of_duals) {
+  constexpr int W = 5;
+  draws random;
+  using P = pack<double, W>;
+  const auto f = [](const auto& x, const auto& y) {
+    using std::abs, std::sqrt;
+    return abs(x - 2.0 * y) * sqrt(x * x + 1.0) / (y * y + 0.5);
+  };
+  const P a = drawn<W>(random, false);
+  const P b = drawn<W>(random, false);
+  const auto of_packs = f(dual<P, 2>::variable(a, 0), dual<P, 2>::variable(b, 1));
+  for (int k = 0; k < W; ++k) {
+    const auto of_doubles = f(dual<double, 2>::variable(a[k], 0), dual<double, 2>::variable(b[k], 1));
+    BOOST_TEST(same_bits(of_packs.value[k], of_doubles.value));
+    BOOST_TEST(same_bits(of_packs.derivative[0][k], of_doubles.derivative[0]));
+    BOOST_TEST(same_bits(of_packs.derivative[1][k], of_doubles.derivative[1]));
+  }
+}
