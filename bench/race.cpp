@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -34,6 +35,15 @@ class rounds {
       : runners_(std::move(runners)), options_(options) {}
 
   void operator()(benchmark::State& state) {
+    try {
+      go(state);
+    } catch (const std::exception& problem) {
+      state.SkipWithError(problem.what());
+    }
+  }
+
+ private:
+  void go(benchmark::State& state) {
     if (turns_.empty()) calibrate();
     const bool once = options_.turn_seconds == 0.0;
     for (auto _ : state) {
@@ -51,7 +61,6 @@ class rounds {
     }
   }
 
- private:
   double seconds_of(const runner& who, std::int64_t turns) const {
     const double began = now(options_.clock);
     for (std::int64_t n = 0; n < turns; ++n) who.turn();

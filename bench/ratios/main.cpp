@@ -51,7 +51,9 @@ void report(const measurements& gnu, const measurements& clang, const std::files
   };
   for (const auto& r : fixed_rows()) asked.push_back(judge_row(r));
   for (const auto& g : growths()) asked.push_back(judge_row(growth_row(g, gnu)));
-  for (const auto& r : reported_rows()) told.push_back(judge_row(r));
+  for (const auto& r : reported_rows()) {
+    if (is_there(gnu, r)) told.push_back(judge_row(r));
+  }
 
   nlohmann::ordered_json document{{"machine", machine(gnu, clang)},
                                   {"ratios", nlohmann::ordered_json::array()}};
@@ -66,6 +68,9 @@ void report(const measurements& gnu, const measurements& clang, const std::files
     if (!j.row.note.empty()) fmt::print("{}: {}\n", j.row.name, j.row.note);
   }
   fmt::print("\nbeside it, without a target:\n\n{}\n", to_table(told).text());
+  for (const auto* build : {&gnu, &clang}) {
+    for (const auto& [race, why] : build->failures) fmt::print("! the race '{}' failed: {}\n", race, why);
+  }
   if (!draw(bars_under_the_roof(gnu, clang), margins(asked), folder)) {
     fmt::print("no picture: gnuplot is not there or failed\n");
   }

@@ -20,6 +20,7 @@ using samples = std::vector<double>;
 
 struct measurements {
   std::map<std::string, std::map<std::string, samples>> races;
+  std::map<std::string, std::string> failures;  // what a race said that could not go on
   nlohmann::json context;
 
   bool has(const std::string& race, const std::string& runner) const {
@@ -29,6 +30,9 @@ struct measurements {
   /// Throws std::runtime_error if nobody of that name ran.
   const samples& of(const std::string& race, const std::string& runner) const {
     if (has(race, runner)) return races.at(race).at(runner);
+    if (failures.contains(race)) {
+      throw std::runtime_error(fmt::format("the race '{}' failed: {}", race, failures.at(race)));
+    }
     throw std::runtime_error(fmt::format("nobody called '{}' was measured in the race '{}'", runner, race));
   }
 };
@@ -51,7 +55,12 @@ inline measurements read_measurements(const nlohmann::json& document) {
   for (const auto& round : document["benchmarks"]) {
     if (round.value("run_type", "iteration") != "iteration") continue;  // means and medians of theirs
     const std::string name = round.value("name", "");
-    auto& race = result.races[name.substr(0, name.find('/'))];
+    const std::string its_race = name.substr(0, name.find('/'));
+    if (round.value("error_occurred", false)) {
+      result.failures[its_race] = round.value("error_message", "no reason given");
+      continue;
+    }
+    auto& race = result.races[its_race];
     for (const auto& [key, value] : round.items()) {
       if (key.rfind("ns/", 0) != 0) continue;
       if (!value.is_number() || !(value.get<double>() > 0.0) || !std::isfinite(value.get<double>())) {
