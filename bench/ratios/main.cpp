@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// nysalt_ratios G++.json CLANG++.json FOLDER: the table on stdout; ratios.json and the picture in the folder.
+// nysalt_ratios FOLDER: from the folder's g++.*.json and clang++.*.json, which the races wrote, the table on
+// stdout, and ratios.json and the picture into the folder.
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -79,12 +80,12 @@ void report(const measurements& gnu, const measurements& clang, const std::files
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: nysalt_ratios G++.json CLANG++.json FOLDER\n");
+  if (argc != 2) {
+    fmt::print(stderr, "usage: nysalt_ratios FOLDER\n");
     return 2;
   }
   try {
-    report(read_measurements_of(argv[1]), read_measurements_of(argv[2]), argv[3]);
+    report(read_measurements_of(argv[1], "g++"), read_measurements_of(argv[1], "clang++"), argv[1]);
   } catch (const std::exception& problem) {
     fmt::print(stderr, "nysalt_ratios: {}\n", problem.what());
     return 1;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -43,10 +44,9 @@ inline double median(samples x) {
   return 0.5 * (x[(x.size() - 1) / 2] + x[x.size() / 2]);
 }
 
-/// One round is one repetition, with a counter "ns/RUNNER" for each. Throws std::runtime_error if that is not
-/// what is there.
-inline measurements read_measurements(const nlohmann::json& document) {
-  measurements result;
+/// Adds a document: one round is one repetition, with a counter "ns/RUNNER" for each. Throws
+/// std::runtime_error if that is not what is there.
+inline void read_measurements(const nlohmann::json& document, measurements& result) {
   const auto refuse = [](const std::string& why) {
     throw std::runtime_error("not what the races write: " + why);
   };
@@ -77,15 +77,28 @@ inline measurements read_measurements(const nlohmann::json& document) {
       }
     }
   }
-  return result;
 }
 
-/// Throws std::runtime_error if the file cannot be read or is something else.
-inline measurements read_measurements_of(const std::string& path) {
-  std::ifstream file(path);
-  const auto document = nlohmann::json::parse(file, nullptr, false);
-  if (document.is_discarded()) throw std::runtime_error(fmt::format("{} holds no JSON document", path));
-  return read_measurements(document);
+/// All NAME.*.json of the folder: one for each time that the program was run. Throws std::runtime_error if
+/// there is none, or if one cannot be read or is something else.
+inline measurements read_measurements_of(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename();
+    if (file.rfind(name + ".", 0) == 0 && file.ends_with(".json")) paths.push_back(entry.path());
+  }
+  if (paths.empty()) {
+    throw std::runtime_error(fmt::format("no {}.*.json in {}: run ./dev bench", name, folder.string()));
+  }
+  std::sort(paths.begin(), paths.end());
+  measurements result;
+  for (const auto& path : paths) {
+    std::ifstream file(path);
+    const auto document = nlohmann::json::parse(file, nullptr, false);
+    if (document.is_discarded()) throw std::runtime_error(path.string() + " holds no JSON document");
+    read_measurements(document, result);
+  }
+  return result;
 }
 
 }  // namespace nysalt::bench

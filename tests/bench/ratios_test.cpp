@@ -5,6 +5,7 @@
 #include "../../bench/ratios/document.hpp"
 #include "../../bench/ratios/rows.hpp"
 #include "../support/refusal.hpp"
+#include "../support/scratch.hpp"
 
 using namespace nysalt::bench;
 using namespace nysalt::test;
@@ -25,7 +26,12 @@ nlohmann::json document_of(const times& runners, const std::string& race = "race
       {{"name", race + "/mean"}, {"run_type", "aggregate"}, {"ns/ours", 1e9}, {"ns/peer", 1.0}});
   return result;
 }
-measurements measured(const times& runners) { return read_measurements(document_of(runners)); }
+measurements read(const nlohmann::json& document) {
+  measurements result;
+  read_measurements(document, result);
+  return result;
+}
+measurements measured(const times& runners) { return read(document_of(runners)); }
 
 const samples steady(20, 1.0);
 samples times_of(double value, double scatter = 0.0) {
@@ -140,6 +146,21 @@ BOOST_AUTO_TEST_CASE(growth_counts_until_memory_bounds_it) {
   BOOST_TEST(judged().found.value == 1.0);
 }
 
+BOOST_AUTO_TEST_CASE(all_files_of_a_compiler_count) {
+  const scratch folder("ratios");
+  std::ofstream(folder / "g++.1.json") << document_of({{"ours", {1.0, 2.0}}});
+  std::ofstream(folder / "g++.2.json") << document_of({{"ours", {3.0}}});
+  std::ofstream(folder / "clang++.1.json") << document_of({{"ours", {4.0}}});
+  std::ofstream(folder / "g++.2.log") << "no JSON";
+  BOOST_TEST((read_measurements_of(folder.path(), "g++").of("race", "ours") == samples{1.0, 2.0, 3.0}));
+  BOOST_TEST((read_measurements_of(folder.path(), "clang++").of("race", "ours") == samples{4.0}));
+  BOOST_TEST(
+      refuses<std::runtime_error>([&] { read_measurements_of(folder.path(), "icc"); }, {"./dev bench"}));
+  std::ofstream(folder / "g++.3.json") << "{";
+  BOOST_TEST(refuses<std::runtime_error>([&] { read_measurements_of(folder.path(), "g++"); },
+                                         {"g++.3.json", "JSON"}));
+}
+
 BOOST_AUTO_TEST_CASE(the_document_says_all_that_the_table_says) {
   const auto gnu = measured({{"ours", steady}, {"peer", times_of(2.0)}});
   const auto clang = measured({{"ours", steady}, {"peer", times_of(3.0)}});
@@ -159,7 +180,7 @@ BOOST_AUTO_TEST_CASE(the_document_says_all_that_the_table_says) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_measurement_is_refused) {
   const auto refused = [](const nlohmann::json& document, std::string_view word) {
-    return refuses<std::runtime_error>([&] { read_measurements(document); }, {word});
+    return refuses<std::runtime_error>([&] { read(document); }, {word});
   };
   BOOST_TEST(refused(nlohmann::json::array(), "no benchmarks"));
   BOOST_TEST(refused(document_of({{"ours", {0.0}}}), "no time"));
@@ -171,8 +192,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_measurement_is_refused) {
     round["error_occurred"] = true;
     round["error_message"] = "fell over";
   }
-  BOOST_TEST(refuses<std::runtime_error>([&] { judge(speed_of_ours(1.0), read_measurements(failed)); },
-                                         {"fell over"}));
+  BOOST_TEST(refuses<std::runtime_error>([&] { judge(speed_of_ours(1.0), read(failed)); }, {"fell over"}));
   BOOST_TEST(refuses<std::runtime_error>(
       [&] {
         judge(speed_of_ours(1.0), measured({{"ours", steady}}));
