@@ -38,8 +38,9 @@ inline std::vector<bar> margins(const std::vector<judged_row>& rows) {
     const auto margin = [&](const ratio& r) {
       return j.row.measure == measure::speed ? r.value / *j.row.bound : *j.row.bound / r.value;
     };
-    bar one{j.row.name, margin(j.found), j.beside ? margin(*j.beside) : NAN};
-    if (j.row.compiler != "g++") one = {j.row.name, NAN, margin(j.found)};
+    const std::string name = j.row.name + (j.said.holds ? "" : " (?)");
+    bar one{name, margin(j.found), j.beside ? margin(*j.beside) : NAN};
+    if (j.row.compiler != "g++") one = {name, NAN, margin(j.found)};
     result.push_back(one);
   }
   return result;
@@ -59,30 +60,34 @@ inline std::string block(const std::vector<bar>& bars) {
 inline bool draw(const std::vector<bar>& shares, const std::vector<bar>& margins,
                  const std::filesystem::path& folder) {
   write_file(folder / "performance.dat", detail::block(shares) + detail::block(margins));
-  // Bars lie: long names are read from the left. Two a place, one for each compiler.
-  const auto panel = [](std::size_t index, const char* title, const char* range) {
+  // Bars lie, so that long names can be read. Two a place, one for each compiler, from a line on: 0 or 1.
+  const auto panel = [](std::size_t index, const char* title, const char* place, int from) {
     const auto bars = [&](int column, double shift, const char* colour, const char* name) {
       return fmt::format(
-          "'performance.dat' index {0} using (${1}*0.5):($1+({2})):(${1}*0.5):(0.19):ytic(2) with boxxyerror "
-          "fs solid lc '{3}' title '{4}'",
-          index, column, shift, colour, name);
+          "'performance.dat' index {0} using ({4}):($1{2:+}):({4}):{1}:($1{2:+}-0.18):($1{2:+}+0.18) "
+          "with boxxyerror fs solid lc '{3}' title '{5}'",
+          index, column, shift, colour, from, name);
     };
-    return fmt::format("set title '{}'\nset xrange {}\nplot {}, {}\n", title, range,
-                       bars(3, -0.2, "#0072B2", "g++"), bars(4, 0.2, "#E69F00", "clang++"));
+    return fmt::format(
+        "set title '{}'\n{}\nplot {}, {}, 'performance.dat' index {} using ({}):1:ytic(2) with dots lc "
+        "'white' notitle\n",
+        title, place, bars(3, -0.18, "#0072B2", "g++"), bars(4, 0.18, "#E69F00", "clang++"), index, from);
   };
   const std::string script = fmt::format(
       "# gnuplot -e \"kind='svg'; target='performance.svg'\" performance.gp\n"
-      "if (kind eq 'svg') {{ set terminal svg size 1000,760 background 'white' font 'sans,13' noenhanced }}\n"
-      "if (kind eq 'png') {{ set terminal pngcairo size 1000,760 background 'white' font 'sans,11' "
+      "if (kind eq 'svg') {{ set terminal svg size 1000,800 background 'white' font 'sans,13' noenhanced }}\n"
+      "if (kind eq 'png') {{ set terminal pngcairo size 1000,800 background 'white' font 'sans,11' "
       "noenhanced "
       "}}\n"
-      "set output target\nset grid x lw 0.5 lc '#cccccc'\nset yrange [*:*] reverse\nset lmargin 52\n"
-      "set offsets 0,0,0.6,0.6\nset ytics scale 0\nset arrow 1 from first 1, graph 0 to first 1, graph 1 "
-      "nohead "
-      "lw 2 lc '#D55E00' front\nset multiplot\nset origin 0,0.62\nset size 1,0.38\n{}"
-      "unset key\nset origin 0,0\nset size 1,0.62\nset logscale x\n{}unset multiplot\n",
-      panel(0, "Speed of a two-stage step on an ensemble; 1 is the roof", "[0:1.05]"),
-      panel(1, "How far beyond its target; 1 is just met", "[*:*]"));
+      "set output target\nset datafile missing 'nan'\nset grid x lw 0.5 lc '#cccccc'\n"
+      "set yrange [*:*] reverse\nset offsets 0,0,0.7,0.7\nset ytics scale 0\nset lmargin 54\n"
+      "set key outside right top\nset rmargin 18\n"
+      "set arrow 1 from first 1, graph 0 to first 1, graph 1 nohead lw 2 lc '#D55E00' front\n"
+      "set multiplot\n{}{}unset multiplot\n",
+      panel(0, "Speed of a two-stage step on an ensemble: 1 is the roof",
+            "set origin 0,0.66\nset size 1,0.34\nset xrange [0:1.1]", 0),
+      panel(1, "Beyond its target (right of the line) or short of it, by which factor",
+            "set origin 0,0\nset size 1,0.66\nset logscale x 2\nset xrange [0.25:8]", 1));
   write_file(folder / "performance.gp", script);
   bool drawn = true;
   for (const std::string kind : {"svg", "png"}) {

@@ -33,7 +33,7 @@ inline std::vector<row> fixed_rows() {
        premise{"kernel, two threads", "kernel, one thread", 1.9,
                "the machine is not quiet: two threads of a kernel that shares nothing gain too little"}},
       {"word as data: time of the word as a type", "ensemble", "ours, word as data", {"ours"}, time, 1.45},
-      {"word as data: time of the word as a type (clang++)",
+      {"word as data, clang++: time of the word as a type",
        "ensemble",
        "ours, word as data",
        {"ours"},
