@@ -7,7 +7,7 @@
 
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/long_fpu_chain.hpp"
 
 namespace nysalt::bench {
 
@@ -23,6 +23,11 @@ inline chain_point start_of_chain(Eigen::Index masses) {
     x.p[i] = 0.1 * std::cos(0.3 * static_cast<double>(i));
   }
   return x;
+}
+
+/// In the order of the long chain.
+inline chain_point apart(const long_fpu_chain& chain, const chain_point& x) {
+  return {chain.ends_apart(x.q), chain.ends_apart(x.p)};
 }
 
 inline std::span<double> numbers(Eigen::VectorXd& x) {

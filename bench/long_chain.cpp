@@ -19,11 +19,12 @@ constexpr Eigen::Index masses = 1000;
 constexpr std::int64_t steps = 1000;
 
 chain_point ours(std::int64_t count) {
-  const fpu_chain<> chain(masses / 2, chain_omega);
+  const long_fpu_chain chain(masses / 2, chain_omega);
   const auto stepper = make_stepper(chain, verlet{}, chain_step);
-  auto run = stepper.open(start_of_chain(masses));
+  auto run = stepper.open(apart(chain, start_of_chain(masses)));
   stepper.advance(run, count);
-  return stepper.synchronous(run);
+  const auto end = stepper.synchronous(run);
+  return {chain.ends_in_turn(end.q), chain.ends_in_turn(end.p)};
 }
 
 template <contraction Fused>

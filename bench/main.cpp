@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
     race_single_trajectory();
     race_long_chain();
     race_growth();
+    race_noise();
+    race_learning();
     race_threads();
     race_compiling();
     benchmark::RunSpecifiedBenchmarks();

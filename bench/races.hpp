@@ -10,6 +10,8 @@ void race_ensemble();
 void race_single_trajectory();
 void race_long_chain();
 void race_growth();
+void race_noise();
+void race_learning();
 void race_threads();
 void race_compiling();
 

@@ -53,10 +53,9 @@ NYSALT_BENCH_PEER void odeint_verlet(chain_state<double>&, double k, double h, s
 template <contraction>
 NYSALT_BENCH_PEER void odeint_verlet_aba(chain_state<double>&, double k, double h, std::int64_t steps);
 
-/// By hand, with the arithmetic of the force as the system writes it: the same bits as ours.
+// By hand, for this chain and this word alone; the second with k c and 4 c as the springs' constants.
 template <contraction>
 NYSALT_BENCH_PEER void hand_written(std::span<chain_state<lanes>>, const two_stage&, std::int64_t steps);
-/// By hand, and the constants of springs and step multiplied before the loop: fewer multiplications.
 template <contraction>
 NYSALT_BENCH_PEER void hand_folded(std::span<chain_state<lanes>>, const two_stage&, std::int64_t steps);
 

@@ -23,8 +23,8 @@ constexpr std::size_t batch = 96;  // packs: 12 kB with 16 lanes
 
 void ours(std::span<pack<double>> numbers) {
   static std::int64_t step = 0;
-  standard_normals<pack<double>>(1, {.trajectory = 0, .step = ++step, .purpose = noise_purpose::initial_state},
-                                 numbers);
+  standard_normals<pack<double>>(
+      1, {.trajectory = 0, .step = ++step, .purpose = noise_purpose::initial_state}, numbers);
 }
 
 /// Mean and variance to 5 standard errors: generators cannot agree otherwise.
@@ -36,8 +36,10 @@ void require_normal(const std::string& what, const std::vector<double>& x) {
     sum += one;
     squares += one * one;
   }
-  if (std::abs(sum / n) < 5.0 / std::sqrt(n) && std::abs(squares / n - 1.0) < 5.0 * std::sqrt(2.0 / n)) return;
-  throw std::runtime_error(fmt::format("{} has mean {} and variance {}: not normal", what, sum / n, squares / n));
+  if (std::abs(sum / n) < 5.0 / std::sqrt(n) && std::abs(squares / n - 1.0) < 5.0 * std::sqrt(2.0 / n))
+    return;
+  throw std::runtime_error(
+      fmt::format("{} has mean {} and variance {}: not normal", what, sum / n, squares / n));
 }
 
 }  // namespace
