@@ -50,20 +50,20 @@ int main() {
 }
 
 // Expected output:
-// b1    = 0.51080 +- 6e-04
-// beta1 = 0.40247 +- 3e-04
+// b1    = 0.50933 +- 5e-04
+// beta1 = 0.40168 +- 3e-04
 // usable: yes
 //
-// t =   0.0  I = 2.189
-// t =  20.0  I = 2.183
-// t =  40.0  I = 2.203
-// t =  59.9  I = 2.241
-// t =  79.9  I = 2.206
-// t =  99.9  I = 2.229
+// t =   0.0  I = 8.540
+// t =  20.0  I = 8.501
+// t =  40.0  I = 8.632
+// t =  59.9  I = 8.577
+// t =  79.9  I = 8.561
+// t =  99.9  I = 8.645
 // did not diverge
 //
-// learned:nystrom  step 0.030  66.7 evaluations/time  error 6.1e-03 +- 2e-04
-// mclachlan2       step 0.030  66.7 evaluations/time  error 1.0e-02 +- 4e-04
-// bcss2            step 0.030  66.7 evaluations/time  error 8.6e-03 +- 3e-04
-// verlet_2x        step 0.030  68.8 evaluations/time  error 4.3e-02 +- 2e-03
-// srkn6b           step 0.090  68.9 evaluations/time  error 3.2e-01 +- 1e-02
+// learned:nystrom  step 0.030  66.7 evaluations/time  error 5.4e-03 +- 2e-04
+// mclachlan2       step 0.030  66.7 evaluations/time  error 1.0e-02 +- 3e-04
+// bcss2            step 0.030  66.7 evaluations/time  error 8.4e-03 +- 3e-04
+// verlet_2x        step 0.030  68.8 evaluations/time  error 4.2e-02 +- 2e-03
+// srkn6b           step 0.090  68.9 evaluations/time  error 3.0e-01 +- 1e-02

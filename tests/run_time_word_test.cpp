@@ -29,8 +29,9 @@ void compare() {
     BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
     BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
     for (std::size_t i = 0; i < W::length; ++i) {
-      BOOST_TEST(as_data.known_in_step[i] == W::known_in_step[i]);
-      if (i >= W::first_in_loop) BOOST_TEST(as_data.known_in_loop[i] == W::known_in_loop[i]);
+      BOOST_TEST((as_data.plan().in_step[i] == W::plan.in_step[i]));
+      BOOST_TEST((as_data.plan().in_loop[i] == W::plan.in_loop[i]));
+      BOOST_TEST((as_data.plan().in_last[i] == W::plan.in_last[i]));
     }
   }
 }

@@ -4,6 +4,8 @@
 
 #include "laws/models.hpp"
 #include "laws/run_laws.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/scalars/pack.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;
@@ -21,6 +23,34 @@ struct euler_b {
   static std::array<double, 2> coefficients() { return {1.0, 1.0}; }
 };
 static_assert(Method<euler_b>);
+
+/// Whether W trajectories side by side have the bits of each alone, run by the same stepper.
+template <int W, class Stepper>
+bool lanes_are_alone(const Stepper& fixed, draws& random, double reach, std::int64_t steps = 31) {
+  constexpr int N = Stepper::dimension;
+  std::vector<phase_point<double, N>> alone;
+  for (int lane = 0; lane < W; ++lane) alone.push_back(random.state(fixed.system(), reach));
+  auto together = alone[0].template cast<pack<double, W>>();
+  for (int lane = 0; lane < W; ++lane) {
+    for (Eigen::Index i = 0; i < together.size(); ++i) {
+      together.q[i].set(lane, alone[static_cast<std::size_t>(lane)].q[i]);
+      together.p[i].set(lane, alone[static_cast<std::size_t>(lane)].p[i]);
+    }
+  }
+  auto run = fixed.open(together);
+  fixed.advance(run, 30);
+  fixed.advance(run, 1);
+  const auto after = fixed.synchronous(run);
+  for (int lane = 0; lane < W; ++lane) {
+    auto single = fixed.open(alone[static_cast<std::size_t>(lane)]);
+    fixed.advance(single, steps);
+    const auto expected = fixed.synchronous(single);
+    for (Eigen::Index i = 0; i < after.size(); ++i) {
+      if (after.q[i][lane] != expected.q[i] || after.p[i][lane] != expected.p[i]) return false;
+    }
+  }
+  return true;
+}
 
 phase_point<double, 1> somewhere() { return {vector<double, 1>(0.7), vector<double, 1>(-0.4)}; }
 
@@ -77,4 +107,23 @@ BOOST_AUTO_TEST_CASE(counting_changes_nothing) {
                        integrate(system, pefrl(), 0.02, x, 100).finish));
   BOOST_TEST(watched.evaluations == 400);
   BOOST_TEST(describe(watched) == describe(system));
+}
+
+using methods_in_lanes = std::tuple<verlet, member<nystrom>>;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(each_lane_has_the_bits_of_one_trajectory, M, methods_in_lanes) {
+  draws random;
+  for_each<std::tuple<an_fpu_chain, a_long_fpu, a_free_chain>>([&]<class Model>() {
+    const auto system = Model::make();
+    const auto method = any_method<M>(random);
+    const auto by_type = make_stepper(system, method, 0.02);
+    const auto by_data = make_stepper(system, tabulated(method), 0.02);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)) {
+      BOOST_TEST(lanes_are_alone<1>(by_type, random, Model::reach));
+      BOOST_TEST(lanes_are_alone<8>(by_type, random, Model::reach));
+      BOOST_TEST(lanes_are_alone<16>(by_type, random, Model::reach));
+      BOOST_TEST(lanes_are_alone<16>(by_data, random, Model::reach));
+      BOOST_TEST(!lanes_are_alone<8>(by_type, random, Model::reach, 32));  // a step apart
+    }
+  });
 }

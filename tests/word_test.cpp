@@ -36,6 +36,37 @@ static_assert(costs<word<kick, kick>>(1, 0, 1));                       // one fo
 static_assert(costs<word<lonely_kick, drift, lonely_kick>>(1, 1, 2));  // not merged, yet reused
 static_assert(costs<word<kick, kick, drift>>(0, 1, 1));
 
+// Where the force is evaluated, and whether it must be stored for later letters.
+constexpr auto none = evaluation::none;
+constexpr auto alone = evaluation::alone;
+constexpr auto shared = evaluation::shared;
+
+template <class W>
+constexpr bool evaluates(const auto& in_step, const auto& in_loop, const auto& in_last) {
+  return W::plan.in_step == in_step && W::plan.in_loop == in_loop && W::plan.in_last == in_last;
+}
+// Only where a run stops is Verlet's force needed again: to take the half kick back.
+static_assert(evaluates<word<kick, drift, kick>>(std::array{alone, none, alone},
+                                                 std::array{none, none, alone},
+                                                 std::array{none, none, shared}));
+static_assert(evaluates<word<drift, kick, drift>>(std::array{none, alone, none},
+                                                  std::array{none, alone, none},
+                                                  std::array{none, alone, none}));
+static_assert(evaluates<alternating_word<kick, drift, 5>>(std::array{alone, none, alone, none, alone},
+                                                          std::array{none, none, alone, none, alone},
+                                                          std::array{none, none, alone, none, shared}));
+// The next letter, or the next step, reads it too.
+static_assert(evaluates<word<kick, kick, drift>>(std::array{shared, none, none},
+                                                 std::array{shared, none, none},
+                                                 std::array{shared, none, none}));
+static_assert(evaluates<word<lonely_kick, drift, lonely_kick>>(std::array{alone, none, alone},
+                                                               std::array{none, none, shared},
+                                                               std::array{none, none, shared}));
+static_assert(evaluates<word<drift, kick, lonely_kick>>(std::array{none, shared, none},
+                                                        std::array{none, shared, none},
+                                                        std::array{none, shared, none}));
+static_assert(evaluates<word<kick>>(std::array{alone}, std::array{none}, std::array{none}));
+
 static_assert(word<kick, drift, kick>::merges);
 static_assert(!word<kick, drift>::merges);
 static_assert(!word<drift>::merges);

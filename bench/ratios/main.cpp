@@ -44,35 +44,70 @@ nlohmann::ordered_json times(const measurements& gnu, const measurements& clang)
   return result;
 }
 
-void report(const measurements& gnu, const measurements& clang, const std::filesystem::path& folder) {
+struct judged_rows {
   std::vector<judged_row> asked;
   std::vector<judged_row> told;
+};
+
+judged_rows judge_all(const measurements& gnu, const measurements& clang) {
+  judged_rows result;
   const auto judge_row = [&](const row& r) {
     return r.compiler == "g++" ? judge(r, gnu, &clang) : judge(r, clang, &gnu);
   };
-  for (const auto& r : fixed_rows()) asked.push_back(judge_row(r));
-  for (const auto& g : growths()) asked.push_back(judge_row(growth_row(g, gnu)));
+  for (const auto& r : fixed_rows()) result.asked.push_back(judge_row(r));
+  for (const auto& g : growths()) result.asked.push_back(judge_row(growth_row(g, gnu)));
   for (const auto& r : reported_rows()) {
-    if (is_there(gnu, r)) told.push_back(judge_row(r));
+    if (is_there(gnu, r)) result.told.push_back(judge_row(r));
   }
+  return result;
+}
 
-  nlohmann::ordered_json document{{"machine", machine(gnu, clang)},
-                                  {"ratios", nlohmann::ordered_json::array()}};
-  for (const auto& j : asked) document["ratios"].push_back(to_json(j));
-  for (const auto& j : told) document["reported"].push_back(to_json(j));
-  document["nanoseconds"] = times(gnu, clang);
-  nysalt::write_file(folder / "ratios.json", document.dump(2) + "\n");
+nlohmann::ordered_json document(const judged_rows& rows, const measurements& gnu, const measurements& clang) {
+  nlohmann::ordered_json result{{"machine", machine(gnu, clang)},
+                                {"ratios", nlohmann::ordered_json::array()}};
+  for (const auto& j : rows.asked) result["ratios"].push_back(to_json(j));
+  for (const auto& j : rows.told) result["reported"].push_back(to_json(j));
+  result["nanoseconds"] = times(gnu, clang);
+  return result;
+}
 
-  fmt::print("{}\n", to_table(asked).text());
-  for (const auto& j : asked) {
-    if (!j.said.reason.empty()) fmt::print("? {}: {}\n", j.row.name, j.said.reason);
-    if (!j.row.note.empty()) fmt::print("{}: {}\n", j.row.name, j.row.note);
+/// All that there is to read; `form` makes text of a table.
+std::string pages(const judged_rows& rows, const measurements& gnu, const measurements& clang, auto form) {
+  const auto its = machine(gnu, clang);
+  std::string text =
+      fmt::format("{}, {} cores; caches of {} kB, {} kB and {} kB\n", its["processor"].get<std::string>(),
+                  its["cores"].get<int>(), its["l1_bytes"].get<std::int64_t>() / 1024,
+                  its["l2_bytes"].get<std::int64_t>() / 1024, its["l3_bytes"].get<std::int64_t>() / 1024);
+  for (const std::string compiler : its["compilers"]) text += fmt::format("{}\n", compiler);
+  text += "\n" + form(to_table(rows.asked));
+  std::string remarks;
+  for (const auto& j : rows.asked) {
+    if (!j.said.reason.empty()) remarks += fmt::format("- {}: {}\n", j.row.name, j.said.reason);
+    if (!j.row.note.empty()) remarks += fmt::format("- {}: {}\n", j.row.name, j.row.note);
   }
-  fmt::print("\nbeside it, without a target:\n\n{}\n", to_table(told).text());
   for (const auto* build : {&gnu, &clang}) {
-    for (const auto& [race, why] : build->failures) fmt::print("! the race '{}' failed: {}\n", race, why);
+    for (const auto& [race, why] : build->failures)
+      remarks += fmt::format("- the race '{}' failed: {}\n", race, why);
   }
-  if (!draw(bars_under_the_roof(gnu, clang), margins(asked), folder)) {
+  text += "\n" + remarks + "\nReported without a target:\n\n" + form(to_table(rows.told));
+  for (const auto& g : growths())
+    text += fmt::format("\n{}, nanoseconds:\n\n", g.name) + form(to_table(g, gnu, clang));
+  if (gnu.has("compiling", "with learner")) {
+    text +=
+        fmt::format("\nCompiling a first example takes g++ {:.1f} s with the learner, {:.1f} s without.\n",
+                    1e-9 * median(gnu.of("compiling", "with learner")),
+                    1e-9 * median(gnu.of("compiling", "without learner")));
+  }
+  return text;
+}
+
+void report(const measurements& gnu, const measurements& clang, const std::filesystem::path& folder) {
+  const auto rows = judge_all(gnu, clang);
+  nysalt::write_file(folder / "ratios.json", document(rows, gnu, clang).dump(2) + "\n");
+  const auto as_markdown = [](const nysalt::table& t) { return t.markdown(); };
+  nysalt::write_file(folder / "table.md", pages(rows, gnu, clang, as_markdown));
+  fmt::print("{}", pages(rows, gnu, clang, [](const nysalt::table& t) { return t.text(); }));
+  if (!draw(bars_under_the_roof(gnu, clang), margins(rows.asked), folder)) {
     fmt::print("no picture: gnuplot is not there or failed\n");
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "nysalt/report/table.hpp"
 #include "row.hpp"
 
 namespace nysalt::bench {
@@ -138,6 +139,19 @@ inline row growth_row(const growth& g, const measurements& all) {
     const double here = median(all.of(g.race, g.sizes[i]));
     if (here > largest) result.subject = g.sizes[i];
     largest = std::max(largest, here);
+  }
+  return result;
+}
+
+/// A line a size.
+inline nysalt::table to_table(const growth& g, const measurements& gnu, const measurements& clang) {
+  const bool streamed = !g.stream.empty();
+  nysalt::table result({"size", "g++", "clang++", "moving the data alone"}, 0);
+  const auto number = [&](const measurements& all, const std::string& runner) {
+    return all.has(g.race, runner) ? fmt::format("{:.3g}", median(all.of(g.race, runner))) : std::string("-");
+  };
+  for (const auto& size : g.sizes) {
+    result.add({size, number(gnu, size), number(clang, size), streamed ? number(gnu, g.stream + size) : "-"});
   }
   return result;
 }

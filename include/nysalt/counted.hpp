@@ -25,6 +25,13 @@ struct counted : S {
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 
+  template <class T, class C>
+    requires HasKick<S, T, C>
+  void kick(const vector<T, S::dimension>& q, vector<T, S::dimension>& p, const C& c) const {
+    ++evaluations;
+    S::kick(q, p, c);
+  }
+
   std::string description() const { return describe(static_cast<const S&>(*this)); }
 
   mutable std::int64_t evaluations = 0;

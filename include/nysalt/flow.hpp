@@ -29,6 +29,9 @@ struct free_particle {
 ///   additive       the flows over c h and d h compose to that over (c + d) h, so equal neighbours merge
 ///   prepare(c, h)  folds the step into the coefficient, once per run
 ///   apply(system, prepared, state)
+/// A letter that reads the force may also offer
+///   evaluate_and_apply(system, prepared, state)
+/// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
 template <class L>
 concept Flow = requires(flow_state<double, 1>& x) {
   { L::letter } -> std::convertible_to<char>;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -16,11 +17,11 @@
 
 namespace nysalt {
 
-/// open(system, x)    from a synchronous state to an open one: force and first letter where the loop needs it
-/// loop(system, x)    one step of an open run; the last letter of a step and the first of the next are one
-/// close(system, x)   the first letter taken back: an open state becomes synchronous
-/// step(system, x)    one plain step, letter by letter, from q and p alone
-/// in_loop()          itself, as the loop should hold it
+/// open(system, x)        from a synchronous state to an open one: force and first letter where it needs them
+/// advance(system, x, n)  n steps of an open run; last letter of a step and first of the next are one
+/// close(system, x)       the first letter taken back: an open state becomes synchronous
+/// step(system, x)        one plain step, letter by letter, from q and p alone
+/// in_loop()              itself, as a loop should hold it
 template <Word W, Scalar C>
 class prepared_word;
 
@@ -47,8 +48,15 @@ class prepared_word<word<L...>, C> {
     if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x);
   }
   template <class T, System S>
-  [[gnu::always_inline]] void loop(const S& system, flow_state<T, S::dimension>& x) const {
-    loop_letters<W::first_in_loop>(system, x);
+  [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x,
+                                      std::int64_t steps) const {
+    constexpr bool last_differs = W::plan.in_last != W::plan.in_loop;
+    for (std::int64_t n = last_differs ? 1 : 0; n < steps; ++n) {
+      loop<W::plan.in_loop, W::first_in_loop>(system, x);
+    }
+    if constexpr (last_differs) {
+      if (steps > 0) loop<W::plan.in_last, W::first_in_loop>(system, x);
+    }
   }
   template <class T, System S>
   void close(const S& system, flow_state<T, S::dimension>& x) const {
@@ -56,7 +64,7 @@ class prepared_word<word<L...>, C> {
   }
   template <class T, System S>
   void step(const S& system, flow_state<T, S::dimension>& x) const {
-    plain_letters<0>(system, x);
+    plain<0>(system, x);
   }
 
  private:
@@ -67,24 +75,33 @@ class prepared_word<word<L...>, C> {
     return std::tuple(W::template letter<I>::prepare(c[I], h)...);
   }
 
-  template <std::size_t I, class T, System S>
-  [[gnu::always_inline]] void loop_letters(const S& system, flow_state<T, S::dimension>& x) const {
-    using letter = typename W::template letter<I>;
-    if constexpr (letter::reads_force && !W::known_in_loop[I]) force<T>(system, x.q, x.f);
-    if constexpr (W::merges && I + 1 == W::length) {
-      letter::apply(system, seam_, x);
+  template <Flow Letter, evaluation E, class T, System S>
+  [[gnu::always_inline]] static void apply(const S& system, const auto& prepared,
+                                           flow_state<T, S::dimension>& x) {
+    if constexpr (E == evaluation::alone && requires { Letter::evaluate_and_apply(system, prepared, x); }) {
+      Letter::evaluate_and_apply(system, prepared, x);
     } else {
-      letter::apply(system, std::get<I>(letters_), x);
+      if constexpr (E != evaluation::none) force<T>(system, x.q, x.f);
+      Letter::apply(system, prepared, x);
     }
-    if constexpr (I + 1 < W::length) loop_letters<I + 1>(system, x);
+  }
+
+  template <auto Evaluations, std::size_t I, class T, System S>
+  [[gnu::always_inline]] void loop(const S& system, flow_state<T, S::dimension>& x) const {
+    using letter = typename W::template letter<I>;
+    if constexpr (W::merges && I + 1 == W::length) {
+      apply<letter, Evaluations[I]>(system, seam_, x);
+    } else {
+      apply<letter, Evaluations[I]>(system, std::get<I>(letters_), x);
+    }
+    if constexpr (I + 1 < W::length) loop<Evaluations, I + 1>(system, x);
   }
 
   template <std::size_t I, class T, System S>
-  [[gnu::always_inline]] void plain_letters(const S& system, flow_state<T, S::dimension>& x) const {
+  [[gnu::always_inline]] void plain(const S& system, flow_state<T, S::dimension>& x) const {
     using letter = typename W::template letter<I>;
-    if constexpr (letter::reads_force && !W::known_in_step[I]) force<T>(system, x.q, x.f);
-    letter::apply(system, std::get<I>(letters_), x);
-    if constexpr (I + 1 < W::length) plain_letters<I + 1>(system, x);
+    apply<letter, W::plan.in_step[I]>(system, std::get<I>(letters_), x);
+    if constexpr (I + 1 < W::length) plain<I + 1>(system, x);
   }
 
   using letters_type =
@@ -106,17 +123,20 @@ class prepared_word<run_time_word, C> {
       throw std::invalid_argument(fmt::format("the word {} has {} letters, but {} coefficients are given",
                                               w.letters(), w.length, c.size()));
     }
-    const auto prepare = [&](std::size_t i, const C& coefficient, bool evaluates) {
-      prepared_letter result{w.letters()[i], evaluates, coefficient};
-      detail::with_letter(result.letter, [&](auto flow) { result.prepared = flow.prepare(coefficient, h); });
+    const auto prepare = [&](std::size_t i, const C& coefficient, evaluation e) {
+      prepared_letter result{w.letters()[i], e, coefficient};
+      detail::with_letter(result.letter, known_letters{},
+                          [&](auto flow) { result.prepared = flow.prepare(coefficient, h); });
       return result;
     };
-    for (std::size_t i = 0; i < w.length; ++i) plain_.push_back(prepare(i, c[i], w.evaluates_in_step(i)));
+    for (std::size_t i = 0; i < w.length; ++i) plain_.push_back(prepare(i, c[i], w.plan().in_step[i]));
     for (std::size_t i = w.first_in_loop(); i < w.length; ++i) {
       const bool is_seam = merges_ && i + 1 == w.length;
-      loop_.push_back(prepare(i, is_seam ? c[i] + c[0] : c[i], w.evaluates_in_loop(i)));
+      const C coefficient = is_seam ? c[i] + c[0] : c[i];
+      loop_.push_back(prepare(i, coefficient, w.plan().in_loop[i]));
+      last_.push_back(prepare(i, coefficient, w.plan().in_last[i]));
     }
-    undo_.push_back(prepare(0, -c[0], false));
+    undo_.push_back(prepare(0, -c[0], evaluation::none));
   }
 
   const prepared_word& in_loop() const { return *this; }
@@ -124,11 +144,14 @@ class prepared_word<run_time_word, C> {
   template <class T, System S>
   void open(const S& system, flow_state<T, S::dimension>& x) const {
     if (evaluates_to_open_) force<T>(system, x.q, x.f);
-    if (merges_) apply(system, {plain_[0].letter, false, plain_[0].prepared}, x);
+    if (merges_) apply(system, {plain_[0].letter, evaluation::none, plain_[0].prepared}, x);
   }
   template <class T, System S>
-  [[gnu::always_inline]] void loop(const S& system, flow_state<T, S::dimension>& x) const {
-    for (const auto& letter : loop_) apply(system, letter, x);
+  [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x,
+                                      std::int64_t steps) const {
+    for (std::int64_t n = 1; n <= steps; ++n) {
+      for (const auto& letter : n < steps ? loop_ : last_) apply(system, letter, x);
+    }
   }
   template <class T, System S>
   void close(const S& system, flow_state<T, S::dimension>& x) const {
@@ -142,23 +165,29 @@ class prepared_word<run_time_word, C> {
  private:
   struct prepared_letter {
     char letter;
-    bool evaluates;  // the force, before it
+    evaluation evaluates;  // the force, before it
     C prepared;
   };
 
   template <class T, System S>
   [[gnu::always_inline]] static void apply(const S& system, const prepared_letter& l,
                                            flow_state<T, S::dimension>& x) {
-    if (l.evaluates) force<T>(system, x.q, x.f);
     const C prepared = l.prepared;
+    if (l.evaluates == evaluation::shared) force<T>(system, x.q, x.f);
     detail::with_letter(
-        l.letter, [&](auto flow) __attribute__((always_inline)) { flow.apply(system, prepared, x); });
+        l.letter, known_letters{}, [&](auto flow) __attribute__((always_inline)) {
+          if constexpr (requires { flow.evaluate_and_apply(system, prepared, x); }) {
+            if (l.evaluates == evaluation::alone) return flow.evaluate_and_apply(system, prepared, x);
+          }
+          flow.apply(system, prepared, x);
+        });
   }
 
   bool merges_;
   bool evaluates_to_open_;
   std::vector<prepared_letter> plain_;
   std::vector<prepared_letter> loop_;
+  std::vector<prepared_letter> last_;  // as loop_, and leaves the force where it is needed
   std::vector<prepared_letter> undo_;
 };
 

@@ -32,6 +32,11 @@ concept MentionsForceDerivative = requires {
   &S::force_derivative;
 }
 || requires(S& s, const V& q, V& g) { s.force_derivative(q, q, g); };
+template <class S, class V = vector<double, S::dimension>>
+concept MentionsKick = requires {
+  &S::kick;
+}
+|| requires(S& s, const V& q, V& p) { s.kick(q, p, 1.0); };
 template <class S>
 concept MentionsModes = requires {
   &S::modes;
@@ -69,6 +74,8 @@ constexpr void require_suited() {
                 "nysalt: a kinetic_energy(p) over double alone cannot be differentiated; make it a template");
   static_assert(HasForceDerivative<S> || !detail::MentionsForceDerivative<S>,
                 "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
+  static_assert(HasKick<S, double> || !detail::MentionsKick<S>,
+                "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");
   static_assert(HasModes<S> || !detail::MentionsModes<S>,
                 "nysalt: modes is not of the form `nysalt::normal_modes modes() const`");
   static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,

@@ -22,10 +22,10 @@ namespace nysalt {
 using known_letters = std::tuple<drift, kick>;
 
 namespace detail {
-/// f(flow) for the known flow of that letter; false if there is none.
-[[gnu::always_inline]] inline bool with_letter(char letter, auto&& f) {
-  return std::apply([&](auto... flow) { return ((flow.letter == letter && (f(flow), true)) || ...); },
-                    known_letters{});
+/// f(flow) for the flow of that letter among the given ones; false if there is none.
+template <class... L>
+[[gnu::always_inline]] inline bool with_letter(char letter, std::tuple<L...>, auto&& f) {
+  return ((L::letter == letter && (f(L{}), true)) || ...);
 }
 }  // namespace detail
 
@@ -41,10 +41,12 @@ class run_time_word {
   explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
     if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
+    std::vector<bool> reads;
+    std::vector<bool> moves;
     for (std::size_t i = 0; i < length; ++i) {
-      const bool is_known = detail::with_letter(letters_[i], [&](auto flow) {
-        reads_.push_back(flow.reads_force);
-        moves_.push_back(flow.moves_q);
+      const bool is_known = detail::with_letter(letters_[i], known_letters{}, [&](auto flow) {
+        reads.push_back(flow.reads_force);
+        moves.push_back(flow.moves_q);
         if (i == 0) additive = flow.additive;
       });
       if (!is_known) {
@@ -53,28 +55,20 @@ class run_time_word {
       }
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
-    const std::size_t first = first_in_loop();
-    known_in_step.resize(length);
-    known_in_loop.resize(length);
-    detail::track_force(reads_, moves_, known_in_step, 0, false);
-    detail::track_force_in_loop(reads_, moves_, known_in_loop, first);
-    evaluations_per_step = detail::count_evaluations(reads_, known_in_loop, first);
-    evaluations_to_open = detail::count_evaluations_to_open(reads_, moves_, known_in_loop, first);
-    evaluations_of_plain_step = detail::count_evaluations(reads_, known_in_step, 0);
+    plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
+    evaluations_per_step = plan_.count(plan_.in_loop);
+    evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
+    evaluations_of_plain_step = plan_.count(plan_.in_step);
   }
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
 
   const std::string& letters() const { return letters_; }
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
-  /// Letter i reads the force and does not find it known.
-  bool evaluates_in_loop(std::size_t i) const { return reads_[i] && !known_in_loop[i]; }
-  bool evaluates_in_step(std::size_t i) const { return reads_[i] && !known_in_step[i]; }
+  const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
   std::size_t length;
   bool merges;
-  std::vector<bool> known_in_step;
-  std::vector<bool> known_in_loop;
   int evaluations_per_step;
   int evaluations_to_open;
   int evaluations_of_plain_step;
@@ -88,8 +82,7 @@ class run_time_word {
   }
 
   std::string letters_;
-  std::vector<bool> reads_;
-  std::vector<bool> moves_;
+  detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 
 /// What a stepper takes.

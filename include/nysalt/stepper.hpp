@@ -67,8 +67,7 @@ class stepper {
     if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     decltype(auto) letters = letters_.in_loop();
-    const S& system = *system_;
-    for (std::int64_t n = 0; n < steps; ++n) letters.loop(system, x);
+    letters.advance(*system_, x, steps);
     run.state = std::move(x);
     run.step += steps;
   }
@@ -89,7 +88,8 @@ class stepper {
     std::int64_t step = run.step;
     while (step < end) {
       const std::int64_t next = std::min(end, (step / every + 1) * every);
-      for (; step < next; ++step) letters.loop(system, x);
+      letters.advance(system, x, next - step);
+      step = next;
       if (step % every != 0) continue;
       y = x;
       letters_.close(system, y);

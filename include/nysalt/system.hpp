@@ -7,6 +7,8 @@
 //   void force(const vector<double, N>& q, vector<double, N>& f) const;               a black box
 // and, if wanted,
 //   void force_derivative(q, v, g) const, all vector<double, N>;   g = f'(q) v, else central differences
+//   template <class T, class C> void kick(const vector<T, N>& q, vector<T, N>& p, const C& c) const;
+//                                          p += c force(q) without storing the force, each p[i] += f[i] * c
 //   double inverse_mass(Eigen::Index i) const;                      K = sum p_i^2 / (2 m_i), else m_i = 1
 //   template <class T> T kinetic_energy(const vector<T, N>& p) const;                 any other K(p)
 //   template <class T> void velocity(const vector<T, N>& p, vector<T, N>& v) const;   v = grad K
@@ -50,6 +52,11 @@ concept HasPotential = requires(const S& s, const vector<T, S::dimension>& q) {
 template <class S, class T>
 concept HasForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
   s.force(q, f);
+};
+template <class S, class T, class C = double>
+concept HasKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
+                           const C& c) {
+  s.kick(q, p, c);
 };
 template <class S>
 concept HasForceDerivative = requires(const S& s, const vector<double, S::dimension>& q,

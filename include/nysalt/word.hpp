@@ -13,40 +13,62 @@
 
 namespace nysalt {
 
+/// What a letter does about force(q) before it acts: nothing, as it does not read it or finds it at hand; or
+/// it evaluates it, for itself alone, so that it need not be stored, or for later letters too.
+enum class evaluation { none, alone, shared };
+
 namespace detail {
 
-/// Marks where force(q) is at hand before each letter from `first` on, and says whether it is after the last.
-/// Works on the facts of letters known at compile time and at run time alike.
-constexpr bool track_force(const auto& reads, const auto& moves, auto& known, std::size_t first, bool now) {
-  for (std::size_t i = first; i < reads.size(); ++i) {
-    known[i] = now;
-    now = (now || reads[i]) && !moves[i];
+/// The evaluations of all letters, known at compile time or at run time: an array or a vector of evaluations.
+template <class Evaluations>
+struct evaluation_plan {
+  Evaluations in_step;              // a plain step, which starts from q and p alone
+  Evaluations in_loop;              // a step of an open run, if another one follows; from letter `first` on
+  Evaluations in_last;              // the same, if the run may be looked at then
+  bool is_known_when_open = false;  // the force, whenever a run may be looked at
+
+  constexpr evaluation_plan() = default;
+  constexpr evaluation_plan(const auto& reads, const auto& moves, std::size_t first, const Evaluations& none)
+      : in_step(none), in_loop(none) {
+    find_known(reads, moves, in_step, 0, false);
+    find_needed(reads, in_step, 0, false);
+    const bool after_one_step = find_known(reads, moves, in_loop, first, false);
+    find_known(reads, moves, in_loop, first, after_one_step);
+    const bool by_next = find_needed(reads, in_loop, first, false);
+    in_last = in_loop;
+    is_known_when_open = by_next || (first > 0 && reads[0]);  // the first letter may be taken back
+    find_needed(reads, in_loop, first, by_next);
+    find_needed(reads, in_last, first, is_known_when_open);
   }
-  return now;
-}
 
-/// The same in a loop over letters first..last that has been gone round before.
-constexpr void track_force_in_loop(const auto& reads, const auto& moves, auto& known, std::size_t first) {
-  const bool after_one_step = track_force(reads, moves, known, first, false);
-  track_force(reads, moves, known, first, after_one_step);
-}
-
-constexpr int count_evaluations(const auto& reads, const auto& known, std::size_t first) {
-  int count = 0;
-  for (std::size_t i = first; i < reads.size(); ++i) count += reads[i] && !known[i];
-  return count;
-}
-
-/// Whether the loop's first reader of the force finds it known, so that opening a run must provide it.
-constexpr int count_evaluations_to_open(const auto& reads, const auto& moves, const auto& known,
-                                        std::size_t first) {
-  if (first > 0 && reads[0]) return 1;  // the first letter itself is applied then
-  for (std::size_t i = first; i < reads.size(); ++i) {
-    if (reads[i]) return known[i] ? 1 : 0;
-    if (moves[i]) return 0;  // what was known is stale before it is read
+  static constexpr int count(const Evaluations& found) {
+    int result = 0;
+    for (const evaluation e : found) result += e != evaluation::none;
+    return result;
   }
-  return 0;
-}
+
+ private:
+  /// Whoever does not find the force known evaluates it. Returns whether it is known after the last letter.
+  static constexpr bool find_known(const auto& reads, const auto& moves, Evaluations& found,
+                                   std::size_t first, bool known) {
+    for (std::size_t i = first; i < reads.size(); ++i) {
+      found[i] = reads[i] && !known ? evaluation::shared : evaluation::none;
+      known = (known || reads[i]) && !moves[i];
+    }
+    return known;
+  }
+
+  /// Who evaluates it for others, if it is needed after the last letter or not. Returns whether it is needed
+  /// before the first.
+  static constexpr bool find_needed(const auto& reads, Evaluations& found, std::size_t first, bool needed) {
+    for (std::size_t i = reads.size(); i-- > first;) {
+      if (!reads[i]) continue;
+      if (found[i] != evaluation::none) found[i] = needed ? evaluation::shared : evaluation::alone;
+      needed = found[i] == evaluation::none;
+    }
+    return needed;
+  }
+};
 
 }  // namespace detail
 
@@ -70,29 +92,14 @@ struct word {
 
   static std::string letters() { return {L::letter...}; }
 
-  static constexpr std::array<bool, length> reads{L::reads_force...};
-  static constexpr std::array<bool, length> moves{L::moves_q...};
-
-  /// force(q) is at hand before each letter of a plain step, which starts from q and p alone.
-  static constexpr std::array<bool, length> known_in_step = [] {
-    std::array<bool, length> known{};
-    detail::track_force(reads, moves, known, 0, false);
-    return known;
-  }();
-
-  /// The same before each letter of the loop, from first_in_loop on, in the steady state.
   static constexpr std::size_t first_in_loop = merges ? 1 : 0;
-  static constexpr std::array<bool, length> known_in_loop = [] {
-    std::array<bool, length> known{};
-    detail::track_force_in_loop(reads, moves, known, first_in_loop);
-    return known;
-  }();
+  static constexpr detail::evaluation_plan<std::array<evaluation, length>> plan{
+      std::array{L::reads_force...}, std::array{L::moves_q...}, first_in_loop, {}};
 
   /// Force evaluations of one step in the loop, of opening a run, and of a plain step.
-  static constexpr int evaluations_per_step = detail::count_evaluations(reads, known_in_loop, first_in_loop);
-  static constexpr int evaluations_to_open =
-      detail::count_evaluations_to_open(reads, moves, known_in_loop, first_in_loop);
-  static constexpr int evaluations_of_plain_step = detail::count_evaluations(reads, known_in_step, 0);
+  static constexpr int evaluations_per_step = plan.count(plan.in_loop);
+  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;
+  static constexpr int evaluations_of_plain_step = plan.count(plan.in_step);
 };
 
 namespace detail {

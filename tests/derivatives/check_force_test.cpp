@@ -52,6 +52,15 @@ struct twisted_box {
   void force(const vector<double, 2>& q, vector<double, 2>& f) const { twisted{twist}.force(q, f); }
 };
 
+/// A mistake: the coefficient is forgotten.
+struct kick_without_coefficient : potential_only {
+  template <class T, class C>
+  void kick(const vector<T, 2>& q, vector<T, 2>& p, const C&) const {
+    p[0] -= q[0] + q[0] * q[1] * q[1] * 2.0;
+    p[1] -= q[1] + q[0] * q[0] * q[1] * 2.0;
+  }
+};
+
 /// A black box whose potential is one, too.
 struct double_only {
   static constexpr int dimension = 2;
@@ -196,6 +205,14 @@ BOOST_AUTO_TEST_CASE(wrong_derivatives_of_right_forces_are_found) {
   }
   // The difference of a linear force errs by rounding alone: eps/cbrt(eps).
   BOOST_TEST(std::abs(check(with_derivative{1.001}).derivative_defect - 0.001 / 1.001) <= 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(kicks_that_are_not_those_of_the_force_are_found) {
+  BOOST_TEST(check(wrong_kick()).kick_defect > 1e-3);
+  BOOST_TEST(says(check(wrong_kick()), "the kick is not p += c force(q): coordinate 2"));
+  BOOST_TEST(check(kick_without_coefficient()).kick_defect > 0.1);
+  BOOST_TEST(check(an_fpu_chain::make()).kick_defect <= 4.0 * eps);
+  BOOST_TEST(check(without_kick(wrong_kick())).passed());
 }
 
 BOOST_AUTO_TEST_CASE(wrong_velocities_are_found) {

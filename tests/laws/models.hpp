@@ -18,6 +18,7 @@
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 namespace nysalt::test {
@@ -40,6 +41,7 @@ struct a_chain : within_one { static auto make() { return linear_chain::between_
 struct a_free_chain : within_one { static auto make() { return free_chain(); } };
 struct an_fpu_chain : within_a_half { static auto make() { return fpu_chain<3>(10.0); } };
 struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2, 7.0); } };
+struct a_long_fpu : within_a_half { static auto make() { return long_fpu_chain(2, 7.0); } };
 struct a_pendulum : within_one { static auto make() { return pendulum(); } };
 struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
 struct a_potential : within_one { static auto make() { return potential_only(); } };
@@ -52,9 +54,9 @@ struct a_faster_one : within_one { static auto make() { return relativistic_with
 // clang-format on
 
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
-using systems =
-    std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_pendulum, a_galaxy,
-               a_potential, a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
+using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu,
+                           a_pendulum, a_galaxy, a_potential, a_dynamic_one, a_differentiable_box,
+                           two_weights, a_fast_one, a_faster_one>;
 
 /// One of each kind, for laws about methods rather than systems.
 using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "../support/rounding.hpp"
@@ -24,6 +25,22 @@ double gradient_defect(const S& system, const vector<double, S::dimension>& q) {
   gradient<double, S::dimension>([&](const auto& x) { return system.potential(x); }, q, -1.0, g);
   const double term = norm(hessian(system, q)) * q.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff();
   return (f - g).cwiseAbs().maxCoeff() / (8.0 * static_cast<double>(q.size()) * eps * term);
+}
+
+/// kick is p += c force(q), to the bit: then a run does not depend on where the word may use it.
+template <Scalar T, Scalar C, SeparableSystem S>
+  requires HasKick<S, T, C>
+bool kick_is_force(const S& system, const phase_point<T, S::dimension>& x, const C& c) {
+  auto f = make_vector<T>(system);
+  force<T>(system, x.q, f);
+  auto expected = x.p;
+  for (Eigen::Index i = 0; i < f.size(); ++i) expected[i] += f[i] * c;
+  auto kicked = x.p;
+  system.kick(x.q, kicked, c);
+  for (Eigen::Index i = 0; i < f.size(); ++i) {
+    if (std::memcmp(&kicked[i], &expected[i], sizeof(T)) != 0) return false;
+  }
+  return true;
 }
 
 /// M^{-1/2} V''(0) M^{-1/2} = U diag(w^2) U^T with orthonormal U. An eigensolver errs by about n eps |V''|;

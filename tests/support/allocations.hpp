@@ -6,11 +6,13 @@
 
 namespace nysalt::test {
 inline std::size_t allocations = 0;
-}
+inline std::size_t allocated_bytes = 0;  // whether given back or not
+}  // namespace nysalt::test
 
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
   ++nysalt::test::allocations;
+  nysalt::test::allocated_bytes += size;
   return __libc_malloc(size);
 }

@@ -89,4 +89,20 @@ struct wrong_force : potential_only {
   }
 };
 
+/// A mistake: the kick is not that of the force. The laws of systems must find it.
+struct wrong_kick : potential_only {
+  template <class T, class C>
+  void kick(const vector<T, 2>& q, vector<T, 2>& p, const C& c) const {
+    p[0] -= (q[0] + q[0] * q[1] * q[1] * 2.0) * c;
+    p[1] -= (q[1] + q[0] * q[0] * q[1] * 2.1) * c;
+  }
+};
+
+/// A system whose own kick is not to be found.
+template <System S>
+struct without_kick : S {
+  explicit without_kick(const S& system) : S(system) {}
+  void kick() const = delete;
+};
+
 }  // namespace nysalt::test

@@ -19,23 +19,26 @@ namespace nysalt {
 /// Defects are relative to the largest entry, over all points, of what they are a defect of: of the force, of
 /// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
 struct force_check {
-  double gradient_defect = 0.0;    // of force = -grad V
-  Eigen::Index coordinate = 0;     // where that is worst, from 0
-  double derivative_defect = 0.0;  // of force_derivative, against differences of the force
-  double asymmetry = 0.0;          // of the Jacobian of the force: a gradient's is symmetric
-  double velocity_defect = 0.0;    // of velocity = grad K
+  double gradient_defect = 0.0;      // of force = -grad V
+  Eigen::Index coordinate = 0;       // where that is worst, from 0
+  double derivative_defect = 0.0;    // of force_derivative, against differences of the force
+  double kick_defect = 0.0;          // of a kick of the system's own, p += c force(q)
+  Eigen::Index kick_coordinate = 0;  // where that is worst
+  double asymmetry = 0.0;            // of the Jacobian of the force: a gradient's is symmetric
+  double velocity_defect = 0.0;      // of velocity = grad K
   Eigen::Index velocity_coordinate = 0;
   double velocity_asymmetry = 0.0;  // of the Jacobian of a velocity without a kinetic energy
   double tolerance = 0.0;           // what the derivatives used can be off by: of gradient and asymmetry
+  double kick_tolerance = 0.0;
   double derivative_tolerance = 0.0;
   double velocity_tolerance = 0.0;
   bool has_potential = false;
   bool finite = true;  // all functions and their derivatives, at all points
 
   bool passed() const {
-    return finite && gradient_defect <= tolerance && derivative_defect <= derivative_tolerance &&
-           asymmetry <= tolerance && velocity_defect <= velocity_tolerance &&
-           velocity_asymmetry <= velocity_tolerance;
+    return finite && gradient_defect <= tolerance && kick_defect <= kick_tolerance &&
+           derivative_defect <= derivative_tolerance && asymmetry <= tolerance &&
+           velocity_defect <= velocity_tolerance && velocity_asymmetry <= velocity_tolerance;
   }
   /// The first thing that is wrong, in the order in which mistakes cause others.
   std::string report() const {
@@ -47,6 +50,12 @@ struct force_check {
           "the force is not -grad V: coordinate {} is off by {:.2e} of the largest force; check its "
           "sign and formula",
           coordinate + 1, gradient_defect);
+    }
+    if (kick_defect > kick_tolerance) {
+      return fmt::format(
+          "the kick is not p += c force(q): coordinate {} is off by {:.2e} of the largest force; check its "
+          "formula, or leave it out",
+          kick_coordinate + 1, kick_defect);
     }
     if (derivative_defect > derivative_tolerance) {
       return fmt::format(
@@ -94,11 +103,11 @@ inline double asymmetry_of(const Eigen::MatrixXd& a) { return largest_entry(a - 
 
 }  // namespace detail
 
-/// Compares force with -grad V and force_derivative with differences of the force, and looks at the symmetry
-/// of f'(q), at the given points; at the same numbers as momenta compares a velocity of the system's own with
-/// grad K, or looks at the symmetry of its Jacobian. Derivatives are automatic where the system allows, else
-/// central differences. Cost: some N forces and potentials a point.
-/// Throws std::invalid_argument if there are no points or one has not the system's dimension.
+/// Compares force with -grad V, kick with force, and force_derivative with differences of the force, and
+/// looks at the symmetry of f'(q), at the given points; at the same numbers as momenta compares a velocity of
+/// the system's own with grad K, or looks at the symmetry of its Jacobian. Derivatives are automatic where
+/// the system allows, else central differences. Cost: some N forces and potentials a point. Throws
+/// std::invalid_argument if there are no points or one has not the system's dimension.
 template <SeparableSystem S>
 force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points) {
   constexpr int N = S::dimension;
@@ -118,6 +127,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
   force_check result;
   result.has_potential = HasPotential<S, double>;
   result.tolerance = BlackBoxForce<S> || !differentiable ? of_differences : of_exact;
+  result.kick_tolerance = of_exact;
   result.derivative_tolerance = of_differences;
   constexpr bool exact_velocity =
       HasKineticEnergy<S, double> ? differentiable_kinetic : differentiable_velocity;
@@ -149,6 +159,13 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
       }
       result.finite = result.finite && expected.allFinite();
       note(f - expected, result.gradient_defect, result.coordinate);
+    }
+
+    if constexpr (HasKick<S, double>) {
+      auto p = f;
+      system.kick(q, p, 0.5);
+      result.finite = result.finite && p.allFinite();
+      note(p - 1.5 * f, result.kick_defect, result.kick_coordinate);
     }
 
     const Eigen::MatrixXd slopes =
@@ -207,6 +224,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
     }
   }
   result.gradient_defect /= largest_force;
+  result.kick_defect /= largest_force;
   result.derivative_defect /= largest_slope;
   result.asymmetry /= largest_slope;
   result.velocity_defect /= largest_velocity;

@@ -22,12 +22,12 @@ class fpu_law {
   phase_point<double, fpu_chain<Pairs>::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
     using state = vector<double, fpu_chain<Pairs>::dimension>;
     phase_point<double, fpu_chain<Pairs>::dimension> start{state(2 * pairs_), state(2 * pairs_)};
+    state normals(2 * pairs_);
+    standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normals);
     const double half = std::sqrt(0.5);
     for (Eigen::Index i = 0; i < pairs_; ++i) {
-      const auto [zeta, eta] =
-          standard_normals(seed, n, static_cast<std::uint32_t>(i), noise_purpose::initial_state);
-      const double x1 = (1.0 + zeta) / omega_;
-      const double y1 = 1.0 + eta / omega_;
+      const double x1 = (1.0 + normals[2 * i]) / omega_;
+      const double y1 = 1.0 + normals[2 * i + 1] / omega_;
       start.q[2 * i] = (1.0 - x1) * half;
       start.q[2 * i + 1] = (1.0 + x1) * half;
       start.p[2 * i] = (1.0 - y1) * half;

@@ -29,11 +29,14 @@ class normal_around {
 
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     phase_point<double, N> start = centre_;
+    phase_point<double, N> normals = centre_;
+    noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
+    standard_normals(seed, at, normals.q);
+    at.slot += slots_for(static_cast<std::uint64_t>(start.size()));
+    standard_normals(seed, at, normals.p);
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      const auto [x, y] =
-          standard_normals(seed, n, static_cast<std::uint32_t>(i), noise_purpose::initial_state);
-      start.q[i] += deviation_q_ * x;
-      start.p[i] += deviation_p_ * y;
+      start.q[i] += deviation_q_ * normals.q[i];
+      start.p[i] += deviation_p_ * normals.p[i];
     }
     return start;
   }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+// The noise's own elementary functions are exact to a few roundings, and bits choose points of the plane as
+// Box and Muller ask.
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "nysalt/noises/box_muller.hpp"
+
+using namespace nysalt;
+using detail::words;
+
+namespace {
+
+static_assert(std::numeric_limits<long double>::digits > 60, "the judge must know more than the judged");
+
+constexpr double unit = 0x1p-53;  // what one rounding may do
+
+/// Largest relative error over arguments, in units: f of a pack against the judge.
+double worst(const std::vector<double>& arguments, const auto& f, const auto& judge) {
+  double result = 0.0;
+  for (const double x : arguments) {
+    const long double right = judge(static_cast<long double>(x));
+    const auto off = static_cast<double>(std::abs(f(pack<double>(x))[0] / right - 1.0L));
+    result = std::max(result, off / unit);
+  }
+  return result;
+}
+
+/// Numbers of (0, 1) of all sizes: uniform, near 0 and near 1, where log is small.
+std::vector<double> unit_interval() {
+  std::mt19937_64 draw(1);
+  std::vector<double> result = {0x1p-53, 1.0 - 0x1p-53, std::sqrt(0.5)};
+  for (int n = 0; n < 20'000; ++n) {
+    const double u = (static_cast<double>(draw() >> 12U) + 0.5) * 0x1p-52;
+    result.push_back(u);
+    result.push_back(std::ldexp(u, -(n % 52)));
+    result.push_back(1.0 - std::ldexp(u, -(n % 52) - 1));
+    result.push_back(0.7 + 0.01 * u);  // about sqrt(1/2), where two terms cancel most
+  }
+  return result;
+}
+
+/// Quarter turns from -1/2 to 1/2, of all sizes.
+std::vector<double> quarter_turns() {
+  std::mt19937_64 draw(2);
+  std::vector<double> result = {-0.5 + 0x1p-52, -0x1p-52, 0x1p-52, 0.5 - 0x1p-52};
+  for (int n = 0; n < 20'000; ++n) {
+    const double t = static_cast<double>(draw() >> 12U) * 0x1p-52 - 0.5;
+    result.push_back(t);
+    result.push_back(std::ldexp(t, -(n % 51)));
+  }
+  return result;
+}
+
+std::array<double, 2> pair_of(std::uint64_t first, std::uint64_t second) {
+  const auto pair = detail::normal_pair(detail::squared_distance(first), second);
+  return {pair[0][0], pair[1][0]};
+}
+
+}  // namespace
+
+// k log 2 and 2 artanh s are rounded 1 and 5 times (s thrice) and approximated to 2 units; at worst their sum
+// is half of the larger one, which doubles its part of the error.
+BOOST_AUTO_TEST_CASE(the_logarithm_is_exact_to_eight_roundings) {
+  const auto judge = [](long double x) { return -2.0L * std::log(x); };
+  BOOST_TEST(worst(
+                 unit_interval(), [](const auto& x) { return detail::minus_two_log(x); }, judge) <= 8.0);
+  const auto sloppy = [](const auto& x) { return detail::minus_two_log(x) * (1.0 + 16.0 * unit); };
+  BOOST_TEST(worst(unit_interval(), sloppy, judge) > 8.0);
+}
+
+// A polynomial whose terms fall quickly is rounded twice, its argument once, t * once, and approximated to 1
+// or 2 units.
+BOOST_AUTO_TEST_CASE(sine_and_cosine_are_exact_to_four_roundings) {
+  constexpr long double quarter_turn = std::numbers::pi_v<long double> / 2.0L;
+  const auto sine = [](const auto& t) { return detail::sine_and_cosine_of_quarter_turns(t).sine; };
+  const auto cosine = [](const auto& t) { return detail::sine_and_cosine_of_quarter_turns(t).cosine; };
+  const auto right_sine = [](long double t) { return std::sin(quarter_turn * t); };
+  const auto right_cosine = [](long double t) { return std::cos(quarter_turn * t); };
+  BOOST_TEST(worst(quarter_turns(), sine, right_sine) <= 4.0);
+  BOOST_TEST(worst(quarter_turns(), cosine, right_cosine) <= 4.0);
+  const auto longer = [&](const auto& t) { return sine(t * (1.0 + 16.0 * unit)); };
+  BOOST_TEST(worst(quarter_turns(), longer, right_sine) > 4.0);
+}
+
+BOOST_AUTO_TEST_CASE(distances_go_from_just_above_zero_to_their_end) {
+  const double longest = detail::squared_distance(0)[0];
+  const double shortest = detail::squared_distance(0xffffffffffffffffU)[0];
+  BOOST_TEST(std::abs(longest / (106.0 * std::numbers::ln2) - 1.0) <= 8.0 * unit);  // u = 2^-53
+  BOOST_TEST(std::abs(shortest / 0x1p-52 - 1.0) <= 8.0 * unit);                     // u = 1 - 2^-53
+  BOOST_TEST(detail::squared_distance(0xfffU)[0] == longest);                       // 12 bits are left over
+  BOOST_TEST(detail::squared_distance(0x1000U)[0] < longest);
+}
+
+BOOST_AUTO_TEST_CASE(the_lowest_bits_turn_and_reflect) {
+  std::mt19937_64 draw(3);
+  for (int n = 0; n < 100; ++n) {
+    const std::uint64_t first = draw();
+    const std::uint64_t second = draw() & ~std::uint64_t{3};
+    const auto [x, y] = pair_of(first, second);
+    BOOST_TEST(x > std::abs(y));  // the quarter around the direction of x
+    BOOST_TEST((pair_of(first, second + 1) == std::array{-x, -y}));
+    BOOST_TEST((pair_of(first, second + 2) == std::array{y, x}));
+    BOOST_TEST((pair_of(first, second + 3) == std::array{-y, -x}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_upper_bits_sweep_the_quarter_evenly) {
+  constexpr int parts = 1000;
+  for (std::uint64_t n = 0; n < parts; ++n) {
+    const double share = (static_cast<double>(n) + 0.5) / parts;
+    const auto [x, y] = pair_of(1, static_cast<std::uint64_t>(share * 0x1p64));
+    const double angle = std::atan2(y, x) / (std::numbers::pi / 2.0);  // in quarter turns
+    BOOST_TEST(std::abs(angle - (share - 0.5)) <= 8.0 * unit);  // two numbers of 4 units each, and atan2
+  }
+  const auto [x, y] = pair_of(1, std::uint64_t{1} << 63U);  // the middle
+  BOOST_TEST(y > 0.0);
+  BOOST_TEST(y / x <= 0x1p-51);
+}

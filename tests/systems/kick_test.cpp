@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSL-1.0
+// A system's own kick is that of its force, and is used where the force is not needed again.
+#include <boost/test/unit_test.hpp>
+
+#include "../laws/models.hpp"
+#include "../laws/run_laws.hpp"
+#include "../laws/system_laws.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/scalars/pack.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// x in the first lane, or with derivatives along the first coordinate, and other numbers elsewhere.
+template <Scalar T, int N>
+phase_point<T, N> dressed(const phase_point<double, N>& x) {
+  auto y = x.template cast<T>();
+  if constexpr (is_pack<T>) {
+    for (int lane = 1; lane < T::lanes; ++lane) {
+      for (Eigen::Index i = 0; i < x.size(); ++i) y.q[i].set(lane, x.q[i] + 0.1 * lane);
+    }
+  } else if constexpr (is_dual<T>) {
+    y.q[0].derivative[0] = 1.0;
+  }
+  return y;
+}
+
+template <System S>
+bool kick_is_force_over_all(const S& system, const phase_point<double, S::dimension>& x) {
+  using D = dual<double, 1>;
+  return kick_is_force(system, x, 0.3) && kick_is_force(system, dressed<D>(x), 0.3) &&
+         kick_is_force(system, dressed<D>(x), D::variable(0.3, 0)) &&
+         kick_is_force(system, dressed<pack<double, 8>>(x), 0.3);
+}
+
+/// What a kick of its own could change: a run, stopped and gone on with, and a plain step.
+template <Method M, SeparableSystem S>
+bool runs_alike(const S& system, const M& method, double step, const phase_point<double, S::dimension>& x) {
+  const without_kick<S> other(system);
+  auto y = x;
+  auto z = x;
+  make_stepper(system, method, step).step(y);
+  make_stepper(other, method, step).step(z);
+  return same_bits(y, z) &&
+         same_bits(cut_finish(system, method, step, x, 50, 20), integrate(other, method, step, x, 50).finish);
+}
+
+using with_kick = std::tuple<an_fpu_chain, a_dynamic_fpu, a_long_fpu>;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_kick_is_that_of_the_force, Model, systems) {
+  const auto system = Model::make();
+  using S = system_of<Model>;
+  if constexpr (HasKick<S, double>) {
+    draws random;
+    for (int n = 0; n < 20; ++n) {
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system) << ", draw " << n) {
+        BOOST_TEST(kick_is_force_over_all(system, random.state(system, 1.0)));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_kick_is_found) {
+  draws random;
+  const wrong_kick system;
+  const auto x = random.state(system, 1.0);
+  BOOST_TEST(!kick_is_force(system, x, 0.3));
+  BOOST_TEST(!runs_alike(system, verlet(), 0.1, x));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(runs_do_not_depend_on_it, M, methods) {
+  draws random;
+  for_each<with_kick>([&]<class Model>() {
+    const auto system = Model::make();
+    const auto method = any_method<M>(random);
+    const auto x = random.state(system, Model::reach);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)) {
+      BOOST_TEST(runs_alike(system, method, 0.01, x));
+      BOOST_TEST(runs_alike(system, tabulated(method), 0.01, x));
+    }
+  });
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(it_counts_as_an_evaluation, Model, with_kick) {
+  draws random;
+  const auto system = Model::make();
+  const auto x = random.state(system, Model::reach);
+  const auto counts = [&](const auto& method, int to_open, int per_step, int plain) {
+    using word = typename std::decay_t<decltype(method)>::word;
+    static_assert(HasKick<counted<system_of<Model>>, double>);
+    BOOST_TEST(evaluations_of_run(system, method, 0.01, x, 10) == to_open + 10 * per_step);
+    BOOST_TEST(evaluations_of_run(system, tabulated(method), 0.01, x, 10) == to_open + 10 * per_step);
+    BOOST_TEST(evaluations_of_step(system, method, 0.01, x) == plain);
+    BOOST_TEST(word::evaluations_per_step == per_step);
+  };
+  counts(verlet(), 1, 1, 2);
+  counts(verlet_aba(), 0, 1, 1);
+  counts(srkn6b(), 1, 6, 7);
+}
