@@ -53,11 +53,36 @@ template <class S, class T>
 concept HasForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
   s.force(q, f);
 };
+
+namespace detail {
+/// The class in which a member function is written.
+template <class M>
+struct written_in;
+template <class R, class X, class... A>
+struct written_in<R (X::*)(A...) const> {
+  using type = X;
+};
+template <class S, class T>
+struct force_of;
+template <class S, class T>
+  requires requires { typename written_in<decltype(&S::force)>::type; }
+struct force_of<S, T> : written_in<decltype(&S::force)> {};
+template <class S, class T>
+  requires requires { typename written_in<decltype(&S::template force<T>)>::type; }
+struct force_of<S, T> : written_in<decltype(&S::template force<T>)> {};
+
+/// Whoever derives from a system and writes another force inherits a kick that is not of that force.
+template <class S, class T, class C>
+concept KickOfAnotherForce = !std::same_as<typename force_of<S, T>::type,
+                                           typename written_in<decltype(&S::template kick<T, C>)>::type>;
+}  // namespace detail
+
 template <class S, class T, class C = double>
 concept HasKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
                            const C& c) {
   s.kick(q, p, c);
-};
+}
+&&!detail::KickOfAnotherForce<S, T, C>;
 template <class S>
 concept HasForceDerivative = requires(const S& s, const vector<double, S::dimension>& q,
                                       const vector<double, S::dimension>& v,

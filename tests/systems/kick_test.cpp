@@ -13,6 +13,26 @@ using namespace nysalt::test;
 
 namespace {
 
+/// A chain with another force, whose inherited kick is not of that force.
+struct softer : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  template <class T>
+  void force(const vector<T, 6>& q, vector<T, 6>& f) const {
+    fpu_chain<3>::force(q, f);
+    for (auto& entry : f) entry = entry * 0.5;
+  }
+};
+struct softer_for_double : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  void force(const vector<double, 6>& q, vector<double, 6>& f) const { f = -q; }
+};
+struct renamed : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+};
+static_assert(HasKick<fpu_chain<3>, double> && HasKick<renamed, double> && HasKick<counted<renamed>, double>);
+static_assert(!HasKick<softer, double> && !HasKick<softer_for_double, double>);
+static_assert(!HasKick<counted<softer>, double>);
+
 /// x in the first lane, or with derivatives along the first coordinate, and other numbers elsewhere.
 template <Scalar T, int N>
 phase_point<T, N> dressed(const phase_point<double, N>& x) {
