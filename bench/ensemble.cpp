@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,9 +27,9 @@ constexpr double omega = 50.0;
 constexpr double h = 0.01;
 constexpr std::int64_t steps = 1000;
 constexpr std::size_t blocks = 8;
+constexpr std::size_t trajectories = blocks * default_lanes;
 /// Trajectories that differ by rounding part slowly; after 1000 steps another scheme is 1e-3 away and more.
 constexpr double rounding = 1e-9;
-constexpr std::size_t trajectories = blocks * default_lanes;
 
 const fpu_chain<3> chain(omega);
 const member<nystrom> method({0.5, 0.4});

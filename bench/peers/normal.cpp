@@ -9,7 +9,7 @@ namespace nysalt::bench {
 
 namespace {
 
-/// A counter and a hash of it [steele_lea_flood_2014, figure 15].
+/// A counter and a hash of it [steele_lea_flood_2014], with the constants of Java's SplittableRandom.
 class splitmix {
  public:
   using result_type = std::uint64_t;
