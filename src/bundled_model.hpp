@@ -148,15 +148,22 @@ class bundled_model final : public bundled_system {
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
     const auto stepper = make_stepper(system_, method, plan.step);
+    // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
+    const bool singly = plan.count < lanes / 4 || size(system_) > 1000;
+    const int width = singly ? 1 : lanes;
     // In memory at a time: a million numbers, or a few blocks of long trajectories.
     const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
-    const std::int64_t blocks = std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / lanes);
-    for (std::int64_t first = 0; first < plan.count; first += blocks * lanes) {
-      std::vector<record> records(static_cast<std::size_t>(std::min(blocks * lanes, plan.count - first)));
-      for_each_block(std::ssize(records), lanes, plan.threads, [&](std::int64_t i, int count) {
-        const auto of_block = std::span(records).subspan(static_cast<std::size_t>(i));
-        follow(stepper, plan, observables, sample_every, first + i,
-               of_block.first(static_cast<std::size_t>(count)));
+    const std::int64_t blocks = std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / width);
+    for (std::int64_t first = 0; first < plan.count; first += blocks * width) {
+      std::vector<record> records(static_cast<std::size_t>(std::min(blocks * width, plan.count - first)));
+      for_each_block(std::ssize(records), width, plan.threads, [&](std::int64_t i, int count) {
+        const auto of_block =
+            std::span(records).subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(count));
+        if (singly) {
+          follow<double>(stepper, plan, observables, sample_every, first + i, of_block);
+        } else {
+          follow<T>(stepper, plan, observables, sample_every, first + i, of_block);
+        }
       });
       for (std::int64_t i = 0; i < std::ssize(records); ++i) {
         take(first + i, records[static_cast<std::size_t>(i)]);
@@ -172,7 +179,8 @@ class bundled_model final : public bundled_system {
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
     std::vector<lanes_state> starts;
     for (std::int64_t m = 0; m < plan.count; m += lanes) {
-      starts.push_back(starts_of(plan, m, static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m))));
+      starts.push_back(
+          starts_of<T>(plan, m, static_cast<int>(std::min<std::int64_t>(lanes, plan.count - m))));
     }
     const auto stepper = make_stepper(system_, method, plan.step);
     return [stepper, starts = std::move(starts), steps = plan.steps] {
@@ -187,34 +195,36 @@ class bundled_model final : public bundled_system {
  private:
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
 
-  /// One trajectory in each lane.
-  lanes_state starts_of(const trajectories_plan& plan, std::int64_t first, int count) const {
-    return gather<T, S::dimension>(
+  /// Starts of consecutive trajectories, one in each lane of P.
+  template <class P>
+  phase_point<P, S::dimension> starts_of(const trajectories_plan& plan, std::int64_t first, int count) const {
+    return gather<P, S::dimension>(
         count, [&](int k) { return law_(plan.seed, static_cast<std::uint64_t>(first + k)); });
   }
 
   /// The records of a block of trajectories.
-  template <class Stepper>
+  template <class P, class Stepper>
   void follow(const Stepper& stepper, const trajectories_plan& plan,
               const std::vector<std::string>& observables, std::int64_t sample_every, std::int64_t first,
               std::span<record> records) const {
-    std::vector<std::function<T(const lanes_state&)>> watched;
-    for (const auto& name : observables) watched.push_back(observable<T>(system_, name));
-    const auto read = [&](const lanes_state& x, std::span<T> values) {
+    using states = phase_point<P, S::dimension>;
+    std::vector<std::function<P(const states&)>> watched;
+    for (const auto& name : observables) watched.push_back(observable<P>(system_, name));
+    const auto read = [&](const states& x, std::span<P> values) {
       for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
     };
-    const auto keep = [&](std::int64_t, std::span<const T> values, const auto& live) {
+    const auto keep = [&](std::int64_t, std::span<const P> values, const auto& live) {
       for (std::size_t k = 0; k < records.size(); ++k) {
         if (!lane(live, static_cast<int>(k))) continue;
-        for (const T& value : values) records[k].values.push_back(lane(value, static_cast<int>(k)));
+        for (const P& value : values) records[k].values.push_back(lane(value, static_cast<int>(k)));
       }
     };
     const int count = static_cast<int>(records.size());
-    const auto start = starts_of(plan, first, count);
-    std::vector<T> at_start(watched.size());
+    const auto start = starts_of<P>(plan, first, count);
+    std::vector<P> at_start(watched.size());
     read(start, at_start);
-    keep(0, at_start, first_lanes<T>(count));
-    lockstep<Stepper, T> all(stepper, start, count);
+    keep(0, at_start, first_lanes<P>(count));
+    lockstep<Stepper, P> all(stepper, start, count);
     all.go_on(plan.steps, sample_every, watched.size(), read, keep);
     for (std::size_t k = 0; k < records.size(); ++k) {
       records[k].diverged_at = all.diverged_at(static_cast<int>(k));

@@ -25,6 +25,7 @@ struct learn_options {
   parameters_of<F> start = F::start();
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
   int max_iterations = 200;
+  int threads = 1;  // changes no bit of what is learned
 };
 
 template <Family F>
@@ -35,16 +36,29 @@ struct learned {
 
 namespace detail {
 
+/// Within the open ranges: beyond them the coefficients are not defined.
+template <Family F>
+bool is_defined(const Eigen::VectorXd& theta) {
+  const auto ranges = F::ranges();
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
+  }
+  return true;
+}
+
 /// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
 /// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
 /// counts less by that part. Without this the standard errors are two to three times too small.
 template <class Loss, int N>
 std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, const theta_of<Loss>& theta) {
-  auto result = block_gradients(loss, theta);
-  const Eigen::MatrixXd by_coordinate = coordinate_gradients(loss, theta, measure.residuals());
-  for (std::size_t m = 0; m < result.size(); ++m) {
-    for (Eigen::Index k = 0; k < measure.residuals(); ++k) {
-      result[m] -= by_coordinate.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
+  const auto by_trajectory = coordinate_gradients(loss, theta);
+  const Eigen::MatrixXd sum = tree_sum(by_trajectory);
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
+    result.push_back(Eigen::VectorXd::Zero(sum.rows()));
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+      result[m] += by_trajectory[m].col(k);
+      result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
     }
   }
   return result;
@@ -71,10 +85,10 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
 /// search; where it ends beyond one, that parameter is held there and the others are fitted again.
 ///
 /// Throws std::invalid_argument if the data are of another system, of two steps or not finite, or if the
-/// coordinates, the start, a fixed value or max_iterations cannot be. A fit that cannot be trusted is
-/// returned with usable = false. Cost: some 20 to 80 passes over the data, each a plain step with derivatives
-/// a pair.
-template <Family F, SeparableSystem S>
+/// coordinates, the start, a fixed value, max_iterations or threads cannot be. A fit that cannot be trusted
+/// is returned with usable = false. Cost: some 20 to 80 passes over the data, each a plain step with
+/// derivatives a pair; R carries the pairs, and changes no bit. Memory: another copy of the data.
+template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<F, S>>
 learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& data,
                  const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
   const auto began = std::chrono::steady_clock::now();
@@ -93,11 +107,10 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = options.fixed[k].value_or(theta[k]);
   require_in_range<F>(theta);
 
-  const counted<S> watched(system);
   const metric<S::dimension> measure(system, data, options.coordinates);
-  const one_step<F, counted<S>> loss(watched, data, measure);
-  const one_step<F, counted<S>> held_out_loss(watched, held_out, measure);
-  const auto held_out_at_start = block_losses(held_out_loss, theta);
+  const one_step<F, S, R> loss(system, data, measure, options.threads);
+  const one_step<F, S, R> held_out_loss(system, held_out, measure, options.threads);
+  const auto held_out_at_start = trajectory_losses(held_out_loss, theta);
 
   std::vector<Eigen::Index> free;
   for (std::size_t k = 0; k < theta.size(); ++k) {
@@ -105,10 +118,14 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   }
   fit_summary fit;
   bool converged = false;
+  Eigen::MatrixXd hessian;
   for (bool inside = false; !inside;) {
-    const auto found = minimise(loss, theta, free, options.max_iterations);
-    theta = found.theta;
+    const auto found =
+        minimise(objective_of(loss), detail::is_defined<F>, column_of(theta), free, options.max_iterations);
+    theta = array_of<parameters_of<F>{}.size()>(found.theta);
     converged = found.converged;
+    fit.loss = found.loss;
+    hessian = found.hessian;
     fit.iterations += found.iterations;
     inside = 0 == std::erase_if(free, [&](Eigen::Index index) {
                constexpr double met =
@@ -121,7 +138,7 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
              });
   }
 
-  const curvature bend(hessian(loss, theta), free);
+  const curvature bend(hessian, free);
   const Eigen::VectorXd errors = bend.standard_errors(detail::scores(loss, measure, theta));
   fit.family = F::name;
   fit.system = data.system;
@@ -142,10 +159,10 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
     fit.parameters.push_back(
         {std::string(F::parameter_names[k]), theta[k], is_free ? errors[index] : 0.0, is_free});
   }
-  fit.loss = loss_value(loss, theta);
-  fit.held_out_loss = loss_value(held_out_loss, theta);
+  const auto held_out_at_end = trajectory_losses(held_out_loss, theta);
+  fit.held_out_loss = tree_sum(held_out_at_end);
   fit.held_out_start_loss = tree_sum(held_out_at_start);
-  fit.held_out_noise = detail::noise_of_difference(block_losses(held_out_loss, theta), held_out_at_start);
+  fit.held_out_noise = detail::noise_of_difference(held_out_at_end, held_out_at_start);
   fit.samples = data.pairs();
   fit.trajectories = data.trajectories();
   fit.held_out_samples = held_out.pairs();
@@ -156,7 +173,8 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   fit.reference_checked = !data.finer.empty();
   if (fit.reference_checked) fit.reference_error = detail::error_of_reference(data, measure);
   fit.data_seconds = data.seconds + held_out.seconds;
-  fit.learning_evaluations = data.evaluations + held_out.evaluations + watched.evaluations;
+  fit.learning_evaluations =
+      data.evaluations + held_out.evaluations + loss.evaluations() + held_out_loss.evaluations();
   fit.reason = detail::objection<F>(system, fit, theta, converged);
   fit.usable = fit.reason.empty();
   fit.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

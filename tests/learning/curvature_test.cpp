@@ -6,6 +6,7 @@
 
 #include "../laws/models.hpp"
 #include "../support/rounding.hpp"
+#include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/losses/one_step.hpp"
@@ -17,7 +18,7 @@ using namespace nysalt::test;
 namespace {
 
 /// Second derivatives without differences: dual numbers of dual numbers.
-Eigen::Matrix2d exact_hessian(const auto& loss, const parameters_of<nystrom>& theta) {
+Eigen::Matrix2d exact_hessian(const auto& pairs, const parameters_of<nystrom>& theta) {
   using inner = dual<double, 2>;
   using outer = dual<inner, 2>;
   std::array<outer, 2> lifted;
@@ -26,11 +27,8 @@ Eigen::Matrix2d exact_hessian(const auto& loss, const parameters_of<nystrom>& th
     lifted[i] = outer::variable(inner::variable(theta[i], k), k);
   }
   outer sum(0.0);
-  std::vector<outer> r;
-  for (std::size_t block = 0; block < loss.blocks(); ++block) {
-    r.resize(loss.residuals(block));
-    loss.template evaluate<outer>(block, lifted, r.data());
-    for (const auto& x : r) sum += x * x;
+  for (std::size_t pair = 0; pair < pairs.pairs(); ++pair) {
+    for (const outer& r : pairs.at(pair, lifted)) sum += r * r * (1.0 / static_cast<double>(pairs.pairs()));
   }
   Eigen::Matrix2d result;
   for (int i = 0; i < 2; ++i) {
@@ -64,13 +62,14 @@ BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
                                        {.step = 0.4, .horizon = 2.0, .trajectories = 7});
   const metric<2> measure(system, data, coordinates::qp);
   const one_step<nystrom, henon_heiles> loss(system, data, measure);
+  const sample_blocks<nystrom, henon_heiles> pairs(system, data, measure);
   draws random;
   for (int n = 0; n < 5; ++n) {
     const auto theta = random_theta<nystrom>(random);
-    const auto exact = exact_hessian(loss, theta);
+    const auto exact = exact_hessian(pairs, theta);
     // The differences of step s are off by s^2/6 times the fourth derivatives, whose size we take from the
     // exact Hessian nearby, and by the rounding of gradients over s.
-    constexpr double s = 1e-4;
+    constexpr double s = 1e-5;
     constexpr double t = 1e-2;
     double fourth = 0.0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -79,9 +78,9 @@ BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
       ahead[k] += t;
       behind[k] -= t;
       fourth = std::max(
-          fourth, norm(exact_hessian(loss, ahead) - 2.0 * exact + exact_hessian(loss, behind)) / (t * t));
+          fourth, norm(exact_hessian(pairs, ahead) - 2.0 * exact + exact_hessian(pairs, behind)) / (t * t));
     }
-    const double rounding = 100.0 * eps * sum_of_sizes(block_gradients(loss, theta)) / s;
+    const double rounding = 100.0 * eps * sum_of_sizes(trajectory_gradients(loss, theta)) / s;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
       const double error = norm(hessian(loss, theta) - exact);
       BOOST_TEST(error <= 2.0 * s * s / 6.0 * fourth + rounding);

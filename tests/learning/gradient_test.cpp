@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_papers_trajectory_by_trajectory) {
   draws random;
   for (int n = 0; n < 10; ++n) {
     const auto theta = random_theta<nystrom>(random);
-    const auto ours = block_gradients(loss, theta);
+    const auto ours = trajectory_gradients(loss, theta);
     const auto theirs = gradient_by_hand(data, theta[0], theta[1]);
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
       BOOST_TEST(ours.size() == 7U);
@@ -119,8 +119,8 @@ BOOST_AUTO_TEST_CASE(parts_by_trajectory_and_by_coordinate_have_the_same_sum) {
   const metric<2> measure(system, data, coordinates::qp);
   const one_step<nystrom, S> loss(system, data, measure);
   const parameters_of<nystrom> theta{0.4, 0.35};
-  const Eigen::VectorXd by_trajectory = loss_gradient(loss, theta);
-  const auto by_coordinate = coordinate_gradients(loss, theta, 4);
+  const Eigen::VectorXd by_trajectory = squares_at(loss, theta).gradient();
+  const auto by_coordinate = tree_sum(coordinate_gradients(loss, theta));
   BOOST_TEST(by_coordinate.cols() == 4);
   // 140 terms are added in another order.
   const double rounding = 140.0 * eps * by_coordinate.cwiseAbs().sum();
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   draws random;
   for (int n = 0; n < 5; ++n) {
     const auto theta = random_theta<nystrom>(random);
-    const Eigen::VectorXd ours = loss_gradient(loss, theta);
+    const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
     for (std::size_t k = 0; k < 2; ++k) {
       const auto difference = [&](double s) {
         auto ahead = theta;

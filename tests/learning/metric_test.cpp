@@ -16,8 +16,8 @@ using namespace nysalt::test;
 
 namespace {
 
-constexpr int any = Eigen::Dynamic;
-using point = phase_point<double, any>;
+constexpr int dynamic = Eigen::Dynamic;
+using point = phase_point<double, dynamic>;
 
 /// Two masses, 1 and 4, on three springs.
 linear_chain two_weights_on_springs() {
@@ -25,14 +25,14 @@ linear_chain two_weights_on_springs() {
   stiffness << 3.0, -1.0, -1.0, 2.0;
   return linear_chain(stiffness, Eigen::Vector2d(1.0, 4.0));
 }
-flow_map_data<any> data_of(const linear_chain& chain) {
+flow_map_data<dynamic> data_of(const linear_chain& chain) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(chain.size());
-  const normal_around<any> starts({zero, zero}, 0.3, 0.7);
+  const normal_around<dynamic> starts({zero, zero}, 0.3, 0.7);
   return make_flow_map_data(chain, starts, exact_linear(chain),
                             {.step = 0.3, .horizon = 1.5, .trajectories = 9});
 }
 /// Row n: the residuals of the increment of pair n.
-Eigen::MatrixXd increments(const metric<any>& measure, const flow_map_data<any>& data) {
+Eigen::MatrixXd increments(const metric<dynamic>& measure, const flow_map_data<dynamic>& data) {
   Eigen::MatrixXd result(measure.residuals(), static_cast<Eigen::Index>(data.pairs()));
   for (std::size_t n = 0; n < data.pairs(); ++n) {
     measure.residual(data.finish[n].q, data.finish[n].p, data.start[n], result.col(Eigen::Index(n)).data());
@@ -49,14 +49,14 @@ BOOST_AUTO_TEST_CASE(each_coordinate_is_measured_in_its_mean_square_increment) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
   for (const auto which : {coordinates::qp, coordinates::modes}) {
-    const metric<any> measure(chain, data, which);
+    const metric<dynamic> measure(chain, data, which);
     const Eigen::VectorXd mean_squares =
         increments(measure, data).rowwise().squaredNorm() / double(data.pairs());
     BOOST_TEST(mean_squares.size() == 4);
     // 45 squares are added, twice.
     BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() <= 2 * 45 * eps);
   }
-  const metric<any> by_energy(chain, data, coordinates::energy);
+  const metric<dynamic> by_energy(chain, data, coordinates::energy);
   const Eigen::VectorXd mean_squares =
       increments(by_energy, data).rowwise().squaredNorm() / double(data.pairs());
   BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() > 1e-3);  // one weight for all
@@ -66,11 +66,11 @@ BOOST_AUTO_TEST_CASE(each_coordinate_is_measured_in_its_mean_square_increment) {
 BOOST_AUTO_TEST_CASE(the_energy_coordinates_are_the_energy_norm) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
-  const metric<any> by_energy(chain, data, coordinates::energy);
-  const metric<any> by_modes(chain, data, coordinates::modes);
+  const metric<dynamic> by_energy(chain, data, coordinates::energy);
+  const metric<dynamic> by_modes(chain, data, coordinates::modes);
   draws random;
   Eigen::Vector4d r;
-  const auto ratio = [&](const metric<any>& measure) {
+  const auto ratio = [&](const metric<dynamic>& measure) {
     const auto a = random.state(chain, 1.0);
     const auto b = random.state(chain, 1.0);
     measure.residual(a.q, a.p, b, r.data());
@@ -88,14 +88,14 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_left_out) {
   Eigen::Matrix2d stiffness;
   stiffness << 2.0, 0.0, 0.0, 0.0;
   const linear_chain chain(stiffness);  // the second mass is free, and at rest
-  const listed<any> starts({{Eigen::Vector2d(0.3, 1.0), Eigen::Vector2d(0.2, 0.0)}});
+  const listed<dynamic> starts({{Eigen::Vector2d(0.3, 1.0), Eigen::Vector2d(0.2, 0.0)}});
   const auto data = make_flow_map_data(chain, starts, exact_linear(chain), {.step = 0.3, .trajectories = 1});
-  const metric<any> measure(chain, data, coordinates::qp);
+  const metric<dynamic> measure(chain, data, coordinates::qp);
   BOOST_TEST(measure.residuals() == 2);
   BOOST_TEST(measure.dropped() == (std::vector<std::string>{"q2", "p2"}), boost::test_tools::per_element());
-  const metric<any> by_modes(chain, data, coordinates::modes);
+  const metric<dynamic> by_modes(chain, data, coordinates::modes);
   BOOST_TEST(by_modes.dropped() == (std::vector<std::string>{"x1", "y1"}), boost::test_tools::per_element());
-  BOOST_TEST(metric<any>(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp)
+  BOOST_TEST(metric<dynamic>(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp)
                  .dropped()
                  .empty());
 }
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_left_out) {
 BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
-  const metric<any> measure(chain, data, coordinates::qp);
+  const metric<dynamic> measure(chain, data, coordinates::qp);
   const auto deviations = measure.weight_deviations();
   BOOST_TEST(deviations.rows() == 4);
   BOOST_TEST(deviations.cols() == 9);
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights
     twice.finish.push_back(data.finish[n]);
   }
   twice.first_of.push_back(twice.pairs());
-  const metric<any> heavier(chain, twice, coordinates::qp);
+  const metric<dynamic> heavier(chain, twice, coordinates::qp);
   const double share = 1.0 / 9.0;
   const Eigen::MatrixXd before = increments(measure, data);
   const Eigen::MatrixXd after = increments(heavier, data);
@@ -154,12 +154,12 @@ BOOST_AUTO_TEST_CASE(motion_below_rounding_is_none) {
   // Three masses that swing in their first mode: the others move by rounding, and would weigh 1e15.
   const auto three = linear_chain::between_walls(3, 1.0);
   const normal_modes modes = three.modes();
-  const listed<any> starts({{modes.basis.col(0), Eigen::VectorXd::Zero(3)}});
+  const listed<dynamic> starts({{modes.basis.col(0), Eigen::VectorXd::Zero(3)}});
   const auto data = make_flow_map_data(three, starts, exact_linear(three),
                                        {.step = 0.3, .horizon = 3.0, .trajectories = 1});
-  const metric<any> measure(three, data, coordinates::modes);
+  const metric<dynamic> measure(three, data, coordinates::modes);
   BOOST_TEST(measure.residuals() == 2);
   BOOST_TEST(measure.dropped() == (std::vector<std::string>{"x2", "x3", "y2", "y3"}),
              boost::test_tools::per_element());
-  BOOST_TEST(metric<any>(three, data, coordinates::qp).residuals() == 6);  // there all move
+  BOOST_TEST(metric<dynamic>(three, data, coordinates::qp).residuals() == 6);  // there all move
 }

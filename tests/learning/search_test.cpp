@@ -73,7 +73,7 @@ double remaining_step(const data_sets& sets, const parameters_of<nystrom>& theta
   const metric<2> measure(galaxy, sets.data, coordinates::qp);
   const one_step<nystrom, S> loss(galaxy, sets.data, measure);
   const curvature bend(nysalt::hessian(loss, theta), {free});
-  return std::abs(bend.solve(loss_gradient(loss, theta))[free]);
+  return std::abs(bend.solve(squares_at(loss, theta).gradient())[free]);
 }
 
 }  // namespace

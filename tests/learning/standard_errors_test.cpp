@@ -29,7 +29,7 @@ flow_map_data<6> data_of(std::int64_t trajectories, std::uint64_t seed) {
 Eigen::VectorXd errors_without_weights(const flow_map_data<6>& data, const parameters_of<nystrom>& theta) {
   const metric<6> measure(chain, data, coordinates::qp);
   const one_step<nystrom, fpu_chain<3>> loss(chain, data, measure);
-  return curvature(hessian(loss, theta), {0, 1}).standard_errors(block_gradients(loss, theta));
+  return curvature(hessian(loss, theta), {0, 1}).standard_errors(trajectory_gradients(loss, theta));
 }
 
 /// Fits to data of different seeds.

@@ -19,7 +19,7 @@ using namespace nysalt::test;
 namespace {
 
 using wrong = std::invalid_argument;
-constexpr int any = Eigen::Dynamic;
+constexpr int dynamic = Eigen::Dynamic;
 const fpu_chain<3> chain(50.0);
 const linear_chain oscillator(Eigen::MatrixXd::Constant(1, 1, 4.0));  // frequency 2
 
@@ -27,13 +27,13 @@ flow_map_data<6> of_chain(const auto& reference, double step, std::uint64_t seed
   return make_flow_map_data(chain, fpu_law<3>(chain), reference,
                             {.step = step, .horizon = 20.0 * step, .trajectories = 50, .seed = seed});
 }
-flow_map_data<any> of_oscillator(double step, const auto& reference) {
+flow_map_data<dynamic> of_oscillator(double step, const auto& reference) {
   const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
-  const listed<any> two_states({{number(0.5), number(0.0)}, {number(0.0), number(1.0)}});
+  const listed<dynamic> two_states({{number(0.5), number(0.0)}, {number(0.0), number(1.0)}});
   return make_flow_map_data(oscillator, two_states, reference,
                             {.step = step, .horizon = step, .trajectories = 2});
 }
-flow_map_data<any> of_oscillator(double step) { return of_oscillator(step, exact_linear(oscillator)); }
+flow_map_data<dynamic> of_oscillator(double step) { return of_oscillator(step, exact_linear(oscillator)); }
 learned<nystrom> fit_oscillator(double step, const learn_options<nystrom>& options = {}) {
   const auto data = of_oscillator(step);
   return learn(nystrom{}, oscillator, data, data, options);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_was_not_checked_is_said_so) {
 }
 
 BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_flagged) {
-  const phase_point<double, any> start{Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+  const phase_point<double, dynamic> start{Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
   const auto diverges = [&](const learned<nystrom>& fit) {
     return integrate(oscillator, fit.method, fit.method.step(), start, 10000).diverged_at.has_value();
   };
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
 
 BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
   const linear_chain with_a_free_mass(Eigen::Vector2d(4.0, 0.0).asDiagonal());
-  const listed<any> starts({{Eigen::Vector2d(0.5, 1.0), Eigen::Vector2d(0.0, 0.0)},
-                            {Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(1.0, 0.0)}});
+  const listed<dynamic> starts({{Eigen::Vector2d(0.5, 1.0), Eigen::Vector2d(0.0, 0.0)},
+                                {Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(1.0, 0.0)}});
   const auto data = make_flow_map_data(with_a_free_mass, starts, exact_linear(with_a_free_mass),
                                        {.step = 0.5, .horizon = 0.5, .trajectories = 2});
   const auto fit = learn(nystrom{}, with_a_free_mass, data, data);
@@ -183,8 +183,8 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   const auto data = of_oscillator(0.5);
-  const auto refused = [&](const linear_chain& system, const flow_map_data<any>& training,
-                           const flow_map_data<any>& held_out, const learn_options<nystrom>& options,
+  const auto refused = [&](const linear_chain& system, const flow_map_data<dynamic>& training,
+                           const flow_map_data<dynamic>& held_out, const learn_options<nystrom>& options,
                            std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { learn(nystrom{}, system, training, held_out, options); }, words);
   };
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   BOOST_TEST(refused(oscillator, data, data, {.start = {0.5, 0.6}}, {"beta1", "[0, 0.5]", "0.6"}));
   BOOST_TEST(refused(oscillator, data, data, {.fixed = {std::nullopt, -0.1}}, {"beta1", "-0.1"}));
   BOOST_TEST(refused(oscillator, data, data, {.max_iterations = -3}, {"max_iterations", "-3"}));
-  const listed<any> at_rest({{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}});
+  const listed<dynamic> at_rest({{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}});
   const auto nothing =
       make_flow_map_data(oscillator, at_rest, exact_linear(oscillator), {.step = 0.5, .trajectories = 1});
   BOOST_TEST(refused(oscillator, nothing, nothing, {}, {"nothing moves"}));

@@ -1,106 +1,41 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss around a point: its value, gradient and Hessian, and the uncertainty of a minimum.
+// The Hessian of a loss, and the uncertainty of a minimum that follows from it.
 #pragma once
 
 #include <Eigen/Eigenvalues>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "nysalt/scalars/dual.hpp"
+#include "nysalt/learning/squares.hpp"
 #include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
-template <class Loss>
-inline constexpr int parameters_v = Loss::family::parameters;
-template <class Loss>
-using theta_of = std::array<double, static_cast<std::size_t>(parameters_v<Loss>)>;
-
-/// What each block adds to the loss.
-template <class Loss>
-std::vector<double> block_losses(const Loss& loss, const theta_of<Loss>& theta) {
-  std::vector<double> result;
-  std::vector<double> r;
-  for (std::size_t block = 0; block < loss.blocks(); ++block) {
-    r.resize(loss.residuals(block));
-    loss.template evaluate<double>(block, theta, r.data());
-    double sum = 0.0;
-    for (const double x : r) sum += x * x;
-    result.push_back(sum);
-  }
-  return result;
-}
-template <class Loss>
-double loss_value(const Loss& loss, const theta_of<Loss>& theta) {
-  return tree_sum(block_losses(loss, theta));
-}
-
-/// Calls visit(block, i, the exact gradient of the square of residual i), in order.
-/// Cost: one pass over duals.
-template <class Loss>
-void visit_gradients(const Loss& loss, const theta_of<Loss>& theta, const auto& visit) {
-  constexpr std::size_t count = static_cast<std::size_t>(parameters_v<Loss>);
-  using D = dual<double, parameters_v<Loss>>;
-  std::array<D, count> lifted;
-  for (std::size_t k = 0; k < count; ++k) lifted[k] = D::variable(theta[k], static_cast<int>(k));
-  Eigen::VectorXd gradient(parameters_v<Loss>);
-  std::vector<D> r;
-  for (std::size_t block = 0; block < loss.blocks(); ++block) {
-    r.resize(loss.residuals(block));
-    loss.template evaluate<D>(block, lifted, r.data());
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      for (std::size_t k = 0; k < count; ++k) {
-        gradient[static_cast<Eigen::Index>(k)] = 2.0 * r[i].value * r[i].derivative[k];
-      }
-      visit(block, i, gradient);
-    }
-  }
-}
-
-/// What each block adds to the gradient of the loss.
-template <class Loss>
-std::vector<Eigen::VectorXd> block_gradients(const Loss& loss, const theta_of<Loss>& theta) {
-  std::vector<Eigen::VectorXd> result(loss.blocks(), Eigen::VectorXd::Zero(parameters_v<Loss>));
-  visit_gradients(loss, theta, [&](std::size_t block, std::size_t, const Eigen::VectorXd& gradient) {
-    result[block] += gradient;
-  });
-  return result;
-}
-template <class Loss>
-Eigen::VectorXd loss_gradient(const Loss& loss, const theta_of<Loss>& theta) {
-  return tree_sum(block_gradients(loss, theta));
-}
-
-/// What each coordinate of the metric adds to the gradient of the loss: a column each.
-template <class Loss>
-Eigen::MatrixXd coordinate_gradients(const Loss& loss, const theta_of<Loss>& theta,
-                                     Eigen::Index coordinates) {
-  std::vector<Eigen::MatrixXd> of_block(loss.blocks(),
-                                        Eigen::MatrixXd::Zero(parameters_v<Loss>, coordinates));
-  visit_gradients(loss, theta, [&](std::size_t block, std::size_t i, const Eigen::VectorXd& gradient) {
-    of_block[block].col(static_cast<Eigen::Index>(i) % coordinates) += gradient;
-  });
-  return tree_sum(of_block);
-}
-
 /// The full Hessian (not Gauss-Newton's: residuals do not vanish at the minimum) by central differences of
-/// the exact gradient. Its relative error is about 1e-8: s^2 of the step, and eps/s of the gradient.
-template <class Loss>
-Eigen::MatrixXd hessian(const Loss& loss, const theta_of<Loss>& theta) {
-  constexpr double s = 1e-4;  // parameters are of order one
-  Eigen::MatrixXd result(parameters_v<Loss>, parameters_v<Loss>);
-  for (std::size_t k = 0; k < theta.size(); ++k) {
-    auto ahead = theta;
-    auto behind = theta;
+/// the exact gradient. Its relative error is about 1e-8: some hundred s^2 of the step, and eps/s of the
+/// gradient. Cost: two passes with derivatives for each parameter, as much as one with exact second
+/// derivatives, which a black box has not.
+inline Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta) {
+  constexpr double s = 1e-5;  // parameters are of order one
+  Eigen::MatrixXd result(theta.size(), theta.size());
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    Eigen::VectorXd ahead = theta;
+    Eigen::VectorXd behind = theta;
     ahead[k] += s;
     behind[k] -= s;
-    result.col(static_cast<Eigen::Index>(k)) =
-        (loss_gradient(loss, ahead) - loss_gradient(loss, behind)) / (ahead[k] - behind[k]);
+    result.col(k) = (loss(ahead).gradient() - loss(behind).gradient()) / (ahead[k] - behind[k]);
   }
   return 0.5 * (result + result.transpose());
+}
+
+template <class Loss, std::size_t N>
+Eigen::MatrixXd hessian(const Loss& loss, const std::array<double, N>& theta) {
+  return hessian(objective_of(loss), column_of(theta));
 }
 
 /// A Hessian restricted to the free parameters, in its eigenvectors.

@@ -48,8 +48,8 @@ class metric {
   const Eigen::MatrixXd& weight_deviations() const { return deviations_; }
 
   /// r[0..residuals()) of the difference a - b; b is data, a may carry derivatives.
-  template <Scalar T>
-  void residual(const vector<T, N>& aq, const vector<T, N>& ap, const phase_point<double, N>& b, T* r) const {
+  template <Scalar T, Scalar R>
+  void residual(const vector<T, N>& aq, const vector<T, N>& ap, const phase_point<R, N>& b, T* r) const {
     for (std::size_t k = 0; k < active_.size(); ++k) {
       const Eigen::Index row = active_[k];
       const bool is_q = row < size_;
@@ -110,7 +110,7 @@ class metric {
       for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
         residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
         squares[m] += increment.cwiseAbs2() / total;
-        sizes[m] += sizes_of_terms(data.finish[n]).cwiseAbs2() / total;
+        add_sizes_of_terms(data.finish[n], total, sizes[m]);
       }
       if (which == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
     }
@@ -146,14 +146,14 @@ class metric {
     return sum / static_cast<double>(values.size());
   }
 
-  /// Sum of the absolute terms of each coordinate: what its rounding is relative to.
-  Eigen::VectorXd sizes_of_terms(const phase_point<double, N>& x) const {
-    Eigen::VectorXd result(2 * size_);
+  /// sizes += x^2/total for each coordinate's sum x of absolute terms: what its rounding is relative to.
+  void add_sizes_of_terms(const phase_point<double, N>& x, double total, Eigen::VectorXd& sizes) const {
     for (Eigen::Index i = 0; i < size_; ++i) {
-      result[i] = size_of_terms(to_x_, i, x.q);
-      result[size_ + i] = size_of_terms(to_y_, i, x.p);
+      const double of_x = size_of_terms(to_x_, i, x.q);
+      const double of_y = size_of_terms(to_y_, i, x.p);
+      sizes[i] += of_x * of_x / total;
+      sizes[size_ + i] += of_y * of_y / total;
     }
-    return result;
   }
   static double size_of_terms(const Eigen::MatrixXd& to, Eigen::Index i, const vector<double, N>& a) {
     if (to.size() == 0) return std::abs(a[i]);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <atomic>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "nysalt/counted.hpp"
+#include "nysalt/ensemble_loop.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/pairs_in_lanes.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -14,51 +19,87 @@ namespace nysalt {
 /// The paper's loss [li_lu_tao_ye_2023, equation (3.5)]: the mean over all pairs of
 /// sum over coordinates of r^2 / Sigma, with r the error of one step from `start` to `finish`.
 ///
-/// A block is one trajectory, whose pairs depend on each other; blocks are independent.
-/// What a loss offers the learner: blocks(), residuals(block), evaluate(block, theta, r).
-template <Family F, SeparableSystem S>
+/// Pairs of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the pairs;
+/// neither its lanes nor the threads change a bit of a sum.
+/// What a loss offers the learner: family, scalar, trajectories(), residuals(), sums(theta, zero, of_pair).
+template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<F, S>>
 class one_step {
  public:
   using family = F;
+  using scalar = R;
 
-  /// Refers to all three.
-  one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure)
-      : system_(&system), data_(&data), metric_(&measure) {}
+  /// Refers to system and metric, and copies the data.
+  one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
+           int threads = 1)
+      : system_(&system),
+        metric_(&measure),
+        step_(data.step),
+        share_(1.0 / static_cast<double>(data.pairs())),
+        threads_(threads),
+        first_of_(data.first_of),
+        parts_(gather<R>(data)) {}
 
-  std::size_t blocks() const { return data_->trajectories(); }
-  std::size_t residuals(std::size_t block) const {
-    return (data_->first_of[block + 1] - data_->first_of[block]) *
-           static_cast<std::size_t>(metric_->residuals());
-  }
+  std::size_t trajectories() const { return first_of_.size() - 1; }
+  /// Of each pair.
+  std::size_t residuals() const { return static_cast<std::size_t>(metric_->residuals()); }
+  /// Force evaluations of all passes so far, as `counted` counts them for one pair after the other.
+  std::int64_t evaluations() const { return evaluations_; }
 
-  /// The residuals of a block over double, or over dual numbers that carry derivatives by theta; the loss
-  /// is the sum of all their squares. Throws nothing: inadmissible theta give what arithmetic gives.
-  template <Scalar C>
-  void evaluate(std::size_t block, const std::array<C, static_cast<std::size_t>(F::parameters)>& theta,
-                C* r) const {
-    using word = typename F::word;
-    const stepper<S, word, C> one(*system_, F::coefficients(theta), data_->step);
-    flow_state<C, S::dimension> x{{make_vector<C>(*system_), make_vector<C>(*system_)},
-                                  make_vector<C>(*system_)};
-    const double share = 1.0 / std::sqrt(static_cast<double>(data_->pairs()));
-    const Eigen::Index rows = metric_->residuals();
-    for (std::size_t n = data_->first_of[block]; n < data_->first_of[block + 1]; ++n) {
-      const auto& start = data_->start[n];
-      for (Eigen::Index i = 0; i < start.size(); ++i) {
-        x.q[i] = C(start.q[i]);
-        x.p[i] = C(start.p[i]);
+  /// A pass over the data: each trajectory's mean over all pairs of what of_pair(r, terms) makes of the
+  /// residuals, added in the order of time. `zero` says how many terms there are. C is R or a dual of R,
+  /// which carries derivatives by theta. Throws nothing: inadmissible theta give what arithmetic gives.
+  template <Scalar C, class Sum>
+  std::vector<Sum> sums(const std::array<C, static_cast<std::size_t>(F::parameters)>& theta, const Sum& zero,
+                        const auto& of_pair) const {
+    std::vector<Sum> result(trajectories(), zero);
+    const auto coefficients = F::coefficients(theta);
+    const auto visit = [&](std::int64_t index) {
+      const auto& part = parts_[static_cast<std::size_t>(index)];
+      if (part.entries.empty()) return;  // trajectories without a pair
+      const counted<S> watched(*system_);
+      const stepper<counted<S>, typename F::word, C> one(watched, coefficients, step_);
+      flow_state<C, S::dimension> x{make_vector<C>(watched), make_vector<C>(watched),
+                                    make_vector<C>(watched)};
+      std::vector<C> r(residuals());
+      std::vector<R> terms(static_cast<std::size_t>(zero.size()));
+      std::size_t trajectory = part.first_trajectory;
+      std::size_t pair = first_of_[trajectory];
+      Sum sum = zero;  // of one trajectory: local, so that it may stay in registers
+      for (const auto& [start, finish] : part.entries) {
+        for (Eigen::Index i = 0; i < start.size(); ++i) {
+          x.q[i] = C(start.q[i]);
+          x.p[i] = C(start.p[i]);
+        }
+        one.step(x);
+        metric_->residual(x.q, x.p, finish, r.data());
+        of_pair(r, terms);
+        for (int lane = 0; lane < detail::lanes<R> && pair < part.end; ++lane, ++pair) {
+          for (; pair == first_of_[trajectory + 1]; ++trajectory) {
+            result[trajectory] = sum * share_;
+            sum = zero;
+          }
+          for (Eigen::Index k = 0; k < sum.size(); ++k) {
+            sum.data()[k] += detail::in_lane(terms[static_cast<std::size_t>(k)], lane);
+          }
+        }
       }
-      one.step(x);
-      metric_->residual(x.q, x.p, data_->finish[n], r);
-      for (Eigen::Index k = 0; k < rows; ++k) r[k] = r[k] * share;
-      r += rows;
-    }
+      result[trajectory] = sum * share_;
+      const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
+      evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
+    };
+    for_each_trajectory(std::ssize(parts_), threads_, visit);
+    return result;
   }
 
  private:
   const S* system_;
-  const flow_map_data<S::dimension>* data_;
   const metric<S::dimension>* metric_;
+  double step_;
+  double share_;
+  int threads_;
+  std::vector<std::size_t> first_of_;
+  std::vector<pairs_in_lanes<R, S::dimension>> parts_;
+  mutable std::atomic<std::int64_t> evaluations_ = 0;
 };
 
 }  // namespace nysalt
