@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "nysalt/report/table.hpp"
 #include "row.hpp"
@@ -121,7 +122,8 @@ struct growth {
   std::string name;
   std::string race;
   std::vector<std::string> sizes;  // from small to large
-  std::string stream;              // followed by the size; empty: never memory bound
+  std::string stream{};            // followed by the size; empty: never memory bound
+  double bytes = 0.0;              // of a unit of the size
 };
 
 /// The largest cost of a unit of work relative to that of the smallest size, up to where memory bounds it:
@@ -133,7 +135,8 @@ inline row growth_row(const growth& g, const measurements& all) {
   double largest = 0.0;
   for (std::size_t i = 1; i < g.sizes.size(); ++i) {
     if (!g.stream.empty() && median(all.of(g.race, g.stream + g.sizes[i])) >= smallest) {
-      result.note = fmt::format("memory bound from {} on", g.sizes[i]);
+      result.note = fmt::format("memory bound from {} on, where the state takes {:.0f} kB", g.sizes[i],
+                                std::stod(g.sizes[i]) * g.bytes / 1024.0);
       break;
     }
     const double here = median(all.of(g.race, g.sizes[i]));
@@ -159,12 +162,12 @@ inline nysalt::table to_table(const growth& g, const measurements& gnu, const me
 inline std::vector<growth> growths() {
   return {{"cost of a trajectory-step, 10^3 to 10^6 trajectories",
            "growing ensemble",
-           {"1000", "10000", "100000", "1000000"},
-           ""},
+           {"1000", "10000", "100000", "1000000"}},
           {"cost of a mass-step, 10^3 to 10^6 masses",
            "growing chain",
            {"1000", "3000", "10000", "30000", "100000", "300000", "1000000"},
-           "stream "}};
+           "stream ",
+           16.0}};
 }
 
 }  // namespace nysalt::bench

@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_machine_that_cannot_show_it_is_no_failure) {
 }
 
 BOOST_AUTO_TEST_CASE(growth_counts_until_memory_bounds_it) {
-  const growth g{"growth", "race", {"1", "10", "100"}, "stream "};
+  const growth g{"growth", "race", {"1", "10", "100"}, "stream ", 1024.0};
   times all{{"1", times_of(1.0)},
             {"10", times_of(1.2)},
             {"100", times_of(2.0)},
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(growth_counts_until_memory_bounds_it) {
   all["stream 100"] = times_of(1.1);
   BOOST_TEST((judged().said.holds == true));
   BOOST_TEST(judged().found.value == 1.2);
-  BOOST_TEST(judged().row.note == "memory bound from 100 on");
+  BOOST_TEST(judged().row.note == "memory bound from 100 on, where the state takes 100 kB");
   all["stream 10"] = times_of(1.0);
   BOOST_TEST(judged().found.value == 1.0);
 }
