@@ -97,7 +97,7 @@ class bundled_model final : public bundled_system {
                description());
       }
     }
-    with_family(family, [&]<class F>(F) { options_for<F>(how); });
+    with_family(family, [&]<class F>(F) { options_for<F>(how, 1); });
   }
 
   learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
@@ -116,7 +116,8 @@ class bundled_model final : public bundled_system {
       const auto data = pairs(plan.seed);
       const auto held_out = pairs(plan.held_out_seed);
       with_family(plan.family, [&]<class F>(F family) {
-        auto [method, fit] = nysalt::learn(family, system_, data, held_out, options_for<F>(plan.how));
+        auto [method, fit] =
+            nysalt::learn(family, system_, data, held_out, options_for<F>(plan.how, plan.threads));
         result.emplace(learned_scheme{std::move(fit), tabulated(method.anywhere()), data.energies});
       });
     };
@@ -269,8 +270,9 @@ class bundled_model final : public bundled_system {
   }
 
   template <Family F>
-  learn_options<F> options_for(const learn_settings& how) const {
+  learn_options<F> options_for(const learn_settings& how, int threads) const {
     learn_options<F> options;
+    options.threads = threads;
     options.coordinates = coordinates_named(how.coordinates);
     for (const auto& text : how.fix) fix_parameter<F>(text, options);
     auto theta = options.start;

@@ -45,7 +45,7 @@ void check_bits(const S& system, const flow_map_data<S::dimension>& data, const 
   const one_step<nystrom, S, R> loss(system, data, measure, threads);
   const sample_blocks<nystrom, S> pairs(system, data, measure);
   const auto expected = pairs.by_trajectory(theta);
-  BOOST_TEST_CONTEXT(detail::lanes<R> << " lanes, " << threads << " threads") {
+  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes, " << threads << " threads") {
     const auto losses = trajectory_losses(loss, theta);
     const auto gradients = trajectory_gradients(loss, theta);
     BOOST_REQUIRE(losses.size() == expected.size());

@@ -37,7 +37,7 @@ class one_step {
         share_(1.0 / static_cast<double>(data.pairs())),
         threads_(threads),
         first_of_(data.first_of),
-        parts_(gather<R>(data)) {}
+        parts_(gather_pairs<R>(data)) {}
 
   std::size_t trajectories() const { return first_of_.size() - 1; }
   /// Of each pair.
@@ -58,7 +58,7 @@ class one_step {
       if (part.entries.empty()) return;  // trajectories without a pair
       const counted<S> watched(*system_);
       const stepper<counted<S>, typename F::word, C> one(watched, coefficients, step_);
-      flow_state<C, S::dimension> x{make_vector<C>(watched), make_vector<C>(watched),
+      flow_state<C, S::dimension> x{{make_vector<C>(watched), make_vector<C>(watched)},
                                     make_vector<C>(watched)};
       std::vector<C> r(residuals());
       std::vector<R> terms(static_cast<std::size_t>(zero.size()));
@@ -73,13 +73,13 @@ class one_step {
         one.step(x);
         metric_->residual(x.q, x.p, finish, r.data());
         of_pair(r, terms);
-        for (int lane = 0; lane < detail::lanes<R> && pair < part.end; ++lane, ++pair) {
+        for (int k = 0; k < lanes_in<R> && pair < part.end; ++k, ++pair) {
           for (; pair == first_of_[trajectory + 1]; ++trajectory) {
             result[trajectory] = sum * share_;
             sum = zero;
           }
-          for (Eigen::Index k = 0; k < sum.size(); ++k) {
-            sum.data()[k] += detail::in_lane(terms[static_cast<std::size_t>(k)], lane);
+          for (Eigen::Index i = 0; i < sum.size(); ++i) {
+            sum.data()[i] += lane(terms[static_cast<std::size_t>(i)], k);
           }
         }
       }

@@ -4,56 +4,19 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/scalars/pack.hpp"
+#include "nysalt/lanes.hpp"
 
 namespace nysalt {
 
-namespace detail {
-
-// Lanes of a scalar: a double is one.
-template <class R>
-inline constexpr int lanes = 1;
-template <int W>
-inline constexpr int lanes<pack<double, W>> = W;
-
-inline double in_lane(double x, int) { return x; }
-template <int W>
-double in_lane(const pack<double, W>& x, int lane) {
-  return x[lane];
-}
-inline void set_lane(double& x, int, double value) { x = value; }
-template <int W>
-void set_lane(pack<double, W>& x, int lane, double value) {
-  x.set(lane, value);
-}
-
-/// Serves packs: a black box does not, nor who says `static constexpr int lanes = 1;`.
-template <class S>
-concept OneLane = requires {
-  requires S::lanes == 1;
-};
-template <class S, int P>
-concept ServesPacks = !OneLane<S> && SystemOver<S, dual<pack<double, default_lanes>, P>>;
-
-template <class F, class S>
-struct scalar_of_passes {
-  using type = double;
-};
-template <class F, class S>
-  requires ServesPacks<S, F::parameters>
-struct scalar_of_passes<F, S> {
-  using type = pack<double, default_lanes>;
-};
-
-}  // namespace detail
-
-/// What passes over data compute with: packs where the system serves them, else double.
+/// What passes over data compute with: packs where the system serves them and their derivatives, else double.
 template <Family F, System S>
-using scalar_of_passes = typename detail::scalar_of_passes<F, S>::type;
+using scalar_of_passes = std::conditional_t<SystemOver<S, dual<scalar_of_lanes<lanes_of<S>>, F::parameters>>,
+                                            scalar_of_lanes<lanes_of<S>>, double>;
 
 /// The pairs begin .. end - 1 of some consecutive trajectories, as many in each entry as R has lanes; the
 /// last pair fills what is left of the last entry.
@@ -72,29 +35,18 @@ struct pairs_in_lanes {
 namespace detail {
 
 template <Scalar R, int N>
-void put_in_lane(phase_point<R, N>& to, int lane, const phase_point<double, N>& x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    set_lane(to.q[i], lane, x.q[i]);
-    set_lane(to.p[i], lane, x.p[i]);
-  }
-}
-
-template <Scalar R, int N>
-pairs_in_lanes<R, N> gather(const flow_map_data<N>& data, std::size_t first_trajectory,
-                            std::size_t end_trajectory) {
-  constexpr auto width = static_cast<std::size_t>(lanes<R>);
-  const std::size_t begin = data.first_of[first_trajectory];
-  const std::size_t end = data.first_of[end_trajectory];
-  const std::size_t pairs = end - begin;
-  const Eigen::Index n = data.start.front().size();
-  const phase_point<R, N> blank{vector<R, N>(n), vector<R, N>(n)};
-  pairs_in_lanes<R, N> result{first_trajectory, begin, end, {}};
-  result.entries.resize((pairs + width - 1) / width, {blank, blank});
-  for (std::size_t i = 0; i < result.entries.size() * width; ++i) {
-    const std::size_t pair = begin + std::min(i, pairs - 1);
-    const int lane = static_cast<int>(i % width);
-    put_in_lane(result.entries[i / width].start, lane, data.start[pair]);
-    put_in_lane(result.entries[i / width].finish, lane, data.finish[pair]);
+pairs_in_lanes<R, N> gather_pairs(const flow_map_data<N>& data, std::size_t first_trajectory,
+                                  std::size_t end_trajectory) {
+  constexpr std::size_t width = lanes_in<R>;
+  pairs_in_lanes<R, N> result{
+      first_trajectory, data.first_of[first_trajectory], data.first_of[end_trajectory], {}};
+  for (std::size_t pair = result.begin; pair < result.end; pair += width) {
+    const auto in_lanes = [&](const std::vector<phase_point<double, N>>& states) {
+      return gather<R, N>(lanes_in<R>, [&](int k) {
+        return states[std::min(pair + static_cast<std::size_t>(k), result.end - 1)];
+      });
+    };
+    result.entries.push_back({in_lanes(data.start), in_lanes(data.finish)});
   }
   return result;
 }
@@ -104,12 +56,12 @@ pairs_in_lanes<R, N> gather(const flow_map_data<N>& data, std::size_t first_traj
 /// All pairs, in parts of whole trajectories that a thread can take: of a thousand pairs or more, so that
 /// lanes are left idle for one pair in a hundred at most.
 template <Scalar R, int N>
-std::vector<pairs_in_lanes<R, N>> gather(const flow_map_data<N>& data) {
+std::vector<pairs_in_lanes<R, N>> gather_pairs(const flow_map_data<N>& data) {
   constexpr std::size_t enough = 1600;
   std::vector<pairs_in_lanes<R, N>> result;
   for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {
     while (end < data.trajectories() && data.first_of[end] - data.first_of[first] < enough) ++end;
-    result.push_back(detail::gather<R>(data, first, end));
+    result.push_back(detail::gather_pairs<R>(data, first, end));
   }
   return result;
 }
