@@ -13,8 +13,9 @@ namespace {
 
 runner compiling(const std::string& name, const std::string& source) {
   const std::string command = std::string(NYSALT_BENCH_COMPILE) + " -c -o /dev/null '" + source + "'";
-  return {name, 1.0, [command] {
-            if (std::system(command.c_str()) != 0) throw std::runtime_error("does not compile: " + command);
+  return {name, 1.0, [command, name] {
+            if (std::system(command.c_str()) != 0)
+              throw std::runtime_error("what is compiled " + name + " does not compile");
           }};
 }
 
