@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+// A run as a user has it: trajectories in memory, the ensemble loop, the two-stage step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/lanes.hpp"
+#include "nysalt/method.hpp"
+
+namespace nysalt::bench {
+
+using states = std::vector<phase_point<double, 6>>;
+
+inline states starts_of(std::int64_t trajectories) {
+  const fpu_chain<3> chain(50.0);
+  const fpu_law<3> law(chain);
+  states result;
+  for (std::int64_t m = 0; m < trajectories; ++m) result.push_back(law(1, static_cast<std::uint64_t>(m)));
+  return result;
+}
+
+inline void run_ensemble(states& all, std::int64_t steps, int threads) {
+  const fpu_chain<3> chain(50.0);
+  const auto stepper = make_stepper(chain, member<nystrom>({0.5, 0.4}), 0.01);
+  const auto block = [&](std::int64_t first, int count) {
+    const auto at = [&](int k) -> auto& { return all[static_cast<std::size_t>(first + k)]; };
+    auto run = stepper.open(gather<pack<double>, 6>(count, at));
+    stepper.advance(run, steps);
+    const auto end = stepper.synchronous(run);
+    for (int k = 0; k < count; ++k) at(k) = lane(end, k);
+  };
+  for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, threads, block);
+}
+
+inline std::vector<double> numbers(const states& all) {
+  std::vector<double> result;
+  for (const auto& x : all) {
+    result.insert(result.end(), x.q.begin(), x.q.end());
+    result.insert(result.end(), x.p.begin(), x.p.end());
+  }
+  return result;
+}
+
+}  // namespace nysalt::bench

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+// Every race; each checks that its runners reach the same end, and throws std::runtime_error if not.
+#pragma once
+
+#include "race.hpp"
+
+namespace nysalt::bench {
+
+void race_ensemble();
+void race_single_trajectory();
+void race_long_chain();
+void race_growth();
+void race_noise();
+void race_learning();
+void race_threads();
+void race_compiling();
+
+}  // namespace nysalt::bench
