@@ -15,12 +15,7 @@ inline std::vector<row> fixed_rows() {
   using enum measure;
   return {
       {"ensemble, two-stage: speed of its mix of operations", "ensemble", "ours", {"same mix"}, speed, 0.80},
-      {"ensemble: time of a hand-written kernel",
-       "ensemble",
-       "ours",
-       {"hand-written", "hand-written, folded"},
-       time,
-       1.05},
+      {"ensemble: time of a hand-written kernel", "ensemble", "ours", {"hand-written"}, time, 1.05},
       {"ensemble: speed-up over Boost.Odeint", "ensemble", "ours", {"odeint arrays"}, speed, 7.0},
       {"ensemble: speed-up over Boost.Odeint with packs", "ensemble", "ours", {"odeint packs"}, speed, 1.25},
       {"one trajectory, Verlet: time of Boost.Odeint",
@@ -73,6 +68,11 @@ inline std::vector<row> reported_rows() {
   return {
       {"ensemble: share of the peak of fused multiply-adds", "ensemble", "ours", {"fused multiply-adds"}},
       {"ensemble, ours fused: the same share", "ensemble", "ours, fused", {"fused multiply-adds"}},
+      {"ensemble: time of a hand-written kernel, constants folded",
+       "ensemble",
+       "ours",
+       {"hand-written, folded"},
+       time},
       {"ensemble, both fused: time of a hand-written kernel",
        "ensemble",
        "ours, fused",

@@ -19,6 +19,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/integrate.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/s_aia.hpp"

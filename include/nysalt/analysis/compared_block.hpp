@@ -52,11 +52,11 @@ class compared_block {
       for (std::int64_t n = done + 1; finer_ && n <= next; ++n) {
         check_->add(n, expected(n), finer_->at(n - done - 1), live_);
       }
-      for (auto& [run, errors] : runs_) {
-        run.go_on(next, 1, measure_->width, measure_->read,
-                  [&](std::int64_t n, std::span<const T> seen, const auto& live) {
-                    errors.add(n, seen, expected(n), live);
-                  });
+      for (watched_run& its : runs_) {
+        its.run.go_on(next, 1, measure_->width, measure_->read,
+                      [&](std::int64_t n, std::span<const T> seen, const auto& live) {
+                        its.errors.add(n, seen, expected(n), live);
+                      });
       }
     }
   }
