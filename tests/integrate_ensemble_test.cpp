@@ -112,6 +112,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
         {words...});
   };
   BOOST_TEST(refused({.trajectories = 0}, "0 trajectories"));
+  BOOST_TEST(refused({.trajectories = std::int64_t{1} << 60}, "trajectories"));
+  ensemble_options before_the_first;
+  before_the_first.first = -3;
+  BOOST_TEST(refused(before_the_first, "from -3 on"));
   BOOST_TEST(refused({.steps = -1}, "-1 steps"));
   BOOST_TEST(refused({.every = 0}, "every 0"));
   BOOST_TEST(refused({.threads = 0}, "thread"));

@@ -3,19 +3,12 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
-#include "nysalt/ensemble_loop.hpp"
-#include "support/refusal.hpp"
-
 using namespace nysalt;
-using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE(it_adds_every_term_once) {
   for (std::size_t n = 1; n < 200; ++n) {
@@ -39,32 +32,4 @@ BOOST_AUTO_TEST_CASE(the_order_is_leaves_of_16_then_a_tree) {
   BOOST_TEST(tree_sum(terms) == expected);
   // Another order gives other bits: the test above can tell.
   BOOST_TEST(std::accumulate(terms.begin(), terms.end(), 0.0) != expected);
-}
-
-BOOST_AUTO_TEST_CASE(every_trajectory_is_visited_once_by_any_number_of_threads) {
-  for (const int threads : {1, 2, 7}) {
-    std::vector<int> visits(1000, 0);
-    for_each_trajectory(1000, threads, [&](std::int64_t m) { ++visits[static_cast<std::size_t>(m)]; });
-    for (const int count : visits) BOOST_TEST(count == 1);
-  }
-  for_each_trajectory(0, 2, [](std::int64_t) { BOOST_ERROR("there is none"); });
-  BOOST_CHECK_THROW(for_each_trajectory(1, 0, [](std::int64_t) {}), std::invalid_argument);
-}
-
-// The later one is thrown long before the earlier one can be.
-BOOST_AUTO_TEST_CASE(the_first_exception_leaves_the_loop) {
-  for (const int threads : {1, 2, 5}) {
-    std::atomic<bool> later = false;
-    const auto body = [&](std::int64_t m) {
-      if (m == 90) {
-        later = true;
-        throw std::runtime_error("90");
-      }
-      if (m != 17) return;
-      const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
-      while (threads > 1 && !later && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
-      throw std::runtime_error("17");
-    };
-    BOOST_TEST(refuses<std::runtime_error>([&] { for_each_trajectory(100, threads, body); }, {"17"}));
-  }
 }

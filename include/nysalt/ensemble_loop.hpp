@@ -24,9 +24,11 @@ namespace nysalt {
 /// shorter. A body writes what it finds into the places of its trajectories; whoever sums then takes
 /// tree_sum, and neither width nor the number of threads changes a bit. With one thread the order is that of
 /// the trajectories, and no thread is made. `progress`, if given, is told after each block how many are done;
-/// from any thread, never two calls at once. If bodies throw, the exception of the first block leaves the
-/// loop, and some blocks beyond it are not visited. Throws std::invalid_argument if threads or width are
-/// below 1.
+/// from any thread, never two calls at once.
+///
+/// If a body throws, its trajectories are gone through again, one after the other, so that what leaves the
+/// loop is the exception of the first trajectory that has one, whatever width and threads; some beyond it are
+/// not visited. Throws std::invalid_argument if threads or width are below 1.
 template <class Body>
 void for_each_block(std::int64_t count, int width, int threads, const Body& body,
                     const std::function<void(std::int64_t)>& progress = {}) {
@@ -36,9 +38,18 @@ void for_each_block(std::int64_t count, int width, int threads, const Body& body
   const auto size_of = [&](std::int64_t block) {
     return static_cast<int>(std::min<std::int64_t>(width, count - block * width));
   };
+  const auto go_through = [&](std::int64_t block) {
+    const int size = size_of(block);
+    try {
+      body(block * width, size);
+    } catch (...) {
+      for (int k = 0; size > 1 && k < size; ++k) body(block * width + k, 1);
+      throw;
+    }
+  };
   if (threads == 1) {
     for (std::int64_t block = 0; block < blocks; ++block) {
-      body(block * width, size_of(block));
+      go_through(block);
       if (progress) progress(block * width + size_of(block));
     }
     return;
@@ -50,7 +61,7 @@ void for_each_block(std::int64_t count, int width, int threads, const Body& body
   const auto guarded = [&](std::int64_t block) {
     if (block > smallest) return;  // only what comes before can still change the outcome
     try {
-      body(block * width, size_of(block));
+      go_through(block);
       if (!progress) return;
       const std::lock_guard lock(guard);
       done += size_of(block);

@@ -66,7 +66,7 @@ struct data_options {
   std::int64_t trajectories = 100;  // independent starts
   std::uint64_t seed = 1;
   int threads = 1;  // changes no bit of the data
-  // Told after each trajectory how many are done; from any thread, never two calls at once.
+  // Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
 

@@ -2,11 +2,14 @@
 // Many trajectories from start to finish, in lanes and on threads, each watched over.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -30,8 +33,9 @@ struct ensemble_options {
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T
 /// has lanes. At steps n = 0, every, 2 every, ... read(x, numbers) writes `width` numbers of the states over
 /// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
-/// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken.
-/// Neither lanes nor threads change a bit; whoever sums over m then takes tree_sum.
+/// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken;
+/// it may be read, so reading must bear any state. Neither lanes nor threads change a bit; whoever sums over
+/// m then takes tree_sum.
 ///
 /// Returns where each trajectory diverged, if it did; divergence is looked for as in integrate(). Memory:
 /// none that grows with the steps. Throws std::invalid_argument if trajectories, steps, every or threads
@@ -41,10 +45,12 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
                                                             const ensemble_options& options,
                                                             std::size_t width, const Read& read,
                                                             const Take& take) {
-  if (options.trajectories < 1 || options.steps < 0 || options.every < 1) {
-    throw std::invalid_argument(
-        fmt::format("integrate_ensemble: {} trajectories of {} steps, observed every {}: cannot be",
-                    options.trajectories, options.steps, options.every));
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  if (options.trajectories < 1 || options.trajectories > most || options.first < 0 ||
+      options.first > most - options.trajectories || options.steps < 0 || options.every < 1) {
+    throw std::invalid_argument(fmt::format(
+        "integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
+        options.trajectories, options.first, options.steps, options.every));
   }
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
   const auto follow = [&](std::int64_t block, int count) {
@@ -70,7 +76,8 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
 }
 
 /// The same with one observable: take(m, n, observable(x)). The observable is called for one trajectory after
-/// the other, or for all lanes at a time if it is marked by over_lanes.
+/// the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that have diverged
+/// too, so it must bear any state.
 template <System S, Method M, Ensemble<S> E, class Observable, class Take>
 std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const M& method, double step,
                                                             const E& ensemble,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "nysalt/energy.hpp"
 #include "nysalt/scalars/pack.hpp"

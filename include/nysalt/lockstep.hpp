@@ -2,12 +2,15 @@
 // Trajectories side by side, each watched over.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "nysalt/divergence.hpp"
@@ -42,6 +45,8 @@ class lockstep {
   /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, const Take& take) {
+    if (every < 1)
+      throw std::invalid_argument(fmt::format("lockstep: observed every {} steps: cannot be", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     while (run_.step < end && any(live_)) {
       good_ = run_;

@@ -14,6 +14,8 @@ namespace nysalt {
 /// advance(system, x, t)  x becomes the state a time t later
 /// finer()                the same with a much smaller error: the difference measures the error of this one
 /// description()          what it is, with its step or tolerance
+/// Where advance takes states over packs, it is called with them: write phase_point<double, N>& if it is for
+/// one trajectory at a time.
 template <class R, class S>
 concept ReferenceFlow = SeparableSystem<S> &&
     requires(const R& reference, const S& system, phase_point<double, S::dimension>& x) {

@@ -113,7 +113,7 @@ class stepper {
   void step(flow_state<T, dimension>& x) const {
     letters_.step(*system_, x);
   }
-  template <Scalar T>
+  template <SteppedBy<C> T>
   void step(phase_point<T, dimension>& x) const {
     require_size(x);
     flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};

@@ -8,17 +8,23 @@
 // and, if wanted,
 //   void force_derivative(q, v, g) const, all vector<double, N>;   g = f'(q) v, else central differences
 //   template <class T, class C> void kick(const vector<T, N>& q, vector<T, N>& p, const C& c) const;
-//                                          p += c force(q) without storing the force, each p[i] += f[i] * c
+//                                          p += c force(q) without storing the force, each p[i] += f[i] * c;
+//                                          written in the class of the force
 //   double inverse_mass(Eigen::Index i) const;                      K = sum p_i^2 / (2 m_i), else m_i = 1
 //   template <class T> T kinetic_energy(const vector<T, N>& p) const;                 any other K(p)
 //   template <class T> void velocity(const vector<T, N>& p, vector<T, N>& v) const;   v = grad K
 //   static constexpr int lanes = 1;                                 most trajectories side by side
+//
+// A template is compiled for double, for dual numbers and for packs, which are many trajectories side by
+// side: it calls functions unqualified (sin(x) after `using std::sin`), loops over elements, and writes
+// select(condition, a, b) where trajectories may differ; with lanes = 1 it is left in peace by packs.
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   std::string description() const;
 #pragma once
 
 #include <concepts>
 #include <string>
+#include <type_traits>
 #include <typeinfo>
 #include <vector>
 
@@ -60,30 +66,42 @@ namespace detail {
 template <class M>
 struct written_in;
 template <class R, class X, class... A>
-struct written_in<R (X::*)(A...) const> {
-  using type = X;
-};
-template <class S, class T>
-struct force_of;
-template <class S, class T>
-  requires requires { typename written_in<decltype(&S::force)>::type; }
-struct force_of<S, T> : written_in<decltype(&S::force)> {};
-template <class S, class T>
-  requires requires { typename written_in<decltype(&S::template force<T>)>::type; }
-struct force_of<S, T> : written_in<decltype(&S::template force<T>)> {};
+struct written_in<R (X::*)(A...) const> : std::type_identity<X> {};
+template <class R, class X, class... A>
+struct written_in<R (X::*)(A...) const noexcept> : std::type_identity<X> {};
 
-/// Whoever derives from a system and writes another force inherits a kick that is not of that force.
+/// That of the force, or of the potential that it comes from; void if nobody can tell.
+template <class S, class T>
+consteval auto origin_of_force() {
+  using V = vector<T, S::dimension>;
+  if constexpr (requires { written_in<decltype(&S::template force<T>)>(); }) {
+    return written_in<decltype(&S::template force<T>)>();
+  } else if constexpr (requires { written_in<decltype(&S::template force<V, V>)>(); }) {
+    return written_in<decltype(&S::template force<V, V>)>();
+  } else if constexpr (requires { written_in<decltype(&S::force)>(); }) {
+    return written_in<decltype(&S::force)>();
+  } else if constexpr (!HasForce<S, T> && requires { written_in<decltype(&S::template potential<T>)>(); }) {
+    return written_in<decltype(&S::template potential<T>)>();
+  } else {
+    return std::type_identity<void>();
+  }
+}
+
+/// Whoever derives from a system and writes another force inherits a kick that is not of that force: a kick
+/// counts only if it is written where the force is.
 template <class S, class T, class C>
-concept KickOfAnotherForce = !std::same_as<typename force_of<S, T>::type,
-                                           typename written_in<decltype(&S::template kick<T, C>)>::type>;
+concept KickOfTheForce = std::same_as < typename written_in<decltype(&S::template kick<T, C>)>::type,
+typename decltype(origin_of_force<S, T>())::type > ;
+
+template <class S, class T, class C>
+concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
+                           const C& c) {
+  s.kick(q, p, c);
+};
 }  // namespace detail
 
 template <class S, class T, class C = double>
-concept HasKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
-                           const C& c) {
-  s.kick(q, p, c);
-}
-&&!detail::KickOfAnotherForce<S, T, C>;
+concept HasKick = detail::CanKick<S, T, C> && detail::KickOfTheForce<S, T, C>;
 template <class S>
 concept HasForceDerivative = requires(const S& s, const vector<double, S::dimension>& q,
                                       const vector<double, S::dimension>& v,

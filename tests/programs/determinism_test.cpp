@@ -23,11 +23,11 @@ const std::vector<std::string> lines{
     "learn --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates modes",
     "run --method srkn6b --step 0.02 --horizon 2 --trajectories 23 --sample-every 7 "
     "--observables stiff_energy,energy,q1,p6",
-    "run --method verlet --step 0.05 --horizon 0.2 --trajectories 40",
+    "run --method verlet --step 0.05 --horizon 0.15 --trajectories 40",
     "run --method verlet --step 0.05 --horizon 1 --trajectories 23",
     "compare --methods verlet,s_aia2,learned:nystrom --steps 0.02,0.03 --trajectories 23 "
     "--learn-trajectories 7",
-    "compare --methods verlet,verlet_2x --steps 0.05 --horizon 0.2 --trajectories 40 --metric state",
+    "compare --methods verlet,verlet_2x --steps 0.05 --horizon 0.15 --trajectories 40 --metric state",
     "compare --system henon_heiles --methods verlet,pefrl --steps 0.3 --horizon 30 --trajectories 20 "
     "--metric energy",
 };

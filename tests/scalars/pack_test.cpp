@@ -145,3 +145,19 @@ BOOST_AUTO_TEST_CASE(duals_over_packs_have_the_bits_of_duals) {
     BOOST_TEST(same_bits(of_packs.derivative[1][k], of_doubles.derivative[1]));
   }
 }
+
+// As users write a force: with Eigen's operators and constants in double.
+BOOST_AUTO_TEST_CASE(eigen_multiplies_vectors_of_packs_by_doubles) {
+  constexpr int W = 3;
+  draws random;
+  const Eigen::Matrix2d stiffness{{2.0, -1.0}, {-1.0, 3.0}};
+  Eigen::Matrix<pack<double, W>, 2, 1> q;
+  for (auto& x : q) x = drawn<W>(random, false);
+  const Eigen::Matrix<pack<double, W>, 2, 1> f = -2.0 * q + q * 0.5 - q / 3.0 + stiffness * q;
+  for (int k = 0; k < W; ++k) {
+    const double x = q[0][k];
+    const double y = q[1][k];
+    BOOST_TEST(same_bits(f[0][k], -2.0 * x + x * 0.5 - x / 3.0 + (2.0 * x + -1.0 * y)));
+    BOOST_TEST(same_bits(f[1][k], -2.0 * y + y * 0.5 - y / 3.0 + (-1.0 * x + 3.0 * y)));
+  }
+}

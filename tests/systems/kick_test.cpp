@@ -5,7 +5,9 @@
 #include "../laws/models.hpp"
 #include "../laws/run_laws.hpp"
 #include "../laws/system_laws.hpp"
+#include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/verlet.hpp"
 #include "nysalt/scalars/pack.hpp"
 
 using namespace nysalt;
@@ -29,6 +31,37 @@ struct softer_for_double : fpu_chain<3> {
 struct renamed : fpu_chain<3> {
   using fpu_chain<3>::fpu_chain;
 };
+/// Forces of which nobody can tell where they are written, or that are written elsewhere.
+struct softer_by_auto : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  void force(const auto& q, auto& f) const { f = -q; }
+};
+struct softer_and_static : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  template <class T>
+  static void force(const vector<T, 6>& q, vector<T, 6>& f) {
+    f = -q;
+  }
+};
+struct well {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0] * 0.5;
+  }
+  template <class T, class C>
+  void kick(const vector<T, 1>& q, vector<T, 1>& p, const C& c) const {
+    p[0] -= q[0] * c;
+  }
+};
+struct deeper_well : well {
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0];
+  }
+};
+static_assert(!HasKick<softer_by_auto, double> && !HasKick<softer_and_static, double>);
+static_assert(HasKick<well, double> && !HasKick<deeper_well, double>);
 static_assert(HasKick<fpu_chain<3>, double> && HasKick<renamed, double> && HasKick<counted<renamed>, double>);
 static_assert(!HasKick<softer, double> && !HasKick<softer_for_double, double>);
 static_assert(!HasKick<counted<softer>, double>);
@@ -120,4 +153,17 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(it_counts_as_an_evaluation, Model, with_kick) {
   counts(verlet(), 1, 1, 2);
   counts(verlet_aba(), 0, 1, 1);
   counts(srkn6b(), 1, 6, 7);
+}
+
+// It steps by its own force.
+BOOST_AUTO_TEST_CASE(an_inherited_kick_of_another_force_is_left_aside) {
+  const softer system(50.0);
+  const fpu_chain<3> chain(50.0);
+  draws random;
+  auto x = random.state(system, 0.5);
+  auto y = x;
+  make_stepper(system, verlet_aba(), 0.01).step(x);
+  make_stepper(chain, verlet_aba(), 0.01).step(y);
+  BOOST_TEST((x.p - y.p).norm() > 1e-3);
+  BOOST_TEST(check_force(system, {x.q}).gradient_defect > 0.1);  // its potential is the stiffer one's
 }

@@ -25,12 +25,12 @@ class compared_block {
 
   /// Refers to all but the start, and partly to itself.
   compared_block(const S& system, const R& reference, const std::vector<Stepper>& steppers,
-                 const measure_type& measure, const state& start, int count, bool with_check)
+                 const measure_type& measure, const state& start, int count, int to_check)
       : measure_(&measure), at_start_(measure.numbers_of(start)), live_(first_lanes<T>(count)) {
     if (measure.needs_reference) reference_.emplace(system, reference, measure, start, count);
-    if (measure.needs_reference && with_check) {
+    if (measure.needs_reference && to_check > 0) {
       its_finer_self_.emplace(reference.finer());
-      finer_.emplace(system, *its_finer_self_, measure, start, count);
+      finer_.emplace(system, *its_finer_self_, measure, start, to_check);
       check_.emplace(measure);
     }
     for (const auto& stepper : steppers) runs_.push_back({{stepper, start, count}, errors_type(measure)});

@@ -30,7 +30,7 @@ struct trajectory_options {
   std::int64_t trajectories = 400;  // independent starts
   std::uint64_t seed = 1;
   int threads = 1;
-  std::function<void(std::int64_t done)> progress = {};  // after each trajectory; never two calls at once
+  std::function<void(std::int64_t done)> progress = {};  // after some trajectories; never two calls at once
 };
 
 struct trajectory_errors_result {
@@ -92,8 +92,9 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
 
   const auto follow = [&](std::int64_t first, int n) {
     const auto start = sound_starts<T>(system, ensemble, options.seed, first, n);
+    const auto to_check = std::clamp<std::int64_t>(std::ssize(checks) - first, 0, n);
     compared_block<stepper_type, S, R> block(system, reference, steppers, measure, start, n,
-                                             first < std::ssize(checks));
+                                             static_cast<int>(to_check));
     block.run(options.step, options.steps);
     block.require_sound(first);
     for (int k = 0; k < n; ++k) {

@@ -193,4 +193,13 @@ struct NumTraits<nysalt::dual<T, N>> : NumTraits<double> {
   using Literal = double;
   enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
 };
+/// Lets a user write `f = -2.0 * q`.
+template <class T, int N, class Operation>
+struct ScalarBinaryOpTraits<double, nysalt::dual<T, N>, Operation> {
+  using ReturnType = nysalt::dual<T, N>;
+};
+template <class T, int N, class Operation>
+struct ScalarBinaryOpTraits<nysalt::dual<T, N>, double, Operation> {
+  using ReturnType = nysalt::dual<T, N>;
+};
 }  // namespace Eigen

@@ -115,6 +115,11 @@ class pack {
   }
 };
 
+// Vectors of packs are Eigen's, so Eigen must align what it allocates as the registers want it.
+static_assert(
+    alignof(pack<double>) <= EIGEN_DEFAULT_ALIGN_BYTES || alignof(pack<double>) <= 16,
+    "nysalt: Eigen aligns for less than a register of this target: define EIGEN_MAX_ALIGN_BYTES=64");
+
 template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
@@ -195,5 +200,14 @@ struct NumTraits<nysalt::pack<T, W>> : NumTraits<double> {
   using Nested = nysalt::pack<T, W>;
   using Literal = double;
   enum { RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+};
+/// Lets a user write `f = -2.0 * q`.
+template <class T, int W, class Operation>
+struct ScalarBinaryOpTraits<double, nysalt::pack<T, W>, Operation> {
+  using ReturnType = nysalt::pack<T, W>;
+};
+template <class T, int W, class Operation>
+struct ScalarBinaryOpTraits<nysalt::pack<T, W>, double, Operation> {
+  using ReturnType = nysalt::pack<T, W>;
 };
 }  // namespace Eigen

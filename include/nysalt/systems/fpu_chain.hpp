@@ -73,7 +73,8 @@ class fpu_chain {
     }
   }
 
-  /// p += c force(q), with the 4 of the soft bonds multiplied into c: a power of two changes no bit.
+  /// p += c force(q), with the 4 of the soft bonds multiplied into c: a power of two changes no bit, short of
+  /// underflow.
   template <class T, class C>
   void kick(const vector<T, dimension>& q, vector<T, dimension>& p, const C& c) const {
     const double k = 0.5 * omega_ * omega_ * 0.25;

@@ -43,24 +43,27 @@ struct weighted_modes {
 template <System S>
 weighted_modes modes_with_weights(const S& system) {
   const Eigen::Index n = size(system);
-  Eigen::MatrixXd to_modes = Eigen::MatrixXd::Identity(n, n);
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd root_mass = Eigen::VectorXd::Ones(n);
+  if constexpr (HasInverseMass<S>) {
+    for (Eigen::Index i = 0; i < n; ++i) root_mass[i] = 1.0 / std::sqrt(system.inverse_mass(i));
+  }
+  weighted_modes result;
   if constexpr (HasModes<S>) {
     const normal_modes modes = system.modes();
     if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n) {
       throw std::invalid_argument(
           fmt::format("the state error needs {} modes of {}, each with a frequency", n, describe(system)));
     }
-    to_modes = modes.basis.transpose();
-    weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
+    const Eigen::VectorXd weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
+    result.to_x = entries_of(weights.asDiagonal() * modes.basis.transpose() * root_mass.asDiagonal());
+    result.to_y = entries_of(modes.basis.transpose() * root_mass.cwiseInverse().asDiagonal());
+  } else {  // not as a matrix, which a long chain has no room for
+    for (Eigen::Index i = 0; i < n; ++i) {
+      result.to_x.push_back({static_cast<std::size_t>(i), i, root_mass[i]});
+      result.to_y.push_back({static_cast<std::size_t>(i), i, 1.0 / root_mass[i]});
+    }
   }
-  Eigen::VectorXd root_mass = Eigen::VectorXd::Ones(n);
-  if constexpr (HasInverseMass<S>) {
-    for (Eigen::Index i = 0; i < n; ++i) root_mass[i] = 1.0 / std::sqrt(system.inverse_mass(i));
-  }
-  const Eigen::MatrixXd to_x = weights.asDiagonal() * to_modes * root_mass.asDiagonal();
-  const Eigen::MatrixXd to_y = to_modes * root_mass.cwiseInverse().asDiagonal();
-  return {entries_of(to_x), entries_of(to_y)};
+  return result;
 }
 
 }  // namespace detail
