@@ -74,9 +74,8 @@ constexpr void require_suited() {
                 "nysalt: a kinetic_energy(p) over double alone cannot be differentiated; make it a template");
   static_assert(HasForceDerivative<S> || !detail::MentionsForceDerivative<S>,
                 "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
-  static_assert(
-      HasKick<S, double> || !detail::MentionsKick<S> || detail::KickOfAnotherForce<S, double, double>,
-      "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");
+  static_assert(detail::CanKick<S, double, double> || !detail::MentionsKick<S>,
+                "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");
   static_assert(HasModes<S> || !detail::MentionsModes<S>,
                 "nysalt: modes is not of the form `nysalt::normal_modes modes() const`");
   static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,

@@ -9,7 +9,7 @@
 //   void force_derivative(q, v, g) const, all vector<double, N>;   g = f'(q) v, else central differences
 //   template <class T, class C> void kick(const vector<T, N>& q, vector<T, N>& p, const C& c) const;
 //                                          p += c force(q) without storing the force, each p[i] += f[i] * c;
-//                                          written in the class of the force
+//                                          written in the class of the force, or below
 //   double inverse_mass(Eigen::Index i) const;                      K = sum p_i^2 / (2 m_i), else m_i = 1
 //   template <class T> T kinetic_energy(const vector<T, N>& p) const;                 any other K(p)
 //   template <class T> void velocity(const vector<T, N>& p, vector<T, N>& v) const;   v = grad K
@@ -88,10 +88,10 @@ consteval auto origin_of_force() {
 }
 
 /// Whoever derives from a system and writes another force inherits a kick that is not of that force: a kick
-/// counts only if it is written where the force is.
+/// counts only if it is written where the force is, or further down.
 template <class S, class T, class C>
-concept KickOfTheForce = std::same_as < typename written_in<decltype(&S::template kick<T, C>)>::type,
-typename decltype(origin_of_force<S, T>())::type > ;
+concept KickOfTheForce = std::is_base_of_v<typename decltype(origin_of_force<S, T>())::type,
+                                           typename written_in<decltype(&S::template kick<T, C>)>::type>;
 
 template <class S, class T, class C>
 concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,

@@ -60,6 +60,15 @@ struct deeper_well : well {
     return q[0] * q[0];
   }
 };
+/// A kick for a chain that has a force.
+struct kicked : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  template <class T, class C>
+  void kick(const vector<T, 6>& q, vector<T, 6>& p, const C& c) const {
+    fpu_chain<3>::kick(q, p, c);
+  }
+};
+static_assert(HasKick<kicked, double> && HasKick<counted<kicked>, double>);
 static_assert(!HasKick<softer_by_auto, double> && !HasKick<softer_and_static, double>);
 static_assert(HasKick<well, double> && !HasKick<deeper_well, double>);
 static_assert(HasKick<fpu_chain<3>, double> && HasKick<renamed, double> && HasKick<counted<renamed>, double>);
