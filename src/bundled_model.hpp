@@ -128,9 +128,8 @@ class bundled_model final : public bundled_system {
   void require_measure(const std::string& metric, const std::string& name, const trajectories_plan& plan,
                        std::optional<double> fine_step) const override {
     const auto measure = measure_named(metric, name);
-    if (!measure.needs_reference) return;
-    fine_step_for(plan.step, fine_step);
     require_room(options_of(plan), 1, measure.width);
+    if (measure.needs_reference) fine_step_for(plan.step, fine_step);
   }
 
   trajectory_errors_result errors(const std::vector<tabulated>& methods, const trajectories_plan& plan,
@@ -149,7 +148,7 @@ class bundled_model final : public bundled_system {
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    if (plan.count < width / 4 || size(system_) > 1000) {
+    if (plan.count < width / 4 || size(system_) > 20'000) {
       run_over<double>(method, plan, observables, sample_every, take, progress);
     } else {
       run_over<T>(method, plan, observables, sample_every, take, progress);
@@ -206,13 +205,15 @@ class bundled_model final : public bundled_system {
                                      .every = sample_every,
                                      .seed = plan.seed,
                                      .threads = plan.threads,
-                                     .first = first};
+                                     .first = first,
+                                     .progress = [&](std::int64_t done) {
+                                       if (progress) progress(first + done);
+                                     }};
       const auto diverged_at = integrate_ensemble<P>(stepper, law_, options, watched.size(), read, keep);
       for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].diverged_at = diverged_at[i];
         take(first + static_cast<std::int64_t>(i), records[i]);
       }
-      if (progress) progress(first + count);
     }
   }
 

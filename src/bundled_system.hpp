@@ -71,7 +71,7 @@ class bundled_system {
   virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
 
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, or
-  /// the paths do not fit into memory; before any work is done.
+  /// scores and samples do not fit into memory; before any work is done.
   virtual void require_measure(const std::string& metric, const std::string& observable,
                                const trajectories_plan& plan, std::optional<double> fine_step) const = 0;
 

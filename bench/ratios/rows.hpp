@@ -163,7 +163,7 @@ inline std::vector<growth> growths() {
   return {{"cost of a trajectory-step, 10^3 to 10^6 trajectories",
            "growing ensemble",
            {"1000", "10000", "100000", "1000000"}},
-          {"cost of a mass-step, 10^3 to 10^6 masses",
+          {"cost of a mass-step, 10^3 masses to where memory bounds it",
            "growing chain",
            {"1000", "3000", "10000", "30000", "100000", "300000", "1000000"},
            "stream ",

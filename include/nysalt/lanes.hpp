@@ -108,7 +108,7 @@ condition_of<T> first_lanes(int count) {
 template <class T, int N>
 phase_point<T, N> gather(int count, const auto& make) {
   phase_point<T, N> result = make(0).template cast<T>();
-  for (int k = 1; k < count; ++k) set_lane(result, k, make(k));
+  for (int k = 1; k < std::min(count, lanes_in<T>); ++k) set_lane(result, k, make(k));
   return result;
 }
 

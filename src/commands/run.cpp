@@ -162,6 +162,11 @@ int run(const run_command& asked, const common_settings& common) {
   }
   const auto system = make_system(command.system);
   if (command.observables.empty()) command.observables = {system->default_observable()};
+  for (std::size_t i = 1; i < command.observables.size(); ++i) {
+    const auto earlier = std::span(command.observables).first(i);
+    if (std::ranges::find(earlier, command.observables[i]) == earlier.end()) continue;
+    refuse("--observables names {} twice", command.observables[i]);
+  }
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;

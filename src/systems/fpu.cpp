@@ -17,7 +17,7 @@ std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain) {
 }  // namespace
 
 std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega) {
-  constexpr std::int64_t most = 100'000;  // a state of a few megabytes
+  constexpr std::int64_t most = 1'000'000;  // a state of some tens of megabytes
   if (pairs > most) refuse("--pairs must be at most {}, got {}", most, pairs);
   if (pairs == 3) return make(fpu_chain<3>(omega));  // the paper's, of a size known to the compiler
   return make(fpu_chain<>(pairs, omega));
