@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
        {"fine steps", "--fine-step"}},
       {run_it + " --horizon 1 --system linear_chain --masses 1000000000000", {"--masses", "at most"}},
       {run_it + " --horizon 1 --system linear_chain --masses 50000", {"--masses", "at most"}},
-      {run_it + " --observables q1,p1,q1", {"--observables", "q1", "twice"}},
+      {run_it + " --horizon 1 --observables q1,p1,q1", {"--observables", "q1", "twice"}},
       {run_it + " --horizon 1e13", {"memory", "--sample-every"}},
       {"run --method verlet --step 0.01 --horizon 1 --trajectories 1000000000000 --json",
        {"memory", "--output"}},
