@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -17,10 +18,11 @@ namespace nysalt {
 /// It is the flow of one linear system and refuses any other, as nothing else would tell the error.
 class exact_linear {
  public:
+  // Not of itself, first of all: whether that is a system depends on whether it can be copied.
   /// Throws std::invalid_argument if the modes are not orthonormal or the force is not the linear one that
   /// they describe. Cost: 9 forces.
-  template <NystromSystem S>
-    requires HasModes<S>
+  template <class S>
+    requires(!std::same_as<S, exact_linear> && NystromSystem<S> && HasModes<S>)
   explicit exact_linear(const S& system)
       : system_(describe(system)), modes_(system.modes()), root_mass_(Eigen::VectorXd::Ones(size(system))) {
     if constexpr (HasInverseMass<S>) {
