@@ -142,6 +142,17 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(lanes_go_as_each_would_alone, T, scalars) {
   BOOST_TEST(diverged_of<T>(chain, verlet(), .05, starts, 200, 1) > 0);
 }
 
+// Else the test above could not tell.
+BOOST_AUTO_TEST_CASE(another_trajectory_does_not_agree) {
+  const fpu_chain<3> chain(50.0);
+  const auto starts = chain_starts(chain, 8);
+  const auto stepper = make_stepper(chain, verlet(), .02);
+  const auto all = together<pack<double, 8>>(stepper, starts, 100, 7);
+  BOOST_TEST(agree(all[0], alone(stepper, starts[0], 100, 7)));
+  BOOST_TEST(!agree(all[0], alone(stepper, starts[1], 100, 7)));
+  BOOST_TEST(!agree(all[0], alone(stepper, starts[0], 100, 8)));
+}
+
 // Here each leaves at a time of its own, and others stay.
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_lane_that_diverges_leaves_the_others_alone, T, scalars) {
   const auto starts = near_the_saddle();
@@ -172,9 +183,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(any_system_goes_in_lanes, T, scalars) {
 BOOST_AUTO_TEST_CASE(parts_make_a_whole) {
   using T = pack<double, 8>;
   const fpu_chain<3> chain(50.0);
-  const auto starts = chain_starts(chain, 8);
   const auto stepper = make_stepper(chain, verlet(), .03);
-  const auto start = gather<T, 6>(8, [&](int k) { return starts[static_cast<std::size_t>(k)]; });
+  const auto start = sound_starts<T>(chain, fpu_law<3>(chain), 1, 0, 8);
   lockstep<decltype(stepper), T> whole(stepper, start, 8);
   lockstep<decltype(stepper), T> parts(stepper, start, 8);
   whole.go_on(256);
@@ -195,9 +205,8 @@ BOOST_AUTO_TEST_CASE(the_number_of_lanes_follows_from_the_system) {
 BOOST_AUTO_TEST_CASE(the_loop_allocates_nothing) {
   using T = pack<double, 8>;
   const fpu_chain<3> chain(50.0);
-  const auto starts = chain_starts(chain, 8);
   const auto stepper = make_stepper(chain, verlet(), .01);
-  const auto start = gather<T, 6>(8, [&](int k) { return starts[static_cast<std::size_t>(k)]; });
+  const auto start = sound_starts<T>(chain, fpu_law<3>(chain), 1, 0, 8);
   lockstep<decltype(stepper), T> all(stepper, start, 8);
   T sum(0.0);
   const auto read = [&](const auto& x, std::span<T> numbers) { numbers[0] = chain.stiff_energy(x); };

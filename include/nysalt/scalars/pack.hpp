@@ -23,7 +23,6 @@ class pack {
  public:
   static constexpr int lanes = W;
   static constexpr int of_part = detail::lanes_of_part(W);
-  using value_type = T;
   using part = typename detail::native_vector<of_part>::type;
   using mask = lane_mask<W>;
 
