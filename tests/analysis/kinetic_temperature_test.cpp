@@ -58,8 +58,8 @@ BOOST_AUTO_TEST_CASE(lanes_do_not_change_a_bit) {
   }
 }
 
-// Verlet takes q = A cos(n turn + phase) to momenta of the amplitude omega A cos(turn/2) at the steps: over all
-// phases <p^2> = (1 - z^2/4) omega^2 <q^2>. Half a kick later they have omega^2 <q^2>, which is kT.
+// Verlet takes q = A cos(n turn + phase) to momenta of the amplitude omega A cos(turn/2) at the steps: over
+// all phases <p^2> = (1 - z^2/4) omega^2 <q^2>. Half a kick later they have omega^2 <q^2>, which is kT.
 BOOST_AUTO_TEST_CASE(half_steps_of_an_oscillator_show_its_temperature) {
   const harmonic_oscillator oscillator(2.0);
   const double step = 0.6;
