@@ -21,22 +21,44 @@ concept Ensemble = requires(const E& ensemble, std::uint64_t seed, std::uint64_t
   { ensemble.description() } -> std::convertible_to<std::string>;
 };
 
-/// The start of trajectory n. Throws std::invalid_argument if it is not finite or does not fit.
+/// An ensemble whose states are dear may make those of `count` trajectories at a time, one in each lane of T,
+/// with the same bits: block<T>(seed, first, count).
+template <class E, class S, class T>
+concept MakesBlocks = Ensemble<E, S> &&
+    requires(const E& ensemble, std::uint64_t seed, std::int64_t first, int count) {
+  { ensemble.template block<T>(seed, first, count) } -> std::same_as<phase_point<T, S::dimension>>;
+};
+
+namespace detail {
 template <System S, Ensemble<S> E>
-phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble, std::uint64_t seed,
-                                              std::int64_t n) {
-  auto start = ensemble(seed, static_cast<std::uint64_t>(n));
+phase_point<double, S::dimension> require_sound(const S& system, const E& ensemble, std::int64_t n,
+                                                phase_point<double, S::dimension> start) {
   if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
   throw std::invalid_argument(fmt::format("start {} of {} is not finite or has not the dimension of {}", n,
                                           ensemble.description(), describe(system)));
 }
+}  // namespace detail
 
-/// Those of `count` trajectories from the first on, one in each lane of T.
+/// The start of trajectory n. Throws std::invalid_argument if it is not finite or does not fit.
+template <System S, Ensemble<S> E>
+phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble, std::uint64_t seed,
+                                              std::int64_t n) {
+  return detail::require_sound(system, ensemble, n, ensemble(seed, static_cast<std::uint64_t>(n)));
+}
+
+/// Those of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat the
+/// first.
 template <class T, System S, Ensemble<S> E>
 phase_point<T, S::dimension> sound_starts(const S& system, const E& ensemble, std::uint64_t seed,
                                           std::int64_t first, int count) {
-  return gather<T, S::dimension>(count,
-                                 [&](int k) { return sound_start(system, ensemble, seed, first + k); });
+  if constexpr (MakesBlocks<E, S, T>) {
+    const auto all = ensemble.template block<T>(seed, first, count);
+    return gather<T, S::dimension>(
+        count, [&](int k) { return detail::require_sound(system, ensemble, first + k, lane(all, k)); });
+  } else {
+    return gather<T, S::dimension>(count,
+                                   [&](int k) { return sound_start(system, ensemble, seed, first + k); });
+  }
 }
 
 }  // namespace nysalt

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSL-1.0
+// How long, with what friction and what step chains must run until they have forgotten their starts.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/ensembles/burn_in_pilot.hpp"
+#include "nysalt/ensembles/highest_frequency.hpp"
+
+namespace nysalt {
+
+/// The search for a burn-in.
+template <NystromSystem S, Ensemble<S> E>
+class burn_in_search {
+ public:
+  burn_in_search(const S& alone, double temperature, const E& from, const burn_in_options& options)
+      : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
+    require(options);
+  }
+
+  /// Throws std::runtime_error where a chain diverges, nothing becomes stationary, or a check fails.
+  burn_in_report find() {
+    const auto began = std::chrono::steady_clock::now();
+    burn_in_report report;
+    report.step = options_.step > 0.0 ? options_.step : step_of_frequency(*alone_, 0.5, "gibbs");
+    while (!settle(report)) {
+      report.step *= 0.5;
+      ++report.halvings;
+    }
+    const double length = options_.length > 0.0 ? options_.length : 20.0 * report.tau;
+    report.steps = std::max<std::int64_t>(1, std::llround(std::ceil(length / report.step)));
+    report.length = static_cast<double>(report.steps) * report.step;
+    check(report);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return report;
+  }
+
+ private:
+  static constexpr int most_halvings = 6;
+
+  static void require(const burn_in_options& options) {
+    const auto sound = [](const char* what, double value) {
+      if (value >= 0.0 && std::isfinite(value)) return;
+      throw std::invalid_argument(fmt::format(
+          "gibbs: the {} of the burn-in must be finite and positive, or 0 to be found, got {}", what, value));
+    };
+    sound("friction", options.friction);
+    sound("step", options.step);
+    sound("length", options.length);
+    if (options.pilots >= 16 && options.pilots <= 100'000 && options.most_steps >= 1) return;
+    throw std::invalid_argument(
+        fmt::format("gibbs: {} pilots of at most {} steps: cannot be; take 16 to 100000", options.pilots,
+                    options.most_steps));
+  }
+
+  burn_in_pilot<S, E> pilot(double friction, double step, int count) {
+    // Far from the numbers of chains that anybody uses, and from those of other pilots.
+    const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
+    return {*alone_, *from_, temperature_, friction, step, options_, count, noise};
+  }
+
+  /// Chains that are watched for 32 times what they remember, after as long a time unwatched; nothing where
+  /// that would take longer than `most`.
+  std::optional<watched_stretch> stationary(double friction, double step, int count, double most) {
+    constexpr std::int64_t looks = 256;
+    auto chains = pilot(friction, step, count);
+    chains.watch(looks, looks);
+    for (std::int64_t every = 1; 2 * every * looks <= options_.most_steps; every *= 2) {
+      const auto stretch = chains.watch(2 * every * looks, every);
+      if (stretch.duration >= 32.0 * stretch.tau()) return stretch;
+      if (stretch.duration > 32.0 * most) return std::nullopt;
+    }
+    throw std::runtime_error(
+        fmt::format("gibbs: no stationary state of {} within {} steps of {:.6g} with the friction {:.6g}: "
+                    "give another friction "
+                    "or more steps",
+                    describe(*alone_), options_.most_steps, step, friction));
+  }
+
+  /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
+  /// friction makes slow motion creep, weak friction leaves energies what they were.
+  double best_friction(double step) {
+    const double omega = highest_frequency(*alone_).value_or(0.5 / step);
+    double best = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double part : {1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0 / 256}) {
+      const auto stretch = stationary(part * omega, step, std::min(64, options_.pilots), least);
+      if (!stretch || stretch->tau() >= least) continue;
+      best = part * omega;
+      least = stretch->tau();
+    }
+    return best;
+  }
+
+  /// Whether the step shows no bias against half of it. A step at which chains diverge is too large as well.
+  bool settle(burn_in_report& report) {
+    constexpr double forever = std::numeric_limits<double>::infinity();
+    try {
+      report.friction = options_.friction > 0.0 ? options_.friction : best_friction(report.step);
+      const auto coarse = *stationary(report.friction, report.step, options_.pilots, forever);
+      const auto fine = *stationary(report.friction, 0.5 * report.step, options_.pilots, forever);
+      report.tau = std::max(coarse.tau(), fine.tau());
+      report.confined = coarse.confined() && fine.confined();
+      bool sound = true;
+      for (std::size_t i = 0; i < watched_numbers; ++i) {
+        const discrepancy a = mean_over_chains(coarse.mean[i]);
+        const discrepancy b = mean_over_chains(fine.mean[i]);
+        report.bias[i] = {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
+        // The momenta of the chains are not used.
+        if (i != static_cast<std::size_t>(watched::kinetic) && counts(report, i))
+          sound = sound && !report.bias[i].shows();
+      }
+      if (sound) return true;
+    } catch (const chain_diverged&) {
+      if (report.halvings == most_halvings) throw;
+    }
+    if (report.halvings < most_halvings) return false;
+    throw std::runtime_error(
+        fmt::format("gibbs: even the step {:.6g} has a bias that shows; give a smaller one", report.step));
+  }
+
+  static bool counts(const burn_in_report& report, std::size_t i) {
+    return i != static_cast<std::size_t>(watched::virial) || report.confined;
+  }
+
+  /// Fresh pilots at the end of the burn-in against equipartition, and against themselves later.
+  void check(burn_in_report& report) {
+    auto chains = pilot(report.friction, report.step, options_.pilots);
+    chains.watch(report.steps, report.steps);
+    const auto later = chains.watch(2 * report.steps, std::max<std::int64_t>(1, report.steps / 256));
+    for (std::size_t i = 0; i < watched_numbers; ++i) {
+      std::vector<double> difference = later.begin[i];
+      for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= later.mean[i][k];
+      report.to_forget[i] = mean_over_chains(difference);
+      if (i != static_cast<std::size_t>(watched::potential)) {
+        report.excess[i] = mean_over_chains(later.begin[i]);
+        report.excess[i].mean -= 1.0;
+      }
+      if (!counts(report, i)) continue;
+      refuse_if(report.excess[i], i, "is not that of equipartition", report);
+      refuse_if(report.to_forget[i], i, "still changes afterwards", report);
+    }
+  }
+  static void refuse_if(const discrepancy& found, std::size_t i, const char* what,
+                        const burn_in_report& report) {
+    if (!found.shows()) return;
+    throw std::runtime_error(fmt::format(
+        "gibbs: after a burn-in of {:.6g} the {} {}: off by {:.3g} +- {:.3g} kT; burn in for longer",
+        report.length, watched_names[i], what, found.mean, found.standard_error));
+  }
+
+  const S* alone_;
+  double temperature_;
+  const E* from_;
+  burn_in_options options_;
+  std::int64_t pilots_ = 0;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+// Langevin chains of a temperature whose friction is ours to choose.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "nysalt/ensemble.hpp"
+#include "nysalt/lockstep.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/methods/baoab.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/in_bath.hpp"
+
+namespace nysalt {
+
+/// BAOAB with noise of its own purpose: the numbers of (seed, chain, step) and no other run's. Momenta are
+/// drawn from Maxwell's law p_i ~ N(0, m_i kT) where that is asked for.
+template <NystromSystem S>
+class burn_in_chains {
+ public:
+  static constexpr int dimension = S::dimension;
+  using stepper_type = stepper<in_bath<S>, baoab::word, double, counter_noise>;
+
+  burn_in_chains(const S& alone, double temperature, double friction, double step, std::uint64_t seed)
+      : system_(alone, bath::of_temperature(friction, temperature)),
+        stepper_(make_stepper(system_, baoab{}, step, counter_noise(seed, noise_purpose::burn_in))) {}
+  burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
+  burn_in_chains& operator=(const burn_in_chains&) = delete;
+
+  const in_bath<S>& system() const { return system_; }
+  double step() const { return stepper_.step_size(); }
+  double temperature() const { return system_.bath().temperature(); }
+
+  /// Chains under way in the lanes of T, from these positions; lane 0 sees the noise of chain `first`.
+  template <class T>
+  lockstep<stepper_type, T> open(phase_point<T, dimension> start, std::int64_t first, int count) const {
+    draw_momenta(start, first, 0);
+    return {stepper_, start, count, first};
+  }
+
+  /// Afresh at a step.
+  template <class T>
+  void draw_momenta(phase_point<T, dimension>& x, std::int64_t first, std::int64_t step) const {
+    constexpr int after_the_letter = 1;
+    stepper_.noise().normals(noise_place{static_cast<std::uint64_t>(first), step, after_the_letter}, x.p);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      double square = temperature();
+      if constexpr (HasInverseMass<S>) square /= system_.inverse_mass(i);
+      x.p[i] = x.p[i] * std::sqrt(square);
+    }
+  }
+
+ private:
+  in_bath<S> system_;
+  stepper_type stepper_;
+};
+
+}  // namespace nysalt

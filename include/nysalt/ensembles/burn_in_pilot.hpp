@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+// Some chains that are watched, to learn how long they remember.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensembles/burn_in_chains.hpp"
+#include "nysalt/ensembles/watched_stretch.hpp"
+
+namespace nysalt {
+
+/// A chain ran away: the motion is not confined, or the step is too large.
+struct chain_diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Chains 0, 1, ... from starts of their numbers, with noise from `first_noise` on.
+template <NystromSystem S, Ensemble<S> E>
+class burn_in_pilot {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  using state = phase_point<T, S::dimension>;
+  static constexpr int width = lanes_in<T>;
+  using chains_type = burn_in_chains<S>;
+
+  struct block {
+    state start;
+    int count;
+    lockstep<typename chains_type::stepper_type, T> run;
+  };
+
+ public:
+  burn_in_pilot(const S& alone, const E& from, double temperature, double friction, double step,
+                const burn_in_options& options, int count, std::int64_t first_noise)
+      : chains_(alone, temperature, friction, step, options.seed), threads_(options.threads), count_(count) {
+    for (int first = 0; first < count; first += width) {
+      const int here = std::min(width, count - first);
+      const state start = sound_starts<T>(alone, from, options.seed, first, here);
+      blocks_.push_back({start, here, chains_.open(start, first_noise + first, here)});
+    }
+    zero_ = lane(potential_of(blocks_.front().start), 0);
+  }
+
+  /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
+  watched_stretch watch(std::int64_t end, std::int64_t every) {
+    watched_stretch result;
+    const auto chains = static_cast<std::size_t>(count_);
+    for (auto* numbers : {&result.begin, &result.mean, &result.square})
+      numbers->fill(std::vector<double>(chains));
+    std::vector<double> begin(chains);
+    std::vector<double> finish(chains);
+    const std::int64_t before = blocks_.front().run.step();
+    result.duration = static_cast<double>(end - before) * chains_.step();
+    for_each_block(count_, width, threads_, [&](std::int64_t first, int) {
+      block& here = blocks_[static_cast<std::size_t>(first / width)];
+      read_way(here, first, begin);
+      follow(here, first, end, every, result);
+      read_way(here, first, finish);
+    });
+    require_all_alive();
+    result.way_to_begin = mean_over_chains(begin).mean;
+    result.way_to_end = mean_over_chains(finish).mean;
+    return result;
+  }
+
+ private:
+  void read(const state& x, std::span<T> out) const {
+    const S& alone = chains_.system();
+    auto f = make_vector<T>(alone);
+    auto p = x.p;
+    force<T>(alone, x.q, f);
+    T virial(0.0);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      virial -= x.q[i] * f[i];
+      p[i] += f[i] * (0.5 * chains_.step());
+    }
+    velocity<T>(alone, p, f);
+    T twice_kinetic(0.0);
+    for (Eigen::Index i = 0; i < x.size(); ++i) twice_kinetic += p[i] * f[i];
+    const double each = 1.0 / (chains_.temperature() * static_cast<double>(x.size()));
+    out[0] = twice_kinetic * each;
+    out[1] = virial * each;
+    out[2] = (potential_of(x) - zero_) * each;
+  }
+  /// 0 where the system knows no potential.
+  T potential_of(const state& x) const {
+    const S& alone = chains_.system();
+    if constexpr (HasPotential<S, T>) {
+      return alone.potential(x.q);
+    } else if constexpr (HasPotential<S, double>) {
+      return value_in_lanes<T>(
+          [&](const phase_point<double, S::dimension>& y) { return alone.potential(y.q); }, x);
+    } else {
+      return T(0.0);
+    }
+  }
+
+  void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
+              watched_stretch& result) {
+    of_watched<T> begin;
+    of_watched<T> sum;
+    of_watched<T> squares;
+    sum.fill(T(0.0));
+    squares.fill(T(0.0));
+    read(here.run.synchronous(), begin);
+    std::int64_t looks = 0;
+    const auto look = [&](const state& x, std::span<T> out) { read(x, out); };
+    here.run.go_on(end, every, watched_numbers, look,
+                   [&](std::int64_t, std::span<const T> seen, const auto&) {
+                     ++looks;
+                     for (std::size_t i = 0; i < watched_numbers; ++i) {
+                       sum[i] += seen[i];
+                       squares[i] += seen[i] * seen[i];
+                     }
+                   });
+    for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (int k = 0; k < here.count; ++k) {
+        const auto chain = static_cast<std::size_t>(first + k);
+        result.begin[i][chain] = lane(begin[i], k);
+        result.mean[i][chain] = lane(sum[i], k) / static_cast<double>(looks);
+        result.square[i][chain] = lane(squares[i], k) / static_cast<double>(looks);
+      }
+    }
+  }
+
+  void read_way(const block& here, std::int64_t first, std::vector<double>& way) const {
+    const state x = here.run.synchronous();
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const T d = x.q[i] - here.start.q[i];
+      sum += d * d;
+    }
+    for (int k = 0; k < here.count; ++k) way[static_cast<std::size_t>(first + k)] = lane(sum, k);
+  }
+
+  void require_all_alive() const {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      for (int k = 0; k < blocks_[b].count; ++k) {
+        const auto lost = blocks_[b].run.diverged_at(k);
+        if (!lost) continue;
+        throw chain_diverged(
+            fmt::format("gibbs: pilot chain {} diverged at time {:.6g} with the step {:.6g}: the motion of "
+                        "{} is not confined, "
+                        "or the step is too large",
+                        b * width + static_cast<std::size_t>(k), static_cast<double>(*lost) * chains_.step(),
+                        chains_.step(), describe(chains_.system())));
+      }
+    }
+  }
+
+  chains_type chains_;
+  int threads_;
+  int count_;
+  std::vector<block> blocks_;
+  double zero_ = 0.0;  // of the potential: a large constant in it would drown what varies
+};
+
+}  // namespace nysalt

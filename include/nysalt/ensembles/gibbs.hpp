@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "nysalt/ensembles/burn_in.hpp"
+
+namespace nysalt {
+
+/// Independent states from exp(-H/kT) of a system in a bath that has a temperature: each is the end of a
+/// chain of its own, which begins at a state of another ensemble with fresh momenta and follows BAOAB. The
+/// law does not depend on the friction, so the chains have a stronger one than the bath, and forget their
+/// starts much sooner. BAOAB is exact in the law of q for harmonic systems, up to h omega = 2, so their step
+/// is large. At the end the momenta are drawn from Maxwell's law, p_i ~ N(0, m_i kT): only the law of q has
+/// an error.
+///
+/// Friction, step and length are found by pilot chains when the ensemble is made (burn_in.hpp): the length is
+/// 20 times the longest autocorrelation time of kinetic energy, potential energy and virial, the step is
+/// halved until no bias against half of it shows, and equipartition is checked; report() tells. What none of
+/// the pilots sees in its time is not sampled: valleys behind barriers that no chain crosses.
+///
+/// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
+template <NystromSystem S, Ensemble<S> E>
+class gibbs {
+ public:
+  /// Throws std::invalid_argument if the bath has no temperature or that is zero, if an option cannot be, or
+  /// if there is neither a step nor frequency_bands(); std::runtime_error if chains diverge, do not become
+  /// stationary, or a check fails.
+  gibbs(const in_bath<S>& system, E from, const burn_in_options& options = {})
+      : alone_(system.alone()), from_(std::move(from)), temperature_(temperature_of(system.bath())) {
+    report_ = burn_in_search<S, E>(alone_, temperature_, from_, options).find();
+  }
+
+  const burn_in_report& report() const { return report_; }
+
+  phase_point<double, S::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
+    return block<double>(seed, static_cast<std::int64_t>(n), 1);
+  }
+
+  /// Those of `count` trajectories from the first on, one in each lane of T, with the bits that each has
+  /// alone. Throws std::runtime_error if one diverges.
+  template <class T>
+  phase_point<T, S::dimension> block(std::uint64_t seed, std::int64_t first, int count) const {
+    const burn_in_chains<S> chains(alone_, temperature_, report_.friction, report_.step, seed);
+    auto run = chains.open(sound_starts<T>(alone_, from_, seed, first, count), first, count);
+    run.go_on(report_.steps);
+    for (int k = 0; k < count; ++k) {
+      if (!run.diverged_at(k)) continue;
+      throw std::runtime_error(fmt::format(
+          "gibbs: chain {} of seed {} diverged at time {:.6g}: the motion of {} is not confined", first + k,
+          seed, static_cast<double>(*run.diverged_at(k)) * report_.step, describe(alone_)));
+    }
+    auto x = run.synchronous();
+    chains.draw_momenta(x, first, report_.steps);
+    return x;
+  }
+
+  std::string description() const {
+    return fmt::format(
+        "gibbs(temperature={:.6g}, from {}, burned in for {:.4g} with friction {:.4g} and step {:.4g})",
+        temperature_, from_.description(), report_.length, report_.friction, report_.step);
+  }
+
+ private:
+  static double temperature_of(const bath& its) {
+    if (!its.has_temperature()) {
+      throw std::invalid_argument(
+          fmt::format("gibbs: a {} has no temperature; give one, or friction", its.description()));
+    }
+    if (its.temperature() > 0.0) return its.temperature();
+    throw std::invalid_argument(
+        "gibbs: at temperature 0 a system rests where its potential is least, and there is nothing to "
+        "sample; start from "
+        "another ensemble");
+  }
+
+  S alone_;
+  E from_;
+  double temperature_;
+  burn_in_report report_;
+};
+
+}  // namespace nysalt

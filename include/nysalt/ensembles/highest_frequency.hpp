@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// Of the system's bands; nothing where it says none.
+template <System S>
+std::optional<double> highest_frequency(const S& system) {
+  double highest = 0.0;
+  if constexpr (HasFrequencyBands<S>) {
+    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  }
+  return highest > 0.0 ? std::optional(highest) : std::nullopt;
+}
+
+/// z/omega at the highest frequency. Throws std::invalid_argument, in the name of who asks, where that is not
+/// known.
+template <System S>
+double step_of_frequency(const S& system, double z, const char* who) {
+  if (const auto omega = highest_frequency(system)) return z / *omega;
+  throw std::invalid_argument(fmt::format(
+      "{}: the step has no default, for {} tells no frequency_bands(); give one", who, describe(system)));
+}
+
+}  // namespace nysalt

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "nysalt/ensembles/burn_in_report.hpp"
+
+namespace nysalt {
+
+/// Mean over independent numbers and its standard error.
+inline discrepancy mean_over_chains(const std::vector<double>& x) {
+  const auto n = static_cast<double>(x.size());
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double value : x) mean += value / n;
+  for (const double value : x) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (n - 1.0) / n)};
+}
+
+/// Chains over a stretch of time.
+struct watched_stretch {
+  double duration = 0.0;
+  of_watched<std::vector<double>> begin;   // one number a chain
+  of_watched<std::vector<double>> mean;    // over time
+  of_watched<std::vector<double>> square;  // mean of squares
+  double way_to_begin = 0.0;               // mean |q - q_0|^2
+  double way_to_end = 0.0;
+
+  /// A free walk doubles its way over a stretch that begins where half the time is over.
+  bool confined() const { return way_to_end < 1.5 * way_to_begin; }
+  bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
+
+  /// Longest of T Var(mean over T)/Var: the integrated autocorrelation time, if it is much shorter than T,
+  /// and T if nothing is forgotten. Its relative error is sqrt(2/chains).
+  double tau() const {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < watched_numbers; ++i) {
+      if (!counts(i)) continue;
+      const auto n = static_cast<double>(mean[i].size());
+      const discrepancy all = mean_over_chains(mean[i]);
+      const double variance = mean_over_chains(square[i]).mean - all.mean * all.mean;
+      const double of_means = all.standard_error * all.standard_error * n;
+      if (variance > 0.0) longest = std::max(longest, duration * of_means / variance);
+    }
+    return longest;
+  }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSL-1.0
+// States of the Gibbs ensemble have its law, are independent, and are a function of seed and number.
+#include <boost/test/unit_test.hpp>
+
+#include "../support/rounding.hpp"
+#include "../support/statistics.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using lanes = pack<double>;
+constexpr int width = lanes::lanes;
+constexpr std::int64_t count = 4096;
+constexpr double omega = 50.0;
+const fpu_chain<3> chain(omega);
+const in_bath in_the_papers_bath(chain, bath::of_sigma(0.01, 0.05));
+constexpr double kT = 0.05 * 0.05 / 0.02;
+
+/// Made once: most of the time of this test.
+const gibbs<fpu_chain<3>, fpu_law<3>>& papers() {
+  static const gibbs ensemble(in_the_papers_bath, fpu_law<3>(chain));
+  return ensemble;
+}
+
+template <class S, class E>
+auto states_of(const S& system, const E& ensemble, std::uint64_t seed) {
+  std::vector<phase_point<double, S::dimension>> result;
+  for (std::int64_t first = 0; first < count; first += width) {
+    const auto all = sound_starts<lanes>(system, ensemble, seed, first, width);
+    for (int k = 0; k < width; ++k) result.push_back(lane(all, k));
+  }
+  return result;
+}
+const auto& papers_states() {
+  static const auto states = states_of(in_the_papers_bath, papers(), 7);
+  return states;
+}
+
+std::vector<double> numbers(const auto& states, const auto& of) {
+  std::vector<double> result;
+  for (const auto& x : states) result.push_back(of(x));
+  return result;
+}
+/// Against a normal law of mean 0.
+double off(std::vector<double> x, double deviation) {
+  for (double& value : x) value /= deviation;
+  return kolmogorov_smirnov(x);
+}
+double in_standard_errors(double correlation) {
+  return std::abs(correlation) * std::sqrt(static_cast<double>(count));
+}
+
+}  // namespace
+
+// I is a sum of 6 squares of normal numbers, kT/2 each: mean 3 kT, variance 3 kT^2, fourth central moment
+// 3 (variance)^2 + 6 * 12 (kT/2)^4 = 2 * 9 kT^4 + ... : kurtosis 3 + 12/6 = 5, so the variance has the
+// relative error sqrt(4/count).
+BOOST_AUTO_TEST_CASE(the_stiff_energy_has_mean_and_variance_of_its_law) {
+  const auto energy = numbers(papers_states(), [](const auto& x) { return chain.stiff_energy(x); });
+  BOOST_TEST(mean_off(energy, 3.0 * kT, std::sqrt(3.0) * kT) <= 4.0);
+  const double variance = covariance(energy, energy) / (3.0 * kT * kT);
+  BOOST_TEST(std::abs(variance - 1.0) <= 4.0 * std::sqrt(4.0 / count));
+  const auto of_law =
+      numbers(states_of(chain, fpu_law<3>(chain), 7), [](const auto& x) { return chain.stiff_energy(x); });
+  BOOST_TEST(mean_off(of_law, 3.0 * kT, std::sqrt(3.0) * kT) > 4.0);  // where the chains begin
+}
+
+// The soft springs shift the variance of a stiff mode by 12 u^2/omega^2 < 0.1 %: far below 1/sqrt(count).
+BOOST_AUTO_TEST_CASE(stiff_modes_and_momenta_are_normal) {
+  const Eigen::MatrixXd basis = chain.modes().basis;
+  const double sd = std::sqrt(kT);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const auto q = numbers(papers_states(), [&](const auto& x) { return basis.col(k).dot(x.q); });
+    const auto p = numbers(papers_states(), [&](const auto& x) { return x.p[k]; });
+    BOOST_TEST(off(p, sd) <= 2.0);
+    BOOST_TEST(off(p, 1.2 * sd) > 2.0);
+    if (k >= 3) {
+      BOOST_TEST(off(q, sd / omega) <= 2.0);
+      BOOST_TEST(off(q, 1.2 * sd / omega) > 2.0);
+    }
+    BOOST_TEST(in_standard_errors(correlation(q, p)) <= 4.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_trajectory_has_the_same_bits_alone_and_in_any_block) {
+  const auto block = papers().block<lanes>(7, 3, 5);
+  const auto narrow = sound_starts<pack<double, 2>>(in_the_papers_bath, papers(), 7, 4, 2);
+  for (int k = 0; k < 5; ++k) {
+    const auto alone = papers()(7, static_cast<std::uint64_t>(3 + k));
+    BOOST_TEST(same_bits(lane(block, k), alone));
+    BOOST_TEST(same_bits(papers_states()[static_cast<std::size_t>(3 + k)], alone));
+  }
+  BOOST_TEST(same_bits(lane(narrow, 0), lane(block, 1)));
+  BOOST_TEST(same_bits(lane(narrow, 1), lane(block, 2)));
+  BOOST_TEST(!same_bits(lane(block, 0), lane(block, 1)));
+  BOOST_TEST(!same_bits(lane(block, 0), papers()(8, 3)));
+  const auto filled = sound_starts<lanes>(in_the_papers_bath, papers(), 7, 3, 5);
+  for (int k = 5; k < width; ++k) BOOST_TEST(same_bits(lane(filled, k), lane(filled, 0)));
+}
+
+BOOST_AUTO_TEST_CASE(trajectories_and_seeds_are_independent) {
+  const auto neighbours = [](std::vector<double> x) {
+    std::vector<double> next(x.begin() + 1, x.end());
+    x.pop_back();
+    return correlation(x, next);
+  };
+  const auto slow = [](const auto& x) { return x.q[0] + x.q[1]; };
+  const auto fast = [](const auto& x) { return x.q[1] - x.q[0]; };
+  const auto other = states_of(in_the_papers_bath, papers(), 8);
+  BOOST_TEST(in_standard_errors(neighbours(numbers(papers_states(), slow))) <= 4.0);
+  BOOST_TEST(in_standard_errors(neighbours(numbers(papers_states(), fast))) <= 4.0);
+  const auto mine = numbers(papers_states(), slow);
+  BOOST_TEST(in_standard_errors(correlation(mine, numbers(other, slow))) <= 4.0);
+  BOOST_TEST(in_standard_errors(correlation(mine, mine)) > 4.0);
+}
+
+// Two masses between walls: <p_i^2> = m_i kT and <q q^T> = kT K^{-1}, whatever the masses.
+BOOST_AUTO_TEST_CASE(masses_change_the_law_of_momenta_alone) {
+  const Eigen::Matrix2d stiffness{{2.0, -1.0}, {-1.0, 2.0}};
+  const linear_chain masses(stiffness, Eigen::Vector2d(1.0, 9.0));
+  const in_bath system(masses, bath::of_temperature(0.0, 0.3));  // friction is ours
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2);
+  const gibbs ensemble(system, normal_around<Eigen::Dynamic>({zero, zero}, 1.0, 0.0), {.friction = 0.8});
+  const auto states = states_of(system, ensemble, 1);
+  for (int i = 0; i < 2; ++i) {
+    const auto q = numbers(states, [&](const auto& x) { return x.q[i]; });
+    const auto p = numbers(states, [&](const auto& x) { return x.p[i]; });
+    BOOST_TEST(off(q, std::sqrt(0.3 * 2.0 / 3.0)) <= 2.0);  // (K^{-1})_ii = 2/3
+    BOOST_TEST(off(p, std::sqrt(0.3 * (i == 0 ? 1.0 : 9.0))) <= 2.0);
+  }
+  const auto difference = numbers(states, [](const auto& x) { return x.q[1] - x.q[0]; });
+  BOOST_TEST(off(difference, std::sqrt(0.3 * 2.0 / 3.0)) <= 2.0);  // 2/3 + 2/3 - 2/3
+}
+
+BOOST_AUTO_TEST_CASE(it_says_what_it_is) {
+  const auto& report = papers().report();
+  BOOST_TEST(report.halvings == 0);
+  BOOST_TEST(report.confined);
+  BOOST_TEST(report.step * chain.frequency_bands().back().high == 0.5, boost::test_tools::tolerance(1e-12));
+  // Twenty times tau, of which a pilot finds sqrt(2/256) and the friction is a matter of taste.
+  BOOST_TEST(report.length >= 20.0 * report.tau);
+  BOOST_TEST((report.tau > 0.7 && report.tau < 3.0));
+  const std::string said = papers().description();
+  for (const char* words : {"gibbs(temperature=0.125", "fpu_law(omega=50)", "friction", "step"})
+    BOOST_TEST(said.find(words) != std::string::npos);
+}
