@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,10 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "bundled_system.hpp"
+#include "bundled_systems.hpp"
 #include "catalogue.hpp"
+#include "chosen_starts.hpp"
 #include "json.hpp"
+#include "model_reference.hpp"
 #include "number.hpp"
+#include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
@@ -23,11 +28,9 @@
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/learner.hpp"
-#include "nysalt/references/exact_linear.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
+#include "placed_family.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -37,11 +40,6 @@ struct model_facts {
   double frequency;  // times a fine step it is 5e-3 at most: the error of srkn11b is rounding then
   std::string default_observable;
 };
-
-/// Systems whose flow is known exactly: it is the reference unless a fine step is asked for.
-template <class S>
-inline constexpr bool has_exact_flow =
-    std::is_same_v<S, harmonic_oscillator> || std::is_same_v<S, linear_chain>;
 
 /// "b1=0.5" into the options. Throws refusal for what is not of that form, not a parameter, or named twice.
 template <Family F>
@@ -61,27 +59,47 @@ void fix_parameter(const std::string& text, learn_options<F>& options) {
   fixed = value;
 }
 
-template <class S, Ensemble<S> E>
+template <class Alone, Ensemble<Alone> E>
 class bundled_model final : public bundled_system {
+  using S = in_bath<Alone>;
   static constexpr int width = lanes_of<S>;
   using T = scalar_of_lanes<width>;
+  using starts_type = any_starts<S::dimension, T>;
   using lanes_state = phase_point<T, S::dimension>;
   using measure_type = error_measure<S::dimension, width>;
 
  public:
-  bundled_model(S system, E law, model_facts facts)
-      : system_(std::move(system)), law_(std::move(law)), facts_(std::move(facts)) {}
+  bundled_model(const Alone& system, const surroundings& its, E law, model_facts facts)
+      : system_(system, its.bath), start_(its.start), law_(std::move(law)), facts_(std::move(facts)) {
+    if (start_ == start::law) starts_.emplace(system_, law_);
+  }
 
   std::string description() const override { return describe(system_); }
-  nlohmann::ordered_json parameters() const override { return facts_.parameters; }
+  nlohmann::ordered_json parameters() const override {
+    json all = facts_.parameters;
+    if (!system_.bath().acts()) return all;
+    all["friction"] = system_.bath().friction();
+    all["sigma"] = system_.bath().sigma();
+    return all;
+  }
+  const bath& its_bath() const override { return system_.bath(); }
   std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
   std::vector<std::string> observables() const override { return observable_names(system_); }
   std::string default_observable() const override { return facts_.default_observable; }
-  std::string law() const override { return law_.description(); }
+  std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
+  void prepare_starts() override {
+    if (starts_) return;
+    const auto& alone = system_.alone();
+    if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+    if (start_ == start::trajectory) starts_.emplace(alone, long_trajectory());
+  }
   int lanes() const override { return width; }
 
-  void require_learnable(const std::string& family, const learn_settings& how, double step) const override {
-    fine_step_for(step, how.fine_step);
+  void require_learnable(const std::string& family, std::optional<placement> where, const learn_settings& how,
+                         double step) const override {
+    with_family(family, [&]<class F>(F) {
+      reference().fine_step(step, how.fine_step, noise_parts(placed_family<F>(where)));
+    });
     const auto which = coordinates_named(how.coordinates);
     if (which != coordinates::qp) {
       if constexpr (HasModes<S>) {
@@ -97,39 +115,49 @@ class bundled_model final : public bundled_system {
                description());
       }
     }
-    with_family(family, [&]<class F>(F) { options_for<F>(how, 1); });
+    with_family(family, [&]<class F>(F) { options_for<placed_family<F>>(how, 1); });
   }
 
   learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
-    require_learnable(plan.family, plan.how, plan.step);
+    require_learnable(plan.family, plan.where, plan.how, plan.step);
     std::optional<learned_scheme> result;
-    const auto with_reference = [&](const auto& reference) {
-      const auto pairs = [&](std::uint64_t seed) {
-        return make_flow_map_data(system_, law_, reference,
-                                  {.step = plan.step,
-                                   .horizon = plan.how.horizon,
-                                   .trajectories = plan.how.trajectories,
-                                   .seed = seed,
-                                   .threads = plan.threads,
-                                   .progress = progress});
+    with_family(plan.family, [&]<class F>(F) {
+      const placed_family<F> family(plan.where);
+      const int parts = noise_parts(family);
+      const auto with_reference = [&](const auto& its) {
+        const auto pairs = [&](std::uint64_t seed) {
+          return make_flow_map_data(system_, *starts_, its,
+                                    {.step = plan.step,
+                                     .horizon = plan.how.horizon,
+                                     .trajectories = plan.how.trajectories,
+                                     .seed = seed,
+                                     .noise_parts = parts,
+                                     .threads = plan.threads,
+                                     .progress = progress});
+        };
+        const auto data = pairs(plan.seed);
+        const auto held_out = pairs(plan.held_out_seed);
+        auto [method, fit] = nysalt::learn(family, system_, data, held_out,
+                                           options_for<placed_family<F>>(plan.how, plan.threads));
+        const tabulated plain(member<F>(method.parameters()));
+        result.emplace(learned_scheme{std::move(fit), plan.where ? thermostat(plain, *plan.where) : plain,
+                                      data.energies});
       };
-      const auto data = pairs(plan.seed);
-      const auto held_out = pairs(plan.held_out_seed);
-      with_family(plan.family, [&]<class F>(F family) {
-        auto [method, fit] =
-            nysalt::learn(family, system_, data, held_out, options_for<F>(plan.how, plan.threads));
-        result.emplace(learned_scheme{std::move(fit), tabulated(method.anywhere()), data.energies});
-      });
-    };
-    reference_for(plan.step, plan.how.fine_step, with_reference);
+      reference().at(plan.step, plan.how.fine_step, parts, with_reference);
+    });
     return std::move(*result);
   }
 
   void require_measure(const std::string& metric, const std::string& name, const trajectories_plan& plan,
-                       std::optional<double> fine_step) const override {
+                       std::optional<double> fine_step, int noise_parts) const override {
+    if (metric == "distribution" || metric == "acf") {
+      observable<T>(system_, name);
+      reference().fine_step_for_statistics(plan.step, fine_step);
+      return;
+    }
     const auto measure = measure_named(metric, name);
     require_room(options_of(plan), 1, measure.width);
-    if (measure.needs_reference) fine_step_for(plan.step, fine_step);
+    if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
   }
 
   trajectory_errors_result errors(const std::vector<tabulated>& methods, const trajectories_plan& plan,
@@ -137,10 +165,61 @@ class bundled_model final : public bundled_system {
                                   std::optional<double> fine_step, const counter& progress) const override {
     const auto measure = measure_named(metric, name);
     trajectory_errors_result result;
-    reference_for(plan.step, fine_step, [&](const auto& reference) {
-      result = trajectory_errors(system_, reference, law_, methods, measure, options_of(plan, progress));
+    const int parts = parts_of_noise(system_, std::span<const tabulated>(methods));
+    reference().at(plan.step, fine_step, parts, [&](const auto& its) {
+      result = trajectory_errors(system_, its, *starts_, methods, measure, options_of(plan, progress));
     });
     return result;
+  }
+
+  std::array<double, 2> range_of_starts(const trajectories_plan& plan,
+                                        const std::string& name) const override {
+    const auto value = observable<double>(system_, name);
+    constexpr std::int64_t enough = 1000;
+    std::array range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::int64_t m = 0; m < std::min(plan.count, enough); m += width) {
+      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, width);
+      for (int k = 0; k < width; ++k) {
+        const double its = value(lane(x, k));
+        range = {std::min(range[0], its), std::max(range[1], its)};
+      }
+    }
+    return range;
+  }
+
+  gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
+                                 const std::string& name, const counter& progress) const override {
+    const auto& its = plan.trajectories;
+    const auto stepper = make_stepper(system_, method, its.step, counter_noise(its.seed));
+    const ensemble_options options{.trajectories = its.count,
+                                   .steps = its.steps,
+                                   .every = plan.every,
+                                   .seed = its.seed,
+                                   .threads = its.threads,
+                                   .first = plan.first,
+                                   .progress = progress};
+    const statistics_wanted wanted{.histogram = plan.bins,
+                                   .lags = plan.lags,
+                                   .moments = true,
+                                   .kinetic_temperature = true,
+                                   .half_step_kinetic_temperature = true};
+    return ensemble_statistics(stepper, *starts_, options, over_lanes(observable<T>(system_, name)), wanted);
+  }
+
+  gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& name,
+                                           std::optional<double> fine_step,
+                                           const counter& progress) const override {
+    const double fine = reference().fine_step_for_statistics(plan.trajectories.step, fine_step);
+    const auto finer = std::llround(plan.trajectories.step / fine);
+    statistics_plan its = plan;
+    its.trajectories.step = plan.trajectories.step / static_cast<double>(finer);
+    its.trajectories.steps *= finer;
+    its.every *= finer;
+    return statistics(method_of_reference(), its, name, progress);
+  }
+  std::string reference_of_statistics(double step, std::optional<double> fine_step) const override {
+    return fmt::format("{} with step {}", method_of_reference().name(),
+                       reference().fine_step_for_statistics(step, fine_step));
   }
 
   void run(const tabulated& method, const trajectories_plan& plan,
@@ -156,16 +235,16 @@ class bundled_model final : public bundled_system {
   }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
-    return evaluations_of_run(system_, method, plan.step, plan.steps, law_(plan.seed, 0));
+    return evaluations_of_run(system_, method, plan.step, plan.steps, (*starts_)(plan.seed, 0));
   }
 
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
     std::vector<lanes_state> starts;
     for (std::int64_t m = 0; m < plan.count; m += width) {
       const auto count = static_cast<int>(std::min<std::int64_t>(width, plan.count - m));
-      starts.push_back(sound_starts<T>(system_, law_, plan.seed, m, count));
+      starts.push_back(sound_starts<T>(system_, *starts_, plan.seed, m, count));
     }
-    const auto stepper = make_stepper(system_, method, plan.step);
+    const auto stepper = make_stepper(system_, method, plan.step, counter_noise(plan.seed));
     return [stepper, starts = std::move(starts), steps = plan.steps] {
       for (const auto& start : starts) {
         auto run = stepper.open(start);
@@ -188,7 +267,7 @@ class bundled_model final : public bundled_system {
     const auto read = [&](const states& x, std::span<P> values) {
       for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
     };
-    const auto stepper = make_stepper(system_, method, plan.step);
+    const auto stepper = make_stepper(system_, method, plan.step, counter_noise(plan.seed));
     // In memory at a time: a million numbers, or a few blocks of long trajectories.
     const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
     const std::int64_t at_a_time =
@@ -209,7 +288,7 @@ class bundled_model final : public bundled_system {
                                      .progress = [&](std::int64_t done) {
                                        if (progress) progress(first + done);
                                      }};
-      const auto diverged_at = integrate_ensemble<P>(stepper, law_, options, watched.size(), read, keep);
+      const auto diverged_at = integrate_ensemble<P>(stepper, *starts_, options, watched.size(), read, keep);
       for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].diverged_at = diverged_at[i];
         take(first + static_cast<std::int64_t>(i), records[i]);
@@ -226,33 +305,18 @@ class bundled_model final : public bundled_system {
             .progress = progress};
   }
 
-  /// That of the reference, which divides the step; nothing where the flow is known exactly.
-  std::optional<double> fine_step_for(double step, std::optional<double> asked) const {
-    if (has_exact_flow<S> && !asked) return std::nullopt;
-    const double steps = std::ceil(step * facts_.frequency / 5e-3 - 1e-9);  // 100.00000000000001 is 100
-    const double fine = asked.value_or(step / std::max(1.0, steps));
-    const double ratio = step / fine;
-    if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
-      refuse(
-          "the step {} is not an integer multiple of the fine step {}: choose a --fine-step that divides it",
-          step, fine);
-    }
-    constexpr double most = 1e6;  // a million for one step: the program would seem to hang
-    if (ratio > most) {
-      refuse("the step {} holds {:g} fine steps of {:g}, more than {:g}: take a larger --fine-step", step,
-             ratio, fine, most);
-    }
-    return fine;
+  model_reference<Alone> reference() const { return {system_, facts_.frequency}; }
+  tabulated method_of_reference() const {
+    return system_.bath().acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
   }
 
-  /// Calls f(reference).
-  void reference_for(double step, std::optional<double> asked, const auto& f) const {
-    const auto fine = fine_step_for(step, asked);
-    if constexpr (has_exact_flow<S>) {
-      if (!fine) return f(exact_linear(system_));
-    }
-    f(fine_steps<>(*fine));
+  /// In which noise is wanted to learn with.
+  int noise_parts(const auto& family) const {
+    if (system_.bath().sigma() == 0.0) return 0;
+    return intervals_of_noise(family.letters().letters(), family.coefficients(family.start())).parts;
   }
+
+  one_long_trajectory<S> long_trajectory() const { return one_long_trajectory<S>(system_, law_); }
 
   template <Family F>
   learn_options<F> options_for(const learn_settings& how, int threads) const {
@@ -269,9 +333,13 @@ class bundled_model final : public bundled_system {
   measure_type measure_named(const std::string& metric, const std::string& name) const {
     if (metric == "path") return path_measure(system_, observable<T>(system_, name));
     if (metric == "state") return state_measure(system_);
-    if (metric == "energy") return energy_measure(system_);
+    if (metric == "energy") {
+      if (system_.bath().acts())
+        refuse("the metric energy says nothing in a bath, which changes H: take path");
+      return energy_measure(system_);
+    }
     if (metric != "exchange") {
-      refuse("unknown metric '{}': it is one of path, state, exchange, energy", metric);
+      refuse("unknown metric '{}': it is one of path, state, exchange, energy, distribution, acf", metric);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);
@@ -282,7 +350,9 @@ class bundled_model final : public bundled_system {
   }
 
   S system_;
+  start start_;
   E law_;
+  std::optional<starts_type> starts_;
   model_facts facts_;
 };
 

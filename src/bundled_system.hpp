@@ -11,8 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/bath.hpp"
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
@@ -21,7 +24,7 @@ namespace nysalt::program {
 
 using counter = std::function<void(std::int64_t)>;
 
-/// Trajectories from the system's law: `count` of them, `steps` steps each.
+/// Trajectories from the system's starts: `count` of them, `steps` steps each.
 struct trajectories_plan {
   double step;
   std::int64_t steps;
@@ -32,6 +35,7 @@ struct trajectories_plan {
 
 struct learn_plan {
   std::string family;
+  std::optional<placement> where;  // of the letters O, in a bath
   double step;
   learn_settings how;
   std::uint64_t seed;
@@ -41,7 +45,7 @@ struct learn_plan {
 
 struct learned_scheme {
   fit_summary fit;
-  tabulated method;
+  tabulated method;                      // with its letters O
   std::optional<energy_range> energies;  // of the training data
 };
 
@@ -49,6 +53,15 @@ struct learned_scheme {
 struct record {
   std::vector<double> values;
   std::optional<std::int64_t> diverged_at;
+};
+
+/// What is gathered along the trajectories of a plan, sampled every so many steps.
+struct statistics_plan {
+  trajectories_plan trajectories;
+  std::int64_t every = 1;
+  std::int64_t first = 0;  // number of the first trajectory
+  std::optional<equal_bins> bins = {};
+  std::optional<int> lags = {};
 };
 
 class bundled_system {
@@ -61,25 +74,43 @@ class bundled_system {
   virtual std::vector<frequency_band> frequency_bands() const = 0;
   virtual std::vector<std::string> observables() const = 0;
   virtual std::string default_observable() const = 0;
-  virtual std::string law() const = 0;
+  virtual const bath& its_bath() const = 0;
+
+  /// Where trajectories start. Before starts are prepared this is what is known without work.
+  virtual std::string starts() const = 0;
+  /// Finds the burn-in, where there is one. To be called before anything below runs.
+  virtual void prepare_starts() = 0;
 
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
 
   /// Throws refusal for what cannot be learned, before any work is done.
-  virtual void require_learnable(const std::string& family, const learn_settings& how, double step) const = 0;
+  virtual void require_learnable(const std::string& family, std::optional<placement> where,
+                                 const learn_settings& how, double step) const = 0;
   virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
 
-  /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, or
-  /// scores and samples do not fit into memory; before any work is done.
+  /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
+  /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.
   virtual void require_measure(const std::string& metric, const std::string& observable,
-                               const trajectories_plan& plan, std::optional<double> fine_step) const = 0;
+                               const trajectories_plan& plan, std::optional<double> fine_step,
+                               int noise_parts) const = 0;
 
   /// Errors of several methods at one step against one reference.
   virtual trajectory_errors_result errors(const std::vector<tabulated>& methods,
                                           const trajectories_plan& plan, const std::string& metric,
                                           const std::string& observable, std::optional<double> fine_step,
                                           const counter& progress) const = 0;
+
+  /// Least and largest value of an observable over the first starts of a plan.
+  virtual std::array<double, 2> range_of_starts(const trajectories_plan& plan,
+                                                const std::string& observable) const = 0;
+  /// Statistics of a method, and of the reference: small steps, and in a bath BAOAB.
+  virtual gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
+                                         const std::string& observable, const counter& progress) const = 0;
+  virtual gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
+                                                   std::optional<double> fine_step,
+                                                   const counter& progress) const = 0;
+  virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
   /// Hands the records over in the order of the trajectories; few are in memory at a time.
   virtual void run(const tabulated& method, const trajectories_plan& plan,

@@ -2,6 +2,7 @@
 #include "bundled_systems.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "refusal.hpp"
@@ -19,7 +20,7 @@ struct option {
 struct maker {
   system_entry entry;
   std::vector<std::string> takes;
-  std::function<std::unique_ptr<bundled_system>(const system_settings&)> make;
+  std::function<std::unique_ptr<bundled_system>(const system_settings&, const surroundings&)> make;
 };
 
 const std::vector<maker>& makers() {
@@ -27,19 +28,61 @@ const std::vector<maker>& makers() {
       {{"fpu", "--pairs 3 --omega 50",
         "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"},
        {"--pairs", "--omega"},
-       [](const auto& s) { return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0)); }},
+       [](const auto& s, const auto& in) {
+         return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0), in);
+       }},
       {{"oscillator", "--omega 50", "p^2/2 + omega^2 q^2/2"},
        {"--omega"},
-       [](const auto& s) { return make_oscillator(s.omega.value_or(50.0)); }},
+       [](const auto& s, const auto& in) { return make_oscillator(s.omega.value_or(50.0), in); }},
       {{"linear_chain", "--masses 8 --spring 1", "equal masses between walls, joined by linear springs"},
        {"--masses", "--spring"},
-       [](const auto& s) { return make_linear_chain(s.masses.value_or(8), s.spring.value_or(1.0)); }},
-      {{"pendulum", "", "p^2/2 - cos q"}, {}, [](const auto&) { return make_pendulum(); }},
+       [](const auto& s, const auto& in) {
+         return make_linear_chain(s.masses.value_or(8), s.spring.value_or(1.0), in);
+       }},
+      {{"pendulum", "", "p^2/2 - cos q"}, {}, [](const auto&, const auto& in) { return make_pendulum(in); }},
       {{"henon_heiles", "", "two degrees of freedom in a cubic potential, bounded below energy 1/6"},
        {},
-       [](const auto&) { return make_henon_heiles(); }},
+       [](const auto&, const auto& in) { return make_henon_heiles(in); }},
   };
   return all;
+}
+
+bath bath_of(const bath_settings& its) {
+  if (its.sigma && its.temperature) {
+    refuse("--sigma and --temperature say the same twice: give one (kT = sigma^2/(2 friction))");
+  }
+  if (!its.friction) {
+    if (its.sigma) refuse("--sigma needs --friction, 0 for none");
+    if (its.temperature) refuse("--temperature needs --friction");
+    return bath::of_sigma(0.0, 0.0);
+  }
+  if (!its.sigma && !its.temperature) {
+    refuse("--friction needs --sigma or --temperature, 0 for damping alone");
+  }
+  const auto require = [](const char* option, double value) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    refuse("{} must be finite and not negative, got {}", option, value);
+  };
+  require("--friction", *its.friction);
+  if (its.temperature) {
+    require("--temperature", *its.temperature);
+    return bath::of_temperature(*its.friction, *its.temperature);
+  }
+  require("--sigma", *its.sigma);
+  return bath::of_sigma(*its.friction, *its.sigma);
+}
+
+start start_of(const std::string& asked, const bath& its) {
+  const bool is_warm = its.acts() && its.has_temperature() && its.temperature() > 0.0;
+  if (asked.empty()) return is_warm ? start::gibbs : start::law;
+  if (asked == "law") return start::law;
+  if (asked != "gibbs" && asked != "trajectory") {
+    refuse("unknown --start '{}': it is one of law, gibbs, trajectory", asked);
+  }
+  if (!is_warm) {
+    refuse("--start {} needs a bath with a temperature above 0: give --friction and --temperature", asked);
+  }
+  return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
 
 }  // namespace
@@ -68,7 +111,8 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
     refuse("the system {} has no {}: it takes {}", settings.name, name,
            found->takes.empty() ? "no option" : listed(found->takes));
   }
-  return found->make(settings);
+  const bath its = bath_of(settings.bath);
+  return found->make(settings, {its, start_of(settings.start, its)});
 }
 
 double highest_frequency(const bundled_system& system) {

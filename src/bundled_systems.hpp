@@ -9,10 +9,18 @@
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega);
-std::unique_ptr<bundled_system> make_oscillator(double omega);
-std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring);
-std::unique_ptr<bundled_system> make_pendulum();
-std::unique_ptr<bundled_system> make_henon_heiles();
+/// What a system is in, and where its trajectories start.
+enum class start { law, gibbs, trajectory };
+struct surroundings {
+  nysalt::bath bath;
+  program::start start;
+};
+
+std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its);
+std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& its);
+std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring,
+                                                  const surroundings& its);
+std::unique_ptr<bundled_system> make_pendulum(const surroundings& its);
+std::unique_ptr<bundled_system> make_henon_heiles(const surroundings& its);
 
 }  // namespace nysalt::program

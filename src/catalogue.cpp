@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"
@@ -43,6 +44,10 @@ const std::vector<classical_method>& classical_methods() {
       {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
       {tabulated(srkn6b{}), "blanes_moan_2002"},
       {tabulated(srkn11b{}), "blanes_moan_2002"},
+      {tabulated(baoab{}), "leimkuhler_matthews_2013"},
+      {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
+      {tabulated(aboba{}), "leimkuhler_matthews_2013"},
+      {tabulated(obabo{}), "bussi_parrinello_2007"},
   };
   return all;
 }
@@ -52,6 +57,13 @@ std::vector<std::string> method_names() {
   for (const auto& known : classical_methods()) names.push_back(known.method.name());
   names.emplace_back(adaptive_method);
   return names;
+}
+
+placement placement_named(const std::string& name) {
+  for (const auto known : placements) {
+    if (to_string(known) == name) return known;
+  }
+  refuse("unknown placement '{}': it is one of end, symmetric, middle", name);
 }
 
 coordinates coordinates_named(const std::string& name) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "refusal.hpp"
@@ -39,6 +40,7 @@ struct classical_method {
 const std::vector<classical_method>& classical_methods();
 
 coordinates coordinates_named(const std::string& name);
+placement placement_named(const std::string& name);
 
 /// Methods whose coefficients depend on step times highest frequency.
 inline constexpr std::string_view adaptive_method = "s_aia2";

@@ -54,7 +54,7 @@ struct typed {
   compare_command compare;
   stability_command stability;
   system_settings stability_system;
-  std::vector<std::string> methods, steps, observables, parameters;
+  std::vector<std::string> methods, steps, observables, parameters, range;
 };
 
 template <class T>
@@ -107,6 +107,16 @@ void add_system(CLI::App& command, system_settings& system) {
   add_number(command, "--spring", system.spring, "linear_chain [1]");
 }
 
+/// What a system is in, where it starts, and how methods meet it.
+void add_bath(CLI::App& command, system_settings& system, std::string& placement) {
+  add_number(command, "--friction", system.bath.friction, "of a bath: gamma; with --sigma or --temperature");
+  add_number(command, "--sigma", system.bath.sigma, "of its noise");
+  add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
+  command.add_option("--start", system.start, "law, gibbs or trajectory [gibbs in a bath, else law]");
+  command.add_option("--placement", placement,
+                     "of O in a word that has none: end, symmetric or middle [symmetric]");
+}
+
 void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
   add_number(command, "--fine-step", how.fine_step,
              "of the reference; must divide the step [omega h <= 5e-3]");
@@ -126,6 +136,7 @@ void add_list(CLI::App& app, typed& to) {
 void add_learn(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("learn", "fit a family to a system at a step");
   add_system(command, to.learn.system);
+  add_bath(command, to.learn.system, to.learn.placement);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
   add_number(command, "--step", to.learn.step, "to learn for")->default_str("")->required();
   add_learning(command, to.learn.learning, "--");
@@ -135,12 +146,14 @@ void add_learn(CLI::App& app, typed& to) {
   command.footer(
       "Examples:\n"
       "  nysalt learn --system fpu --step 0.03 --output scheme.json\n"
-      "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json");
+      "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json\n"
+      "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02");
 }
 
 void add_run(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
   add_system(command, to.run.system);
+  add_bath(command, to.run.system, to.run.placement);
   command.add_option("--method", to.run.method, "a name of nysalt list, or the file of a scheme or table")
       ->required();
   add_number(command, "--step", to.run.step, "of the method")->default_str("")->required();
@@ -162,13 +175,19 @@ void add_run(CLI::App& app, typed& to) {
 void add_compare(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
   add_system(command, to.compare.system);
+  add_bath(command, to.compare.system, to.compare.placement);
   command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas")->required();
   command.add_option("--steps", to.steps, "joined by commas")->required();
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
   add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
   add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
-  command.add_option("--metric", to.compare.metric, "path, state, exchange or energy")->capture_default_str();
-  command.add_option("--observable", to.compare.observable, "of the metric path [that of the system]");
+  command.add_option("--metric", to.compare.metric, "path, state, exchange, energy, distribution or acf")
+      ->capture_default_str();
+  command.add_option("--observable", to.compare.observable,
+                     "of path, distribution and acf [that of the system]");
+  command.add_option("--range", to.range, "LOW,HIGH of the histogram [of the starts]");
+  add_number(command, "--bins", to.compare.bins, "of the histogram");
+  add_number(command, "--longest-lag", to.compare.longest_lag, "of the autocovariance, a time");
   add_learning(command, to.compare.learning, "--learn-");
   command.add_option("--output", to.compare.output, "folder for tables and pictures");
   add_common(command, to.common);
@@ -178,7 +197,9 @@ void add_compare(CLI::App& app, typed& to) {
       "  nysalt compare --system fpu --methods verlet,bcss2,learned:nystrom --steps 0.02,0.03 "
       "--trajectories 100\n"
       "  nysalt compare --system fpu --methods verlet,mclachlan2,srkn6b --steps 0.005,0.01 --equal-cost "
-      "--metric state --json");
+      "--metric state --json\n"
+      "  nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --horizon 1 "
+      "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric");
 }
 
 void add_stability(CLI::App& app, typed& to) {
@@ -216,10 +237,16 @@ int run_parsed(const CLI::App& command, typed& to) {
   if (name == "compare") {
     to.compare.methods = split(to.methods, "--methods");
     to.compare.steps = numbers(to.steps, "--steps");
-    const bool of_path = to.compare.metric == "path";
-    if (!of_path && given(command, "--observable")) {
-      refuse("--observable belongs to the metric path, not to {}", to.compare.metric);
-    }
+    to.compare.range = numbers(to.range, "--range");
+    const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
+      const bool fits = std::find(metrics.begin(), metrics.end(), to.compare.metric) != metrics.end();
+      if (fits || !given(command, option)) return;
+      refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), to.compare.metric);
+    };
+    belongs("--observable", {"path", "distribution", "acf"});
+    belongs("--range", {"distribution"});
+    belongs("--bins", {"distribution"});
+    belongs("--longest-lag", {"acf"});
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");

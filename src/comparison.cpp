@@ -19,6 +19,7 @@ comparison::comparison(const compare_command& command, const common_settings& co
 }
 
 void comparison::learn_and_measure() {
+  prepare_starts(*system_, shown_);
   for (auto& its : rows_) {
     if (const auto family = families_.find(its.method); family != families_.end()) {
       learn_for(its, family->second);
@@ -50,13 +51,14 @@ void comparison::require_sound_command() const {
   }
   require_at_least_one("--trajectories", command_.trajectories);
   require_sound(command_.learning, "--learn-");
+  if (is_statistical()) require_sound_statistics();
 }
 
 void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : command_.methods) {
     sources.push_back(find_method(typed));
-    if (sources.back().family) families_[typed] = *sources.back().family;
+    if (sources.back().family) families_[typed] = sources.back();
   }
   for (const double nominal : command_.steps) {
     for (const auto& source : sources) add_row(source, nominal);
@@ -77,14 +79,21 @@ void comparison::add_row(const method_source& source, double nominal) {
   const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
-  system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step);
   row its{source.typed, nominal, step};
+  const auto otherwise = placement_asked(command_.placement);
+  int parts = 1;
   if (source.family) {
     steps_within("--learn-horizon", command_.learning.horizon, step);
-    system_->require_learnable(*source.family, command_.learning, step);
+    const auto where = placement_in(source, *system_, otherwise);
+    system_->require_learnable(*source.family, where, command_.learning, step);
+    parts = where == placement::symmetric ? 2 : 1;
   } else {
-    its.coefficients = coefficients_at(source, *system_, step, common_.force, warnings_);
+    its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    parts = noise_parts(*its.coefficients, *system_);
   }
+  system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step,
+                           parts);
+  if (is_statistical()) statistics_at(step);
   rows_.push_back(std::move(its));
 }
 
@@ -93,8 +102,9 @@ trajectories_plan comparison::plan_at(double step) const {
           seed_for(role::test, common_.seed), common_.threads};
 }
 
-void comparison::learn_for(row& its, const std::string& family) {
-  const learn_plan plan = plan_for(family, its.step, command_.learning, common_);
+void comparison::learn_for(row& its, const method_source& source) {
+  const auto where = placement_in(source, *system_, placement_asked(command_.placement));
+  const learn_plan plan = plan_for(*source.family, where, its.step, command_.learning, common_);
   const learned_scheme learned = learn_with(*system_, plan, shown_);
   json fit{{"method", its.method}};
   fit.update(fit_json(learned.fit));
@@ -107,22 +117,33 @@ void comparison::learn_for(row& its, const std::string& family) {
 void comparison::measure_errors() {
   std::map<double, std::vector<row*>> by_step;
   for (auto& its : rows_) by_step[its.step].push_back(&its);
-  for (const auto& [step, group] : by_step) measure_at(step, group);
+  for (const auto& [step, group] : by_step) {
+    if (is_statistical()) {
+      measure_statistics_at(step, group);
+    } else {
+      measure_at(step, group);
+    }
+  }
+}
+
+std::vector<row*> comparison::usable(const std::vector<row*>& group, const trajectories_plan& plan) const {
+  std::vector<row*> result;
+  for (row* its : group) {
+    if (its->reason.empty()) {
+      result.push_back(its);
+      continue;
+    }
+    const auto evaluations = static_cast<double>(system_->count_evaluations(*its->coefficients, plan));
+    its->evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
+  }
+  return result;
 }
 
 void comparison::measure_at(double step, const std::vector<row*>& group) {
   const trajectories_plan plan = plan_at(step);
+  const std::vector<row*> measured = usable(group, plan);
   std::vector<tabulated> methods;
-  std::vector<row*> measured;
-  for (row* its : group) {
-    if (!its->reason.empty()) {
-      const auto evaluations = static_cast<double>(system_->count_evaluations(*its->coefficients, plan));
-      its->evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * step);
-      continue;
-    }
-    methods.push_back(*its->coefficients);
-    measured.push_back(its);
-  }
+  for (const row* its : measured) methods.push_back(*its->coefficients);
   if (methods.empty()) return;
   shown_.part(fmt::format("comparing at step {:g}", step));
   const auto found = system_->errors(methods, plan, command_.metric, command_.observable,

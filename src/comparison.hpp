@@ -29,6 +29,9 @@ struct row {
   estimate error{};
   std::optional<double> reference_error{};
   std::int64_t diverged = 0;
+  // Of the metrics distribution and acf.
+  std::optional<double> floor{};  // what sampling alone would make of the error
+  std::optional<gathered_statistics> statistics{};
 };
 
 class comparison {
@@ -51,24 +54,36 @@ class comparison {
   void plan_rows();
   void add_row(const method_source& source, double nominal);
   trajectories_plan plan_at(double step) const;
-  void learn_for(row& its, const std::string& family);
+  void require_sound_statistics() const;
+  void learn_for(row& its, const method_source& source);
   void measure_errors();
   void measure_at(double step, const std::vector<row*>& group);
+  /// Those with coefficients that may be used; of the others only the cost is told.
+  std::vector<row*> usable(const std::vector<row*>& group, const trajectories_plan& plan) const;
   void measure_seconds();
   void warn_of_reference();
+
+  bool is_statistical() const { return command_.metric == "distribution" || command_.metric == "acf"; }
+  statistics_plan statistics_at(double step) const;
+  void prepare_bins();
+  void measure_statistics_at(double step, const std::vector<row*>& group);
+  std::vector<gathered_statistics> references_at(double step);
 
   std::string quantity() const;
   std::vector<work_precision_row> work_precision_rows() const;
   std::string at_equal_cost(bool markdown) const;
+  std::vector<figure> pictures_of_statistics() const;
 
   compare_command command_;
   common_settings common_;
   std::unique_ptr<bundled_system> system_;
-  std::map<std::string, std::string> families_;  // of the methods that are learned, by what was typed
+  std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed
   std::vector<row> rows_;
   json fits_ = json::array();
   json references_ = json::array();
   std::vector<std::string> warnings_;
+  std::optional<equal_bins> bins_;
+  std::map<double, std::vector<gathered_statistics>> reference_statistics_;  // by step
   progress shown_;
 };
 

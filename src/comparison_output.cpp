@@ -10,14 +10,17 @@
 namespace nysalt::program {
 
 std::string comparison::quantity() const {
-  return command_.metric == "path" ? "path error of " + command_.observable : command_.metric + " error";
+  if (command_.metric == "path") return "path error of " + command_.observable;
+  if (command_.metric == "distribution") return "total variation of " + command_.observable;
+  if (command_.metric == "acf") return "acf error of " + command_.observable;
+  return command_.metric + " error";
 }
 
 std::vector<work_precision_row> comparison::work_precision_rows() const {
   std::vector<work_precision_row> result;
   for (const auto& its : rows_) {
     result.push_back({its.method, its.nominal, its.evaluations_per_time, its.seconds_per_time, its.error,
-                      its.diverged, command_.trajectories});
+                      its.diverged, command_.trajectories, its.floor});
   }
   return result;
 }
@@ -48,6 +51,7 @@ std::string comparison::at_equal_cost(bool markdown) const {
 }
 
 json comparison::document() const {
+  const bool has_observable = command_.metric == "path" || is_statistical();
   json rows = json::array();
   for (const auto& its : rows_) {
     rows.push_back({{"method", its.method},
@@ -60,11 +64,19 @@ json comparison::document() const {
                     {"diverged", its.diverged},
                     {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)}});
     if (!its.reason.empty()) rows.back()["reason"] = its.reason;
+    if (its.floor) rows.back()["floor"] = *its.floor;
+    if (!its.statistics) continue;
+    const auto& found = *its.statistics;
+    rows.back()["mean"] = found.mean.mean;
+    rows.back()["mean_standard_error"] = found.mean.standard_error;
+    rows.back()["effective_sample_size"] = found.effective_sample_size;
+    rows.back()["kinetic_temperature"] = found.kinetic_temperature.mean;
+    rows.back()["half_step_kinetic_temperature"] = found.half_step_kinetic_temperature.mean;
   }
   return {{"system", system_->description()},
-          {"starts", system_->law()},
+          {"starts", system_->starts()},
           {"metric", command_.metric},
-          {"observable", command_.metric == "path" ? json(command_.observable) : json(nullptr)},
+          {"observable", has_observable ? json(command_.observable) : json(nullptr)},
           {"horizon", command_.horizon},
           {"trajectories", command_.trajectories},
           {"equal_cost", command_.equal_cost},
@@ -78,9 +90,11 @@ json comparison::document() const {
 std::string comparison::readable() const {
   std::string text = fmt::format("{}, {} trajectories over {:g}, {}", system_->description(),
                                  command_.trajectories, command_.horizon, quantity());
+  text += fmt::format("\nstarts: {}", system_->starts());
   for (const auto& used : references_) {
-    text += fmt::format("\nreference at {:g}: {}, own error {:.1e}", used["step_size"].get<double>(),
-                        used["reference"].get<std::string>(), used["error"].get<double>());
+    text += fmt::format("\nreference at {:g}: {}, {} {:.1e}", used["step_size"].get<double>(),
+                        used["reference"].get<std::string>(), is_statistical() ? "floor" : "own error",
+                        used["error"].get<double>());
   }
   if (command_.equal_cost) text += "\nsteps are per force evaluation: equal steps, equal cost";
   text += "\n\n" + work_precision_table(work_precision_rows()).text();
@@ -98,12 +112,12 @@ void comparison::write(const std::filesystem::path& folder) const {
   write_result(folder / "table.md", work_precision_table(rows).markdown() + "\n" + at_equal_cost(true),
                common_);
   table all({"method", "step", "step_size", "evaluations_per_time", "seconds_per_time", "error",
-             "standard_error", "diverged"});
+             "standard_error", "diverged", "floor"});
   for (const auto& its : rows_) {
     const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
     all.add({its.method, number(its.nominal), number(its.step), number(its.evaluations_per_time),
              number(its.seconds_per_time), number(its.error.mean), number(its.error.standard_error),
-             fmt::format("{}", its.diverged)});
+             fmt::format("{}", its.diverged), its.floor ? number(*its.floor) : std::string()});
   }
   write_result(folder / "rows.csv", all.csv(), common_);
   const std::string emphasised = families_.empty() ? "" : families_.begin()->first;
@@ -115,6 +129,7 @@ void comparison::write(const std::filesystem::path& folder) const {
                                        &work_precision_row::seconds_per_time)}};
   evaluations.panels[0].y_label = seconds.panels[0].y_label = quantity();
   for (const auto& picture : {evaluations, seconds}) write_pictures(picture, folder, common_);
+  for (const auto& picture : pictures_of_statistics()) write_pictures(picture, folder, common_);
 }
 
 }  // namespace nysalt::program

@@ -17,16 +17,25 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
 }
 
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
-  system.require_learnable(plan.family, plan.how, plan.step);
+  system.require_learnable(plan.family, plan.where, plan.how, plan.step);
   shown.part(fmt::format("learning {} at step {:g}", plan.family, plan.step));
   return system.learn(plan, shown.counter(plan.how.trajectories));
 }
 
-learn_plan plan_for(const std::string& family, double step, const learn_settings& how,
-                    const common_settings& common) {
-  return {
-      family,        step, how, seed_for(role::training, common.seed), seed_for(role::held_out, common.seed),
-      common.threads};
+learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
+                    const learn_settings& how, const common_settings& common) {
+  return {.family = family,
+          .where = where,
+          .step = step,
+          .how = how,
+          .seed = seed_for(role::training, common.seed),
+          .held_out_seed = seed_for(role::held_out, common.seed),
+          .threads = common.threads};
+}
+
+void prepare_starts(bundled_system& system, progress& shown) {
+  shown.part("preparing the starts");
+  system.prepare_starts();
 }
 
 json by_name(const fit_summary& fit, double fitted_parameter::*field) {

@@ -2,6 +2,7 @@
 // Learning as `learn` does it, and `compare` for its learned rows.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bundled_system.hpp"
@@ -17,8 +18,11 @@ void require_sound(const learn_settings& how, const std::string& prefix);
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
 
 /// Training and held-out seeds are the roles of the user's.
-learn_plan plan_for(const std::string& family, double step, const learn_settings& how,
-                    const common_settings& common);
+learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
+                    const learn_settings& how, const common_settings& common);
+
+/// Before learning or running; with a burn-in that can take a moment.
+void prepare_starts(bundled_system& system, progress& shown);
 
 /// A field of each parameter, by its name.
 json by_name(const fit_summary& fit, double fitted_parameter::*field);

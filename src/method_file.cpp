@@ -13,6 +13,8 @@
 #include "learning.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -20,6 +22,7 @@ namespace nysalt::program {
 namespace {
 
 constexpr int known_version = 1;
+constexpr int with_placement = 2;  // of a scheme that says where its letters O are
 constexpr const char* scheme_format = "nysalt scheme";
 constexpr const char* table_format = "nysalt table";
 
@@ -116,15 +119,18 @@ scheme scheme_in(const json& document, const reader& read) {
   if (!(step > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), step);
   const reader of_system(read.member("system"), read.file());
   return in_file(read.file(), [&] {
-    return scheme{family_member(family, theta), step, of_system.text("description"), read.flag("usable"),
-                  read.text("reason")};
+    tabulated method = family_member(family, theta);
+    if (document.contains("placement")) method = thermostat(method, placement_named(read.text("placement")));
+    return scheme{method, step, of_system.text("description"), read.flag("usable"), read.text("reason")};
   });
 }
 
 /// "A adds up to 1, B adds up to 0.9"
 std::string sums_of(const std::string& letters, const std::vector<double>& coefficients) {
   std::map<char, double> sums{{'A', 0.0}, {'B', 0.0}};  // a method needs both
-  for (std::size_t i = 0; i < letters.size(); ++i) sums[letters[i]] += coefficients[i];
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    if (letters[i] != ornstein_uhlenbeck::letter) sums[letters[i]] += coefficients[i];
+  }
   std::vector<std::string> texts;
   for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
   return listed(texts);
@@ -144,6 +150,7 @@ tabulated table_in(const json& document, const reader& read) {
     const run_time_word word(letters);
     const std::string name = document.contains("name") ? read.text("name") : "table";
     const tabulated bare(name, word, coefficients, {1, false, false});
+    if (word.stochastic_letters > 0) intervals_of_noise(letters, coefficients);  // they cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
       refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
@@ -178,7 +185,7 @@ std::string scheme_text(const learned_scheme& learned, const bundled_system& sys
   json of_system = system.parameters();
   of_system["description"] = system.description();
   json document{{"format", scheme_format},
-                {"version", known_version},
+                {"version", plan.where ? with_placement : known_version},
                 {"family", fit.family},
                 {"parameters", by_name(fit, &fitted_parameter::value)},
                 {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
@@ -198,6 +205,7 @@ std::string scheme_text(const learned_scheme& learned, const bundled_system& sys
                 {"held_out_seed", fit.held_out_seed},
                 {"versions", {{"nysalt", version}}}};
   if (learned.energies) document["energy_range"] = {learned.energies->low, learned.energies->high};
+  if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);
   return text_of(document);
 }
@@ -225,11 +233,15 @@ method_file read_method_file(const std::filesystem::path& path) {
   }
   const reader read(document, file);
   const double file_version = read.number("version");
-  if (file_version > known_version) {
-    refuse("{}: it has version {}, and this nysalt knows {} only: take a newer nysalt, or learn it again",
-           file, file_version, known_version);
+  const bool is_placed = format == scheme_format && document.contains("placement");
+  const int newest = format == scheme_format ? with_placement : known_version;
+  if (file_version > newest) {
+    refuse("{}: it has version {}, and this nysalt knows {} at most: take a newer nysalt, or learn it again",
+           file, file_version, newest);
   }
-  if (file_version != known_version) refuse("{}: there is no version {}", file, file_version);
+  if (file_version != (is_placed ? with_placement : known_version)) {
+    refuse("{}: there is no version {} {} a placement", file, file_version, is_placed ? "with" : "without");
+  }
   method_file result;
   if (format == scheme_format) {
     result.learned = scheme_in(document, read);

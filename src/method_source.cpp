@@ -7,6 +7,8 @@
 #include "catalogue.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/s_aia.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -23,9 +25,20 @@ bool is_file_name(const std::string& text) {
 
 }  // namespace
 
-method_source find_method(const std::string& text) {
+method_source find_method(const std::string& typed) {
   method_source source;
-  source.typed = text;
+  source.typed = typed;
+  std::string text = typed;
+  if (const auto at = typed.rfind('@'); at != std::string::npos && !is_file_name(typed)) {
+    source.where = placement_named(typed.substr(at + 1));
+    text = typed.substr(0, at);
+  } else if (at != std::string::npos) {
+    for (const auto known : placements) {  // any other @ is part of the file's name
+      if (typed.substr(at + 1) != to_string(known)) continue;
+      source.where = known;
+      text = typed.substr(0, at);
+    }
+  }
   for (const auto& known : classical_methods()) {
     if (known.method.name() == text) source.fixed = known.method;
   }
@@ -89,6 +102,28 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
          *source.family, step);
 }
 
+constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
+
+tabulated in_its_bath(const method_source& source, tabulated method, const bundled_system& system,
+                      std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+  const bool has_letters = method.letters().stochastic_letters > 0;
+  if (has_letters && source.where)
+    refuse("{}: it has its letters O already, in {}", source.typed, method.letters().letters());
+  if (!system.its_bath().acts()) {
+    if (has_letters || source.where) {
+      warnings.push_back(
+          fmt::format("{}: without a bath its letters O are left out (--friction gives one)", source.typed));
+    }
+    return method;
+  }
+  if (has_letters) return method;
+  try {
+    return thermostat(method, source.where.value_or(otherwise.value_or(usual)));
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}: {}", source.typed, problem.what());
+  }
+}
+
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
   const auto windows = stability_windows(method);
@@ -103,10 +138,33 @@ void warn_of_instability(const method_source& source, const tabulated& method, c
 }  // namespace
 
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
-                          std::vector<std::string>& warnings) {
-  tabulated method = found_at(source, system, step, force, warnings);
+                          std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+  const tabulated method =
+      in_its_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   warn_of_instability(source, method, system, step, warnings);
   return method;
+}
+
+std::optional<placement> placement_in(const method_source& source, const bundled_system& system,
+                                      std::optional<placement> otherwise) {
+  if (!system.its_bath().acts()) return std::nullopt;
+  const placement where = source.where.value_or(otherwise.value_or(usual));
+  with_family(*source.family, [&]<class F>(F) {
+    if (where != placement::middle || F::word::length % 2 == 1) return;
+    refuse("{}: the word {} has no central letter to split: place O at the end, or symmetric", source.typed,
+           F::word::letters());
+  });
+  return where;
+}
+
+int noise_parts(const tabulated& method, const bundled_system& system) {
+  if (system.its_bath().sigma() == 0.0) return 0;
+  return intervals_of_noise(method.letters().letters(), method.coefficients()).parts;
+}
+
+std::optional<placement> placement_asked(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return placement_named(text);
 }
 
 }  // namespace nysalt::program

@@ -10,12 +10,13 @@
 
 namespace nysalt::program {
 
-/// A classical name, s_aia2, learned:FAMILY, or the file of a scheme or table.
+/// A classical name, s_aia2, learned:FAMILY, or the file of a scheme or table; with @PLACEMENT or without.
 struct method_source {
   std::string typed;
   std::optional<tabulated> fixed;     // classical and tables: the same at every step
   std::optional<scheme> learned;      // from a file: at its own step
   std::optional<std::string> family;  // to be learned at each step
+  std::optional<placement> where;     // of its letters O, if it says so: verlet@end
   int evaluations_per_step = 0;
 
   bool is_adaptive() const { return !fixed && !learned && !family; }
@@ -30,9 +31,21 @@ bool is_at(const scheme& learned, double step);
 /// Why a scheme from a file is not valid here; empty if it is.
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step);
 
-/// The coefficients of a source that needs no learning. A scheme that is out of place is refused unless
-/// `force`; then a warning is added, and also where the step is not linearly stable for the system.
+/// The coefficients of a source that needs no learning; in a bath with letters O, where `otherwise` says if
+/// source does not. A scheme that is out of place is refused unless `force`; then a warning is added, and
+/// also where the step is not linearly stable for the system, or letters O are left out for want of a bath.
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
-                          std::vector<std::string>& warnings);
+                          std::optional<placement> otherwise, std::vector<std::string>& warnings);
+
+/// Where a family that is learned has its letters O: nowhere without a bath. Throws refusal for one that has
+/// no central letter.
+std::optional<placement> placement_in(const method_source& source, const bundled_system& system,
+                                      std::optional<placement> otherwise);
+
+/// In how many equal parts of a step a method wants the noise of a path; 0 without noise.
+int noise_parts(const tabulated& method, const bundled_system& system);
+
+/// What `--placement` says; nothing if it is empty.
+std::optional<placement> placement_asked(const std::string& text);
 
 }  // namespace nysalt::program

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/energy.hpp"
 #include "refusal.hpp"
 
@@ -17,7 +18,7 @@ namespace nysalt::program {
 /// As people read them: families of names once.
 template <System S>
 std::vector<std::string> observable_names(const S& system) {
-  std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy"};
+  std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy", "kinetic_temperature"};
   const auto range = [&](const char* stem, Eigen::Index last) {
     names.push_back(last == 1 ? fmt::format("{}1", stem) : fmt::format("{0}1..{0}{1}", stem, last));
   };
@@ -47,6 +48,9 @@ std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system
   if (name == "energy") return [&system](const state& x) { return energy<T>(system, x); };
   if (name == "kinetic_energy") {
     return [&system](const state& x) { return kinetic_energy<T>(system, x.p); };
+  }
+  if (name == "kinetic_temperature") {
+    return [&system](const state& x) { return kinetic_temperature<T>(system, x); };
   }
   if (name == "potential_energy") return [&system](const state& x) { return system.potential(x.q); };
   if (const auto i = index_after(name, "q", size(system))) return [i](const state& x) { return x.q[i - 1]; };

@@ -6,7 +6,7 @@
 
 namespace nysalt::program {
 
-enum class role : std::uint64_t { training = 0, held_out = 1, test = 2 };
+enum class role : std::uint64_t { training = 0, held_out = 1, test = 2, reference = 3 };
 
 /// User's seeds lie below this, so that no role of one seed is a role of another, and all stay below 2^53:
 /// every reader of JSON takes them whole.

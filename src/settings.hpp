@@ -18,12 +18,21 @@ struct common_settings {
   std::string options;  // what was asked for by it and by files of options, as TOML
 };
 
+/// Of the bath, if there is one: with friction come sigma or temperature.
+struct bath_settings {
+  std::optional<double> friction;
+  std::optional<double> sigma;
+  std::optional<double> temperature;
+};
+
 struct system_settings {
   std::string name = "fpu";
   std::optional<std::int64_t> pairs;
   std::optional<double> omega;
   std::optional<std::int64_t> masses;
   std::optional<double> spring;
+  bath_settings bath;
+  std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
 };
 
 /// How to learn; the step comes from elsewhere.
@@ -39,6 +48,7 @@ struct learn_command {
   system_settings system;
   learn_settings learning;
   std::string family = "nystrom";
+  std::string placement;
   double step = 0.0;
   std::string output;
 };
@@ -46,6 +56,7 @@ struct learn_command {
 struct run_command {
   system_settings system;
   std::string method;
+  std::string placement;
   double step = 0.0;
   double horizon = 0.0;
   std::int64_t trajectories = 1;
@@ -59,12 +70,16 @@ struct compare_command {
   system_settings system;
   learn_settings learning;
   std::vector<std::string> methods;
+  std::string placement;
   std::vector<double> steps;
   bool equal_cost = false;
   double horizon = 0.5;
   std::int64_t trajectories = 400;
   std::string metric = "path";
   std::string observable;
+  std::vector<double> range;  // of the histogram; empty: that of the starts
+  std::int64_t bins = 100;
+  double longest_lag = 1.0;  // of the autocovariance, a time
   std::string output;
 };
 

@@ -4,6 +4,7 @@
 #include "../commands.hpp"
 #include "../learning.hpp"
 #include "../method_file.hpp"
+#include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
 
@@ -11,7 +12,7 @@ namespace nysalt::program {
 
 namespace {
 
-json document(const learned_scheme& learned, const bundled_system& system) {
+json document(const learned_scheme& learned, const bundled_system& system, std::optional<placement> where) {
   const fit_summary& fit = learned.fit;
   json result = fit_json(fit);
   result["system"] = system.description();
@@ -29,6 +30,7 @@ json document(const learned_scheme& learned, const bundled_system& system) {
   result["energy_range"] =
       learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
   result["seed"] = fit.seed;
+  result["placement"] = where ? json(to_string(*where)) : json(nullptr);
   return result;
 }
 
@@ -42,7 +44,12 @@ int learn(const learn_command& command, const common_settings& common) {
   if (!command.output.empty()) require_writable(command.output);
 
   progress shown;
-  const learn_plan plan = plan_for(command.family, command.step, command.learning, common);
+  method_source source;
+  source.typed = source.family.emplace(command.family);
+  const auto where = placement_in(source, *system, placement_asked(command.placement));
+  const learn_plan plan = plan_for(command.family, where, command.step, command.learning, common);
+  system->require_learnable(plan.family, plan.where, plan.how, plan.step);
+  prepare_starts(*system, shown);
   const learned_scheme learned = learn_with(*system, plan, shown);
   shown.clear();
 
@@ -50,11 +57,14 @@ int learn(const learn_command& command, const common_settings& common) {
   const bool keep = !command.output.empty() && (fit.usable || common.force);
   if (keep) write_result(command.output, scheme_text(learned, *system, plan), common);
   if (common.json) {
-    json result = document(learned, *system);
+    json result = document(learned, *system, where);
     result["output"] = keep ? json(command.output) : json(nullptr);
     print(text_of(result));
   } else {
     print(fit.full());
+    if (where)
+      print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*where),
+                        learned.method.letters().letters()));
     if (keep) print(fmt::format("Written: {}\n", command.output));
   }
   if (fit.usable) return done;

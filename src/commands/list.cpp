@@ -17,7 +17,9 @@ constexpr std::array metrics{
     std::array{"path", "average relative RMS error of the observable along trajectories"},
     std::array{"state", "RMS error of the state in the energy norm, absolute"},
     std::array{"exchange", "mean error of the stiff springs' energies, relative to their sum (fpu)"},
-    std::array{"energy", "RMS of (H - H_0)/|H_0|"}};
+    std::array{"energy", "RMS of (H - H_0)/|H_0|"},
+    std::array{"distribution", "total variation of the observable's law from the reference's"},
+    std::array{"acf", "RMS error of the observable's normalised autocovariance"}};
 
 json systems_json() {
   json all = json::array();
@@ -28,7 +30,7 @@ json systems_json() {
     all.push_back({{"name", entry.name},
                    {"options", entry.options},
                    {"hamiltonian", entry.hamiltonian},
-                   {"starts", system->law()},
+                   {"starts", system->starts()},
                    {"observables", system->observables()},
                    {"default_observable", system->default_observable()}});
   }

@@ -9,6 +9,7 @@
 
 #include "../checks.hpp"
 #include "../commands.hpp"
+#include "../learning.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
@@ -131,7 +132,7 @@ json document(const run_command& command, const bundled_system& system, const sa
               {"step", command.step},
               {"trajectories", command.trajectories},
               {"sample_every", command.sample_every},
-              {"starts", system.law()},
+              {"starts", system.starts()},
               {"diverged", taken.diverged()},
               {"columns", taken.columns()}};
   if (command.output.empty()) {
@@ -170,8 +171,8 @@ int run(const run_command& asked, const common_settings& common) {
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
-  const tabulated method =
-      coefficients_at(find_method(command.method), *system, command.step, common.force, warnings);
+  const tabulated method = coefficients_at(find_method(command.method), *system, command.step, common.force,
+                                           placement_asked(command.placement), warnings);
   if (!common.json) {
     for (const auto& text : warnings) warn(text);
   }
@@ -185,6 +186,7 @@ int run(const run_command& asked, const common_settings& common) {
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
   progress shown;
+  prepare_starts(*system, shown);
   shown.part("running");
   const auto began = std::chrono::steady_clock::now();
   system->run(method, plan, command.observables, command.sample_every, take,

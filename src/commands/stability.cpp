@@ -29,7 +29,7 @@ subject subject_of(const stability_command& command, const bundled_system* syste
   if (!command.parameters.empty()) refuse("--parameters belong to a --family, not to --method");
   const method_source source = find_method(*command.method);
   if (system != nullptr)
-    return {source.typed, coefficients_at(source, *system, *command.step, force, warnings)};
+    return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
   if (source.learned) return {source.typed, source.learned->method};
   if (source.fixed) return {source.typed, *source.fixed};
   if (source.is_adaptive()) {

@@ -8,19 +8,19 @@ namespace nysalt::program {
 
 namespace {
 template <int Pairs>
-std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain) {
+std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& its) {
   using model = bundled_model<fpu_chain<Pairs>, fpu_law<Pairs>>;
   const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
-  return std::make_unique<model>(chain, fpu_law<Pairs>(chain),
+  return std::make_unique<model>(chain, its, fpu_law<Pairs>(chain),
                                  model_facts{parameters, chain.omega(), "stiff_energy"});
 }
 }  // namespace
 
-std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega) {
+std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its) {
   constexpr std::int64_t most = 1'000'000;  // a state of some tens of megabytes
   if (pairs > most) refuse("--pairs must be at most {}, got {}", most, pairs);
-  if (pairs == 3) return make(fpu_chain<3>(omega));  // the paper's, of a size known to the compiler
-  return make(fpu_chain<>(pairs, omega));
+  if (pairs == 3) return make(fpu_chain<3>(omega), its);  // the paper's, of a size known to the compiler
+  return make(fpu_chain<>(pairs, omega), its);
 }
 
 }  // namespace nysalt::program

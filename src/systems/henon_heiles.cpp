@@ -7,13 +7,14 @@
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_henon_heiles() {
+std::unique_ptr<bundled_system> make_henon_heiles(const surroundings& its) {
   // Energies about .02: the motion is bounded below 1/6.
   const vector<double, 2> rest(0.0, 0.0);
   const normal_around<2> law({rest, rest}, 0.1, 0.1);
   const henon_heiles system;
   return std::make_unique<bundled_model<henon_heiles, normal_around<2>>>(
-      system, law, model_facts{{{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
+      system, its, law,
+      model_facts{{{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
 }
 
 }  // namespace nysalt::program

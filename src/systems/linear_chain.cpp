@@ -7,7 +7,8 @@
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring) {
+std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring,
+                                                  const surroundings& its) {
   constexpr std::int64_t most = 1000;  // its modes are found from a full matrix: seconds
   if (masses > most) refuse("--masses must be at most {}, got {}", most, masses);
   const auto chain = linear_chain::between_walls(masses, spring);
@@ -15,7 +16,7 @@ std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double sp
   using law = normal_around<Eigen::Dynamic>;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
   const json parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
-  return std::make_unique<bundled_model<linear_chain, law>>(chain, law({rest, rest}, 1.0 / fastest, 1.0),
+  return std::make_unique<bundled_model<linear_chain, law>>(chain, its, law({rest, rest}, 1.0 / fastest, 1.0),
                                                             model_facts{parameters, fastest, "energy"});
 }
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
@@ -24,15 +26,27 @@ struct work_precision_row {
   estimate error;               // NaN if every trajectory diverged
   std::int64_t diverged;
   std::int64_t trajectories;
+  std::optional<double> floor = {};  // of sampling: what the error would be of a method without any
 };
 
 inline table work_precision_table(const std::vector<work_precision_row>& rows) {
-  table result({"method", "step", "evaluations/time", "ns/time", "error", "standard error", "diverged"});
+  std::vector<std::string> columns{"method", "step",           "evaluations/time", "ns/time",
+                                   "error",  "standard error", "diverged"};
+  const bool has_floor =
+      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.floor.has_value(); });
+  if (has_floor) columns.insert(columns.end() - 1, "floor");
+  table result(columns);
   const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); };
   for (const auto& row : rows) {
-    result.add({row.method, fmt::format("{:g}", row.step), fmt::format("{:.1f}", row.evaluations_per_time),
-                fmt::format("{:.0f}", 1e9 * row.seconds_per_time), number(row.error.mean),
-                number(row.error.standard_error), fmt::format("{}/{}", row.diverged, row.trajectories)});
+    std::vector<std::string> cells{row.method,
+                                   fmt::format("{:g}", row.step),
+                                   fmt::format("{:.1f}", row.evaluations_per_time),
+                                   fmt::format("{:.0f}", 1e9 * row.seconds_per_time),
+                                   number(row.error.mean),
+                                   number(row.error.standard_error)};
+    if (has_floor) cells.push_back(row.floor ? number(*row.floor) : "-");
+    cells.push_back(fmt::format("{}/{}", row.diverged, row.trajectories));
+    result.add(std::move(cells));
   }
   return result;
 }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+// Where the trajectories of a bundled system start, as `--start` says.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/one_long_trajectory.hpp"
+#include "settings.hpp"
+
+namespace nysalt::program {
+
+/// An ensemble of any kind, for a system that is stepped in lanes of T and in double.
+template <int N, class T>
+class any_starts {
+ public:
+  template <class S, Ensemble<S> E>
+  any_starts(const S& system, E ensemble) : text_(ensemble.description()) {
+    one_ = [ensemble](std::uint64_t seed, std::uint64_t n) { return ensemble(seed, n); };
+    block_ = [&system, ensemble = std::move(ensemble)](std::uint64_t seed, std::int64_t first, int count) {
+      return sound_starts<T>(system, ensemble, seed, first, count);
+    };
+  }
+
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const { return one_(seed, n); }
+  template <class U>
+  phase_point<U, N> block(std::uint64_t seed, std::int64_t first, int count) const {
+    if constexpr (std::is_same_v<U, T>) {
+      return block_(seed, first, count);
+    } else {
+      return gather<U, N>(count, [&](int k) { return one_(seed, static_cast<std::uint64_t>(first + k)); });
+    }
+  }
+  const std::string& description() const { return text_; }
+
+ private:
+  std::function<phase_point<double, N>(std::uint64_t, std::uint64_t)> one_;
+  std::function<phase_point<T, N>(std::uint64_t, std::int64_t, int)> block_;
+  std::string text_;
+};
+
+}  // namespace nysalt::program

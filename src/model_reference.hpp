@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a bundled system is compared with: its exact flow, or small steps, in a bath along paths.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+/// Systems whose flow is known exactly: it is the reference unless a fine step is asked for.
+template <class S>
+inline constexpr bool has_exact_flow =
+    std::is_same_v<S, harmonic_oscillator> || std::is_same_v<S, linear_chain>;
+
+/// A fine step that divides the step, and each of so many equal parts of it: the one that was asked for, or
+/// the largest below `most`. Throws refusal where it does not divide.
+inline double fine_step_within(double step, std::optional<double> asked, double most, int parts = 1) {
+  const double least = std::ceil(step / most - 1e-9);  // 100.00000000000001 is 100
+  const double fine = asked.value_or(step / (parts * std::max(1.0, std::ceil(least / parts))));
+  const double ratio = step / fine / parts;
+  if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
+    const std::string part =
+        parts == 1 ? "" : fmt::format(" in {} equal parts, as its letters O need it,", parts);
+    refuse(
+        "the step {}{} is not an integer multiple of the fine step {}: choose a --fine-step that divides it",
+        step, part, fine);
+  }
+  constexpr double too_many = 1e6;  // a million for one step: the program would seem to hang
+  if (ratio * parts > too_many) {
+    refuse("the step {} holds {:g} fine steps of {:g}, more than {:g}: take a larger --fine-step", step,
+           ratio * parts, fine, too_many);
+  }
+  return fine;
+}
+
+/// Of a system with frequencies up to `frequency`.
+template <class S>
+class model_reference {
+ public:
+  model_reference(const in_bath<S>& system, double frequency) : system_(&system), frequency_(frequency) {}
+
+  /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
+  /// The error of srkn11b is rounding then, and that of BAOAB small.
+  std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
+    if (is_exact() && !asked) return std::nullopt;
+    constexpr double angle = 5e-3;
+    return fine_step_within(step, asked, angle / fastest(), std::max(parts, 1));
+  }
+
+  /// Calls f(reference).
+  void at(double step, std::optional<double> asked, int parts, const auto& f) const {
+    const auto fine = fine_step(step, asked, parts);
+    if (system_->bath().acts()) return f(fine_paths<>(*fine));
+    if constexpr (has_exact_flow<S>) {
+      if (!fine) return f(exact_linear(*system_));
+    }
+    f(fine_steps<>(*fine));
+  }
+
+  /// For statistics alone: their bias by BAOAB is of second order, and the floor of sampling is high.
+  double fine_step_for_statistics(double step, std::optional<double> asked) const {
+    constexpr double angle = 0.05;
+    return fine_step_within(step, asked, angle / fastest());
+  }
+
+ private:
+  bool is_exact() const { return has_exact_flow<S> && !system_->bath().acts(); }
+  double fastest() const { return std::max(frequency_, system_->bath().friction()); }
+
+  const in_bath<S>* system_;
+  double frequency_;
+};
+
+}  // namespace nysalt::program
