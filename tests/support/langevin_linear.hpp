@@ -156,39 +156,35 @@ inline gaussian_step<2> word_step(const damped_oscillator& x, const std::vector<
   return result;
 }
 
-/// The exact solution (q, p) and the word's (q, p), four numbers, over a step of size h on the same path: the
-/// word's O's take the pieces of the path one after the other, as long as their coefficients say.
-inline gaussian_step<4> joint_step(const damped_oscillator& x, const std::vector<spelled>& word, double h) {
+/// Over a step of size h, four numbers: the exact solution (q, p), and how much the word's (q, p) differs
+/// from it on the same path. The word's O's take the pieces of the path one after the other, as long as their
+/// coefficients say. The difference is a coordinate, so that it does not drown in rounding.
+inline gaussian_step<4> step_with_error(const damped_oscillator& x, const std::vector<spelled>& word,
+                                        double h) {
   gaussian_step<4> result;
   for (const auto& [letter, c] : word) {
-    gaussian_step<4> flow;
-    flow.map.bottomRightCorner<2, 2>() = letter_map(x, letter, c * h);
+    gaussian_step<2> exact;  // the time goes on in O's
+    gaussian_step<4> both;
     if (letter == 'O') {
       const auto piece = x.exact_with_bath(c * h);
-      flow.map.topLeftCorner<2, 2>() = piece.map.topLeftCorner<2, 2>();
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) flow.covariance(i < 2 ? i : 3, j < 2 ? j : 3) = piece.covariance(i, j);
-      }
+      exact.map = piece.map.topLeftCorner<2, 2>();
+      Eigen::Matrix<double, 4, 3> felt;
+      felt << 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 1.0;
+      both.covariance = felt * piece.covariance * felt.transpose();
     }
-    result = then(result, flow);
+    const square<2> of_word = letter_map(x, letter, c * h);
+    both.map << exact.map, square<2>::Zero(), of_word - exact.map, of_word;
+    result = then(result, both);
   }
   return result;
 }
 
-/// The covariance of word minus exact.
-inline square<2> difference(const square<4>& joint) {
-  Eigen::Matrix<double, 2, 4> minus;
-  minus << -1.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0;
-  return minus * joint * minus.transpose();
-}
-
-/// From where both are at a point of this covariance (zero: at the origin).
-inline square<4> together(const square<2>& covariance) { return covariance.replicate<2, 2>(); }
-
-/// The joint covariance after n steps.
-inline square<4> after(const gaussian_step<4>& step, square<4> joint, int n) {
-  for (; n > 0; --n) joint = (step.map * joint * step.map.transpose() + step.covariance).eval();
-  return joint;
+/// The covariance of the error after n steps from a point of the given covariance.
+inline square<2> error_after(const gaussian_step<4>& step, const square<2>& start, int n) {
+  square<4> both = square<4>::Zero();
+  both.topLeftCorner<2, 2>() = start;
+  for (; n > 0; --n) both = (step.map * both * step.map.transpose() + step.covariance).eval();
+  return both.bottomRightCorner<2, 2>();
 }
 
 }  // namespace nysalt::test
