@@ -56,8 +56,8 @@ gaussian_step<N> solve_linear(const square<N>& A, const square<N>& rate, double 
 /// The covariance that a step keeps: Sigma = map Sigma map^T + covariance, as N^2 linear equations.
 template <int N>
 square<N> stationary(const gaussian_step<N>& step) {
-  Eigen::MatrixXd equations = Eigen::MatrixXd::Identity(N * N, N * N);
-  Eigen::VectorXd right(N * N);
+  square<N* N> equations = square<N * N>::Identity();
+  Eigen::Matrix<double, N * N, 1> right;
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) {
       right[N * i + j] = step.covariance(i, j);
@@ -66,7 +66,7 @@ square<N> stationary(const gaussian_step<N>& step) {
       }
     }
   }
-  const Eigen::VectorXd solution = equations.fullPivLu().solve(right);
+  const Eigen::Matrix<double, N * N, 1> solution = equations.partialPivLu().solve(right);
   return Eigen::Map<const square<N>>(solution.data());  // symmetric: the order of entries does not matter
 }
 
