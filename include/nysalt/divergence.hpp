@@ -2,9 +2,12 @@
 // When a trajectory has run away.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
+#include "nysalt/bath.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {
@@ -12,7 +15,8 @@ namespace nysalt {
 /// How often to look: an energy costs about a force, 2 % of so many steps of a one-stage method.
 inline constexpr std::int64_t steps_between_checks = 64;
 
-/// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, 1). Without an energy only the first.
+/// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, N kT, 1). Without an energy only the
+/// first, and likewise in a bath that heats without end (noise, but no friction).
 /// Over packs it tells them lane by lane.
 template <System S, Scalar T = double>
 class divergence {
@@ -23,7 +27,8 @@ class divergence {
     if constexpr (HasEnergy<S>) {
       initial_ = energy_in_lanes<T>(system, start);
       const T size = magnitude(initial_);
-      most_ = 1e3 * select(size > 1.0, size, T(1.0));
+      const double least = energy_of_bath(system);
+      most_ = 1e3 * select(size > least, size, T(least));
     }
   }
 
@@ -44,6 +49,14 @@ class divergence {
   divergence(const S& system, const T& initial, const T& most)
       : system_(&system), initial_(initial), most_(most) {}
 
+  static double energy_of_bath(const S& system) {
+    if constexpr (HasBath<S>) {
+      const bath& its = system.bath();
+      if (!its.has_temperature() && its.acts()) return std::numeric_limits<double>::infinity();
+      if (its.has_temperature()) return std::max(1.0, its.temperature() * static_cast<double>(size(system)));
+    }
+    return 1.0;
+  }
   static T magnitude(const T& x) {
     using std::abs;
     return abs(x);

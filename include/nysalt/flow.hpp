@@ -22,23 +22,31 @@ struct free_particle {
 };
 }  // namespace detail
 
-/// The flow of an exactly solvable part of the Hamiltonian over the time c h:
+/// The flow of an exactly solvable part of the motion over the time c h:
 ///   letter         its name in words, see docs/notation.md
 ///   reads_force    f = force(q) must hold when it is applied
 ///   moves_q        f is stale afterwards
 ///   additive       the flows over c h and d h compose to that over (c + d) h, so equal neighbours merge
+/// and, if it is that of a part of the Hamiltonian,
 ///   prepare(c, h)  folds the step into the coefficient, once per run
 ///   apply(system, prepared, state)
-/// A letter that reads the force may also offer
+/// Such a letter that reads the force may also offer
 ///   evaluate_and_apply(system, prepared, state)
 /// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
+/// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
 template <class L>
-concept Flow = requires(flow_state<double, 1>& x) {
+concept StochasticFlow = requires {
+  requires L::stochastic;
+};
+
+template <class L>
+concept Flow = requires {
   { L::letter } -> std::convertible_to<char>;
   { L::reads_force } -> std::convertible_to<bool>;
   { L::moves_q } -> std::convertible_to<bool>;
   { L::additive } -> std::convertible_to<bool>;
-  L::apply(detail::free_particle{}, L::prepare(1.0, 1.0), x);
-};
+}
+&&(StochasticFlow<L> ||
+   requires(flow_state<double, 1> & x) { L::apply(detail::free_particle{}, L::prepare(1.0, 1.0), x); });
 
 }  // namespace nysalt

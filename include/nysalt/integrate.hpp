@@ -20,8 +20,9 @@ struct outcome {
   std::optional<std::int64_t> diverged_at;
 };
 
-/// Takes `steps` steps of a stepper from start. The observer is called as observer(n, t, state) with
-/// t = n h at n = 0, every, 2 every, ...; what it sees is synchronous, and looking does not change the run.
+/// Takes `steps` steps of a stepper from start, with the noise of that trajectory. The observer is called as
+/// observer(n, t, state) with t = n h at n = 0, every, 2 every, ...; what it sees is synchronous, and looking
+/// does not change the run.
 ///
 /// Divergence is looked for every 64 steps and at the end, whoever observes what. Where it is found, that
 /// stretch is gone through again to name the first bad step, and no observer sees that step or a later one.
@@ -33,7 +34,8 @@ struct outcome {
 template <class Stepper, class Observer>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       const phase_point<double, Stepper::dimension>& start,
-                                      std::int64_t steps, Observer&& observer, std::int64_t every) {
+                                      std::int64_t steps, Observer&& observer, std::int64_t every,
+                                      std::uint64_t trajectory = 0) {
   constexpr std::int64_t stretch = steps_between_checks;
   if (steps < 0 || every < 1) {
     throw std::invalid_argument(
@@ -47,7 +49,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
   const auto show = [&](std::int64_t n, const auto& x) {
     if (n % every == 0) observer(n, static_cast<double>(n) * stepper.step_size(), x);
   };
-  auto run = stepper.open(start);
+  auto run = stepper.open(start, trajectory);
   auto good = run;
   show(0, start);
   while (run.step < steps) {

@@ -67,7 +67,7 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
     };
     read(start, std::span<T>(numbers));
     hand_over(0, numbers, first_lanes<T>(count));
-    lockstep<Stepper, T> all(stepper, start, count);
+    lockstep<Stepper, T> all(stepper, start, count, first);
     all.go_on(options.steps, options.every, width, read, hand_over);
     for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(block + k)] = all.diverged_at(k);
   };

@@ -31,11 +31,12 @@ class lockstep {
   using state = phase_point<T, dimension>;
   using condition = condition_of<T>;
 
-  /// Refers to the stepper. Lanes from `count` on hold no trajectory. Throws std::invalid_argument if the
-  /// start does not fit; that it is finite is up to the caller.
-  lockstep(const Stepper& stepper, const state& start, int count)
+  /// Refers to the stepper. Lanes from `count` on hold no trajectory; lane 0 holds number `first`, whose
+  /// noise it sees. Throws std::invalid_argument if the start does not fit; that it is finite is up to the
+  /// caller.
+  lockstep(const Stepper& stepper, const state& start, int count, std::int64_t first = 0)
       : stepper_(&stepper),
-        run_(stepper.open(start)),
+        run_(stepper.open(start, static_cast<std::uint64_t>(first))),
         good_(run_),
         diverged_(stepper.system(), start),
         live_(first_lanes<T>(count)) {}
@@ -90,7 +91,8 @@ class lockstep {
     const auto diverged = diverged_.in_lane(k);
     const auto& all = good_.state;
     const auto one = lane(static_cast<const state&>(all), k);
-    open_run<double, dimension> run{{one, one.q}, good_.step};
+    open_run<double, dimension> run{
+        {one, one.q}, good_.step, good_.trajectory + static_cast<std::uint64_t>(k)};
     for (Eigen::Index i = 0; i < one.size(); ++i) run.state.f[i] = lane(all.f[i], k);
     while (run.step < end) {
       stepper_->advance(run, 1);

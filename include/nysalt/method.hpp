@@ -103,9 +103,11 @@ class tuned_method {
   std::string system_;
 };
 
-/// The stepper of a method on a system. Throws what the method's validity or the stepper refuses.
-template <System S, Method M>
-stepper<S, typename M::word> make_stepper(const S& system, const M& method, double step) {
+/// The stepper of a method on a system, with the noise of its bath. Throws what the method's validity or the
+/// stepper refuses.
+template <System S, Method M, NoiseSource Noise = no_noise>
+stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const M& method, double step,
+                                                         const Noise& noise = {}) {
   require_suited<M, S>();
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
@@ -115,9 +117,10 @@ stepper<S, typename M::word> make_stepper(const S& system, const M& method, doub
         fmt::format("the order of {} needs a quadratic kinetic energy, but {} has one of its own",
                     method.name(), describe(system)));
   }
-  return stepper<S, typename M::word>(system, word_of(method), method.coefficients(), step);
+  return {system, word_of(method), method.coefficients(), step, noise};
 }
-template <System S, Method M>
-void make_stepper(const S&& system, const M& method, double step) = delete;  // it would refer to a temporary
+template <System S, Method M, NoiseSource Noise = no_noise>
+void make_stepper(const S&& system, const M& method, double step,
+                  const Noise& noise = {}) = delete;  // it would refer to a temporary
 
 }  // namespace nysalt

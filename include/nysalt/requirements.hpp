@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "nysalt/system.hpp"
+#include "nysalt/bath.hpp"
 
 namespace nysalt {
 
@@ -48,6 +48,12 @@ concept MentionsFrequencyBands = requires {
 }
 || requires(S& s) { s.frequency_bands(); };
 
+template <class S>
+concept MentionsBath = requires {
+  &S::bath;
+}
+|| requires(S& s) { s.bath(); };
+
 }  // namespace detail
 
 /// Compiles if S can be stepped by methods of M's kind (a method or a family), and every optional member
@@ -81,6 +87,9 @@ constexpr void require_suited() {
   static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,
                 "nysalt: frequency_bands is not of the form "
                 "`std::vector<nysalt::frequency_band> frequency_bands() const`");
+  static_assert(
+      HasBath<S> || !detail::MentionsBath<S>,
+      "nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp");
   if constexpr (requires { std::bool_constant<M::requires_quadratic_kinetic>{}; }) {
     static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
                   "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <stdexcept>
@@ -14,12 +15,13 @@
 
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
+#include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
 
 /// Every flow that a word can name by its letter at run time.
-using known_letters = std::tuple<drift, kick>;
+using known_letters = std::tuple<drift, kick, ornstein_uhlenbeck>;
 
 namespace detail {
 /// f(flow) for the flow of that letter among the given ones; false if there is none.
@@ -37,7 +39,7 @@ class run_time_word {
   using coefficients = std::vector<C>;
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet.
-  /// Throws std::invalid_argument if there is none, or one that is not known.
+  /// Throws std::invalid_argument if there is none but O, or one that is not known.
   explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
     if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
@@ -55,6 +57,14 @@ class run_time_word {
       }
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
+    halves_meet = length > 1 && letters_.front() == ornstein_uhlenbeck::letter &&
+                  letters_.back() == ornstein_uhlenbeck::letter;
+    stochastic_letters =
+        static_cast<int>(std::count(letters_.begin(), letters_.end(), ornstein_uhlenbeck::letter));
+    if (stochastic_letters == static_cast<int>(length)) {
+      throw std::invalid_argument(
+          fmt::format("the word {} needs a letter beside those of the bath", letters_));
+    }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
     evaluations_per_step = plan_.count(plan_.in_loop);
     evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
@@ -69,6 +79,8 @@ class run_time_word {
 
   std::size_t length;
   bool merges;
+  bool halves_meet;
+  int stochastic_letters;
   int evaluations_per_step;
   int evaluations_to_open;
   int evaluations_of_plain_step;

@@ -6,68 +6,100 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
-#include "nysalt/prepared_word.hpp"
+#include "nysalt/conservative_part.hpp"
+#include "nysalt/noises/none.hpp"
+#include "nysalt/prepared_run_time_word.hpp"
 
 namespace nysalt {
 
-/// A trajectory under way. `state` is ahead of the synchronous state by the word's first letter where
-/// that letter merges with the last; the open run is all that is needed to go on, to the bit.
+/// A trajectory under way. `state` is ahead of the synchronous state by the word's first letter where that
+/// letter merges with the last, or behind by half a letter O; the open run is all that is needed to go on, to
+/// the bit.
 template <Scalar T, int N>
 struct open_run {
   flow_state<T, N> state;
   std::int64_t step = 0;
+  std::uint64_t trajectory = 0;  // whose noise it sees; that of lane 0
 };
 
-/// A word with coefficients, a step and a system. The system is referred to, not copied.
-/// C is double, or the scalar of the states that are stepped (learning).
-template <System S, Word W, Scalar C = double>
+/// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
+/// referred to, not copied. C is double, or the scalar of the states that are stepped (learning).
+///
+/// The letters O act if the system is in a bath; in none, or in one that does not act, they are deleted from
+/// the word, and a step has the bits of the word that is left.
+template <System S, Word W, Scalar C = double, NoiseSource Noise = no_noise>
 class stepper {
+  static constexpr bool may_be_noisy = [] {
+    if constexpr (!HasBath<S>) return false;
+    if constexpr (TypeLevelWord<W>) return W::stochastic_letters > 0;
+    return true;
+  }();
+
  public:
   using system_type = S;
+  using noise_type = Noise;
   static constexpr int dimension = S::dimension;
 
   using coefficients_type = typename W::template coefficients<C>;
 
-  /// Throws std::invalid_argument if the step is zero or not finite, or if a run-time word has another number
-  /// of letters than of coefficients. A negative step goes back in time.
-  stepper(const S& system, const W& word, const coefficients_type& coefficients, double step)
-      : system_(&system), step_(step), letters_(word, coefficients, step) {
+  /// Throws std::invalid_argument if the step is zero or not finite; if a run-time word has another number
+  /// of letters than of coefficients; if a bath acts and the word has no letter O; or if it is noisy and
+  /// there is no noise. A negative step goes back in time.
+  stepper(const S& system, const W& word, const coefficients_type& coefficients, double step,
+          const Noise& noise = {})
+      : system_(&system),
+        step_(step),
+        noise_(noise),
+        acts_(acts_on(system)),
+        stochastic_letters_(word.stochastic_letters),
+        letters_(letters_of(system, word, coefficients, step)),
+        quiet_(quiet_letters_of(word, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
       throw std::invalid_argument(fmt::format("the step must be finite and not zero, got {}", step));
     }
+    if (acts_) require_thermostat(word.letters());
   }
-  stepper(const S& system, const coefficients_type& coefficients, double step) requires TypeLevelWord<W>
-      : stepper(system, W{}, coefficients, step) {}
-  stepper(const S&&, const W&, const coefficients_type&, double) = delete;  // it would refer to a temporary
-  stepper(const S&&, const coefficients_type&, double) = delete;
+  stepper(const S& system, const coefficients_type& coefficients, double step,
+          const Noise& noise = {}) requires TypeLevelWord<W>
+      : stepper(system, W{}, coefficients, step, noise) {}
+  stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
+  stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
   double step_size() const { return step_; }
   const S& system() const { return *system_; }
+  const Noise& noise() const { return noise_; }
 
-  /// Begins a run at x. Cost: the word's evaluations_to_open. Throws std::invalid_argument if x has not the
-  /// system's dimension.
+  /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
+  /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.
   template <SteppedBy<C> T>
-  open_run<T, dimension> open(const phase_point<T, dimension>& x) const {
+  open_run<T, dimension> open(const phase_point<T, dimension>& x, std::uint64_t trajectory = 0) const {
     require_size(x);
-    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}};
+    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);  // a checkpoint has no noise
-    letters_.open(*system_, run.state);
+    with_letters([&](const auto& letters) { letters.open(*system_, run.state); });
     return run;
   }
 
-  /// THE loop. Cost: steps times the word's evaluations_per_step; allocates nothing that the force does not.
+  /// THE loop. Cost: steps times the word's evaluations_per_step, and a normal number for each momentum and
+  /// letter O. Allocates nothing that the force does not; with noise, one vector if its size is dynamic.
   /// Throws std::invalid_argument if steps < 0. If the force throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
     if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
-    decltype(auto) letters = letters_.in_loop();
-    letters.advance(*system_, x, steps);
+    auto cursor = cursor_at<T>(run.trajectory, run.step);
+    with_letters([&](const auto& all) __attribute__((always_inline)) {
+      decltype(auto) letters = all.in_loop();
+      letters.advance(*system_, x, steps, cursor);
+    });
     run.state = std::move(x);
     run.step += steps;
   }
@@ -82,19 +114,22 @@ class stepper {
     }
     flow_state<T, dimension> x = std::move(run.state);
     flow_state<T, dimension> y = x;
-    decltype(auto) letters = letters_.in_loop();
     const S& system = *system_;
     const std::int64_t end = run.step + steps;
-    std::int64_t step = run.step;
-    while (step < end) {
-      const std::int64_t next = std::min(end, (step / every + 1) * every);
-      letters.advance(system, x, next - step);
-      step = next;
-      if (step % every != 0) continue;
-      y = x;
-      letters_.close(system, y);
-      look(step, static_cast<const phase_point<T, dimension>&>(y));
-    }
+    auto cursor = cursor_at<T>(run.trajectory, run.step);
+    with_letters([&](const auto& all) __attribute__((always_inline)) {
+      decltype(auto) letters = all.in_loop();
+      std::int64_t step = run.step;
+      while (step < end) {
+        const std::int64_t next = std::min(end, (step / every + 1) * every);
+        letters.advance(system, x, next - step, cursor);
+        step = next;
+        if (step % every != 0) continue;
+        y = x;
+        all.close(system, y, cursor);
+        look(step, static_cast<const phase_point<T, dimension>&>(y));
+      }
+    });
     run.state = std::move(x);
     run.step = end;
   }
@@ -103,25 +138,90 @@ class stepper {
   template <Scalar T>
   phase_point<T, dimension> synchronous(const open_run<T, dimension>& run) const {
     flow_state<T, dimension> x = run.state;
-    letters_.close(*system_, x);
+    auto cursor = cursor_at<T>(run.trajectory, run.step);
+    with_letters([&](const auto& letters) { letters.close(*system_, x, cursor); });
     return {std::move(x.q), std::move(x.p)};
   }
 
   /// One plain step, letter by letter, from q and p alone (f is scratch): what learning and the
-  /// analyses differentiate. Cost: the word's evaluations_of_plain_step.
+  /// analyses differentiate. Its noise is that of step n of the trajectory. Cost: the word's
+  /// evaluations_of_plain_step.
   template <SteppedBy<C> T>
-  void step(flow_state<T, dimension>& x) const {
-    letters_.step(*system_, x);
+  void step(flow_state<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
+    auto cursor = cursor_at<T>(trajectory, n);
+    with_letters([&](const auto& letters) { letters.step(*system_, x, cursor); });
   }
   template <SteppedBy<C> T>
-  void step(phase_point<T, dimension>& x) const {
+  void step(phase_point<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     require_size(x);
     flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};
-    step(state);
+    step(state, trajectory, n);
     x = {std::move(state.q), std::move(state.p)};
   }
 
  private:
+  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // while running, not compiling
+  using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C>;
+  using quiet_type = std::conditional_t<chooses, prepared_word<conservative_word<W>, C>, std::monostate>;
+
+  static bool acts_on(const S& system) {
+    if constexpr (HasBath<S>) return static_cast<const bath&>(system.bath()).acts();
+    return false;
+  }
+  static letters_type letters_of(const S& system, const W& word, const coefficients_type& c, double step) {
+    if constexpr (may_be_noisy) {
+      const bath& its = system.bath();
+      if (its.acts() || TypeLevelWord<W>) return letters_type(word, c, step, &its);
+    }
+    if constexpr (!chooses) {
+      return letters_type(conservative_part(word), conservative_part(word, c), step, nullptr);
+    } else {
+      throw std::logic_error("stepper: not reached");
+    }
+  }
+  static quiet_type quiet_letters_of(const W& word, const coefficients_type& c, double step) {
+    if constexpr (chooses) {
+      return quiet_type(conservative_part(word), conservative_part(word, c), step, nullptr);
+    } else {
+      return {};
+    }
+  }
+
+  /// f(letters that act)
+  [[gnu::always_inline]] void with_letters(const auto& f) const {
+    if constexpr (chooses) {
+      if (!acts_) return f(quiet_);
+    }
+    f(letters_);
+  }
+
+  template <Scalar T>
+  auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
+    if constexpr (may_be_noisy) {
+      const bath& its = system_->bath();
+      const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
+      return noise_cursor<Noise, T, dimension>{
+          &noise_, trajectory, step, stochastic_letters_, its.sigma() > 0.0, vector<T, dimension>(numbers)};
+    } else {
+      return no_noise_cursor{};
+    }
+  }
+
+  void require_thermostat(const std::string& letters) const {
+    if constexpr (HasBath<S>) {
+      if (stochastic_letters_ == 0) {
+        throw std::invalid_argument(fmt::format(
+            "the system is in a {}, but the word {} has no letter O: thermostat it, or step the system alone",
+            system_->bath().description(), letters));
+      }
+      if (std::is_same_v<Noise, no_noise> && system_->bath().sigma() > 0.0) {
+        throw std::invalid_argument(
+            fmt::format("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
+                        system_->bath().description()));
+      }
+    }
+  }
+
   template <Scalar T>
   void require_size(const phase_point<T, dimension>& x) const {
     if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
@@ -132,7 +232,11 @@ class stepper {
 
   const S* system_;
   double step_;
-  prepared_word<W, C> letters_;
+  Noise noise_;
+  bool acts_;  // the bath
+  int stochastic_letters_;
+  letters_type letters_;
+  [[no_unique_address]] quiet_type quiet_;  // in a bath that does not act
 };
 
 }  // namespace nysalt

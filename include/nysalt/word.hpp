@@ -2,6 +2,7 @@
 // A method's letters in the order in which they act, and what follows from that order alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -89,6 +90,16 @@ struct word {
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =
       length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
+
+  /// How many letters of the bath there are, and which of them, from 0 on, letter i is.
+  static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
+  static constexpr int stochastic_number(std::size_t i) {
+    constexpr std::array<bool, length> is{StochasticFlow<L>...};
+    return static_cast<int>(std::count(is.begin(), is.begin() + static_cast<std::ptrdiff_t>(i), true));
+  }
+  /// A letter of the bath ends one step, and another begins the next.
+  static constexpr bool halves_meet =
+      length > 1 && StochasticFlow<letter<0>>&& StochasticFlow<letter<length - 1>>;
 
   static std::string letters() { return {L::letter...}; }
 

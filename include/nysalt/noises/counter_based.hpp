@@ -21,7 +21,13 @@
 namespace nysalt {
 
 /// What a random number is for, so that no two uses share one.
-enum class noise_purpose : std::uint8_t { initial_state = 1 };
+enum class noise_purpose : std::uint8_t {
+  initial_state = 1,
+  bath = 2,         // of a run
+  bath_halves = 3,  // which tell the two halves of a letter O apart
+  finer_path = 4,   // which tell the halves of a step of a path apart
+  burn_in = 5       // of the run that makes an initial state
+};
 
 /// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives
 /// slots_for(N) slots to each time.

@@ -123,6 +123,12 @@ dual<T, N> exp(const dual<T, N>& a) {
   return a.chain(value, value);
 }
 template <class T, int N>
+dual<T, N> expm1(const dual<T, N>& a) {
+  using std::exp;
+  using std::expm1;
+  return a.chain(expm1(a.value), exp(a.value));
+}
+template <class T, int N>
 dual<T, N> log(const dual<T, N>& a) {
   using std::log;
   return a.chain(log(a.value), T(1.0) / a.value);

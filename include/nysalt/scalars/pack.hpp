@@ -151,6 +151,10 @@ pack<double, W> exp(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::exp(x); });
 }
 template <int W>
+pack<double, W> expm1(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::expm1(x); });
+}
+template <int W>
 pack<double, W> log(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::log(x); });
 }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a system is coupled to: friction, and the noise that goes with it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// dp = force(q) dt - gamma p dt + sigma M^{1/2} dW, whose invariant law is exp(-H/kT) with
+/// kT = sigma^2/(2 gamma) for any masses. Noise without friction is allowed; then there is no temperature.
+class bath {
+ public:
+  /// Throws std::invalid_argument unless friction and sigma are finite and not negative.
+  static bath of_sigma(double friction, double sigma) {
+    require("sigma", sigma);
+    return {friction, sigma, friction > 0.0 ? std::optional(sigma * sigma / (2.0 * friction)) : std::nullopt};
+  }
+  /// The temperature is kT, an energy. Throws std::invalid_argument unless both are finite and not negative.
+  static bath of_temperature(double friction, double temperature) {
+    require("temperature", temperature);
+    return {friction, std::sqrt(2.0 * friction * temperature), temperature};
+  }
+
+  double friction() const { return friction_; }
+  double sigma() const { return sigma_; }
+  bool has_temperature() const { return temperature_.has_value(); }
+  /// kT. Throws std::domain_error where there is noise, or might be, but no friction.
+  double temperature() const {
+    if (temperature_) return *temperature_;
+    throw std::domain_error(fmt::format(
+        "a bath with sigma = {} and no friction has no temperature: kT = sigma^2/(2 friction)", sigma_));
+  }
+
+  /// Otherwise a system in it moves as if it were alone.
+  bool acts() const { return friction_ > 0.0 || sigma_ > 0.0; }
+
+  /// What is left of a momentum after a time: e^{-gamma t}.
+  template <Scalar T>
+  T decay(const T& time) const {
+    using std::exp;
+    return exp(time * -friction_);
+  }
+  /// Standard deviation, for unit mass, of the noise int_0^t sigma e^{-gamma (t - s)} dW_s:
+  /// sigma sqrt((1 - e^{-2 gamma t})/(2 gamma)), which goes to sigma sqrt(t) with gamma to 0.
+  template <Scalar T>
+  T deviation(const T& time) const {
+    using std::expm1;
+    using std::sqrt;
+    if (sigma_ == 0.0) return T(0.0);
+    if (friction_ == 0.0) return sqrt(time) * sigma_;
+    return sqrt(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
+  }
+
+  std::string description() const { return fmt::format("bath(friction={}, sigma={})", friction_, sigma_); }
+
+ private:
+  bath(double friction, double sigma, std::optional<double> temperature)
+      : friction_(friction), sigma_(sigma), temperature_(temperature) {
+    require("friction", friction);
+    require("sigma", sigma);
+  }
+  static void require(const char* what, double value) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    throw std::invalid_argument(
+        fmt::format("bath: the {} must be finite and not negative, got {}", what, value));
+  }
+
+  double friction_;
+  double sigma_;
+  std::optional<double> temperature_;
+};
+
+/// A system that says what bath it is in.
+template <class S>
+concept HasBath = System<S> && requires(const S& s) {
+  { s.bath() } -> std::convertible_to<const nysalt::bath&>;
+};
+
+}  // namespace nysalt

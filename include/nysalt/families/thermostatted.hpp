@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "nysalt/family.hpp"
+#include "nysalt/langevin.hpp"
+
+namespace nysalt {
+
+/// A family in a bath: the same parameters, with letters O at a placement. Order and symmetry are those
+/// without noise: O itself spoils them at the end (order 1), and keeps order 2 elsewhere.
+template <Family F, placement P>
+struct thermostatted_family {
+  using plain = F;
+  using word = thermostatted_word<typename F::word, P>;
+  static constexpr int parameters = F::parameters;
+  static constexpr auto parameter_names = F::parameter_names;
+  static constexpr int order = P == placement::end ? 1 : std::min(F::order, 2);
+  static constexpr bool symmetric = P != placement::end && F::symmetric;
+  static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
+
+  static auto ranges() { return F::ranges(); }
+  static auto start() { return F::start(); }
+
+  template <Scalar C>
+  static std::array<C, word::length> coefficients(
+      const std::array<C, static_cast<std::size_t>(F::parameters)>& theta) {
+    return thermostatted_coefficients(P, F::coefficients(theta), std::array<C, word::length>{});
+  }
+
+ private:
+  static constexpr std::string_view place = to_string(P);
+  static constexpr auto text = [] {
+    std::array<char, F::name.size() + 1 + to_string(P).size()> joined{};
+    auto end = std::copy(F::name.begin(), F::name.end(), joined.begin());
+    *end++ = '_';
+    std::copy(place.begin(), place.end(), end);
+    return joined;
+  }();
+
+ public:
+  static constexpr std::string_view name{text.data(), text.size()};
+};
+
+}  // namespace nysalt

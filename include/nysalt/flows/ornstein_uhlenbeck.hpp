@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "nysalt/bath.hpp"
+#include "nysalt/flow.hpp"
+
+namespace nysalt {
+
+/// O: the flow of the bath over t = c h, dp = -gamma p dt + sigma M^{1/2} dW, exactly:
+///   p <- e^{-gamma t} p + s M^{1/2} xi,  s^2 = sigma^2 (1 - e^{-2 gamma t})/(2 gamma),  xi standard normal
+/// [leimkuhler_matthews_2015]. Its noise is that of the interval of the step which it covers: the
+/// letters O of a word share the step in their order.
+struct ornstein_uhlenbeck {
+  static constexpr char letter = 'O';
+  static constexpr bool reads_force = false;
+  static constexpr bool moves_q = false;
+  static constexpr bool additive = false;  // the noise of two is not that of one
+  static constexpr bool stochastic = true;
+
+  /// e^{-gamma c h} and s. What damps alone (sigma = 0) may go back in time; noise cannot.
+  template <Scalar C>
+  struct prepared {
+    C decay{1.0};
+    C deviation{0.0};
+  };
+
+  /// Throws std::invalid_argument where noise would have to go back in time.
+  template <Scalar C>
+  static prepared<C> prepare(const C& c, double h, const bath& its) {
+    const C time = c * h;
+    if (its.sigma() > 0.0 && any(time < C(0.0))) {
+      throw std::invalid_argument(fmt::format(
+          "a letter O cannot go back in time: its coefficient and the step ({}) must have the same sign", h));
+    }
+    return {its.decay(time), its.deviation(time)};
+  }
+
+  /// p <- decay p
+  template <System S, Scalar T, CoefficientOf<T> C>
+  static void damp(const S&, const C& decay, flow_state<T, S::dimension>& x) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] = x.p[i] * decay;
+  }
+
+  /// p <- decay p + deviation M^{1/2} xi
+  template <System S, Scalar T, CoefficientOf<T> C>
+  static void apply(const S& system, const prepared<C>& flow, const vector<T, S::dimension>& xi,
+                    flow_state<T, S::dimension>& x) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      if constexpr (HasInverseMass<S>) {
+        const C deviation = flow.deviation * (1.0 / std::sqrt(system.inverse_mass(i)));
+        x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
+      } else {
+        x.p[i] = x.p[i] * flow.decay + xi[i] * flow.deviation;
+      }
+    }
+  }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "nysalt/langevin.hpp"
+#include "nysalt/methods/tabulated.hpp"
+
+namespace nysalt {
+
+/// A method in a bath: its word with letters O at a placement. As for families, order 1 at the end and 2
+/// elsewhere at most.
+template <placement P, Method M>
+  requires TypeLevelWord<typename M::word>
+class thermostatted_method {
+ public:
+  using word = thermostatted_word<typename M::word, P>;
+  static constexpr int order = P == placement::end ? 1 : std::min(M::order, 2);
+  static constexpr bool symmetric = P != placement::end && M::symmetric;
+  static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;
+
+  explicit thermostatted_method(const M& plain) : plain_(plain) {}
+
+  std::array<double, word::length> coefficients() const {
+    return thermostatted_coefficients(P, plain_.coefficients(), std::array<double, word::length>{});
+  }
+  std::string name() const { return fmt::format("{}_{}", plain_.name(), to_string(P)); }
+
+ private:
+  M plain_;
+};
+
+template <placement P, Method M>
+  requires TypeLevelWord<typename M::word> thermostatted_method<P, M> thermostat(const M& method) {
+    static_assert(
+        !requires { method.require_validity(std::string(), 1.0); },
+        "nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()");
+    return thermostatted_method<P, M>(method);
+  }
+
+/// The same as data. Throws std::invalid_argument if the method has letters O already, or no central letter.
+inline tabulated thermostat(const tabulated& method, placement where) {
+  const run_time_word letters = thermostatted(method.letters(), where);
+  return tabulated(
+      method.name(), letters,
+      thermostatted_coefficients(where, method.coefficients(), std::vector<double>(letters.length)),
+      {where == placement::end ? 1 : std::min(method.order, 2), where != placement::end && method.symmetric,
+       method.requires_quadratic_kinetic});
+}
+
+}  // namespace nysalt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+// Where the noise of a bath comes from.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "nysalt/phase_point.hpp"
+
+namespace nysalt {
+
+/// Where in a run noise is wanted: by the letter O that is number `flow` among those of the word, in the step
+/// from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
+struct noise_place {
+  std::uint64_t trajectory = 0;
+  std::int64_t step = 0;
+  int flow = 0;
+};
+
+/// normals(place, xi)   xi_i become the standard normal numbers of that place, a pure function of it
+/// draws_freely         true: the numbers are whatever comes; then the halves of a letter O in which one step
+///                      ends and the next begins become one, and
+/// halving(place, zeta) are further ones, independent of the first, from which the halves are told apart
+///                      when somebody looks. false: they belong to a path, which has its own halves
+template <class N>
+concept NoiseSource = std::copyable<N> &&
+    requires(const N& noise, const noise_place& place, vector<double, 1>& xi) {
+  { N::draws_freely } -> std::convertible_to<bool>;
+  noise.normals(place, xi);
+} &&(!N::draws_freely ||
+     requires(const N& noise, const noise_place& place, vector<double, 1>& xi) { noise.halving(place, xi); });
+
+}  // namespace nysalt

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "nysalt/noise.hpp"
+
+namespace nysalt {
+
+/// For runs that need no noise: no letter O, or a bath with sigma = 0. A stepper refuses it otherwise.
+struct no_noise {
+  static constexpr bool draws_freely = false;
+
+  template <class T, int N>
+  void normals(const noise_place&, vector<T, N>&) const {}
+};
+
+}  // namespace nysalt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "nysalt/bath.hpp"
+
+namespace nysalt {
+
+/// A Hamiltonian system in a bath: a Langevin system, dq = M^{-1} p dt,
+/// dp = force(q) dt - gamma p dt + sigma M^{1/2} dW. All else is the system's own.
+template <NystromSystem S>
+  requires(!std::is_final_v<S>)
+class in_bath : public S {
+ public:
+  in_bath(S system, nysalt::bath its_bath) : S(std::move(system)), bath_(std::move(its_bath)) {}
+
+  const nysalt::bath& bath() const { return bath_; }
+  const S& alone() const { return *this; }
+
+  /// A bath that does not act goes without saying.
+  std::string description() const {
+    if (!bath_.acts()) return describe(alone());
+    return fmt::format("{} in {}", describe(alone()), bath_.description());
+  }
+
+ private:
+  nysalt::bath bath_;
+};
+
+}  // namespace nysalt
