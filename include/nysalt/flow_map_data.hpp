@@ -44,6 +44,12 @@ struct flow_map_data {
   std::vector<std::size_t> first_of;  // trajectory m holds the pairs first_of[m] .. first_of[m + 1] - 1
 
   double step = 0.0;
+
+  // In a bath: standard normal numbers of the noise over so many equal parts of the step. Those of pair n are
+  // noise[n noise_parts + k], k = 0 .. noise_parts - 1.
+  int noise_parts = 0;
+  std::vector<vector<double, N>> noise;
+
   // A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
 
@@ -65,7 +71,8 @@ struct data_options {
   double horizon = 0.5;             // length of each trajectory
   std::int64_t trajectories = 100;  // independent starts
   std::uint64_t seed = 1;
-  int threads = 1;  // changes no bit of the data
+  int noise_parts = 0;  // of a step whose noise is kept: what the letters O to be learned with need
+  int threads = 1;      // changes no bit of the data
   // Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
@@ -84,6 +91,16 @@ void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
   if (data.pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
     throw std::invalid_argument(fmt::format("the data are not whole: {} starts, {} finishes, {} trajectories",
                                             data.pairs(), data.finish.size(), data.trajectories()));
+  }
+  if (data.noise_parts < 0 ||
+      data.noise.size() != data.pairs() * static_cast<std::size_t>(data.noise_parts)) {
+    throw std::invalid_argument(fmt::format("the data are not whole: {} pairs with noise in {} parts hold {}",
+                                            data.pairs(), data.noise_parts, data.noise.size()));
+  }
+  for (std::size_t n = 0; n < data.noise.size(); ++n) {
+    if (data.noise[n].size() == size(system) && data.noise[n].allFinite()) continue;
+    throw std::invalid_argument(
+        fmt::format("noise {} of the data is not finite or has not the dimension of the system", n));
   }
   for (std::size_t n = 0; n < data.pairs(); ++n) {
     for (const auto* x : {&data.start[n], &data.finish[n]}) {
@@ -109,7 +126,11 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
         "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
         options.trajectories, options.horizon, options.step));
   }
-  const double of_a_pair = 4.0 * static_cast<double>(dimension);  // numbers: two states
+  if (options.noise_parts < 0) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: noise in {} parts of a step cannot be", options.noise_parts));
+  }
+  const double of_a_pair = (4.0 + options.noise_parts) * static_cast<double>(dimension);  // numbers
   if (steps * static_cast<double>(options.trajectories) * of_a_pair > 1e9) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
@@ -120,7 +141,7 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
 
 /// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane; returns the
 /// force evaluations that they took.
-template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
+template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
 std::int64_t follow_reference(const S& system, const E& ensemble, const R& reference,
                               const data_options& options, std::int64_t first, int count,
                               flow_map_data<S::dimension>& data, std::vector<energy_range>& energies) {
@@ -137,10 +158,19 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   include_energies(x);
   std::array<std::optional<std::size_t>, lanes_of<S>> lost;  // at which step a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
-  for (std::size_t n = 0; n < steps; ++n) {
+  const auto parts = static_cast<std::size_t>(options.noise_parts);
+  std::vector<vector<T, S::dimension>> noise(parts, make_vector<T>(system));
+  path_place at{options.seed, static_cast<std::uint64_t>(first), 0};
+  for (std::size_t n = 0; n < steps; ++n, ++at.step) {
     for (int k = 0; k < count; ++k) data.start[data.first_of[place(k)] + n] = lane(x, k);
-    advance_lanes(watched, reference, x, options.step, count);
-    for (int k = 0; k < count; ++k) data.finish[data.first_of[place(k)] + n] = lane(x, k);
+    advance_lanes(watched, reference, x, options.step, count, at, std::span(noise));
+    for (int k = 0; k < count; ++k) {
+      const std::size_t pair = data.first_of[place(k)] + n;
+      data.finish[pair] = lane(x, k);
+      for (std::size_t part = 0; part < parts; ++part) {
+        data.noise[pair * parts + part] = lane(noise[part], k);
+      }
+    }
     include_energies(x);
     const auto sound = is_finite(x);
     for (int k = 0; k < count; ++k) {
@@ -155,26 +185,48 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
                     first + k, *lost[static_cast<std::size_t>(k)], reference.description()));
   }
   // Evaluated over packs, a force is one of each lane's trajectory.
-  return watched.evaluations * (AdvancesLanes<R, S, T> ? count : 1);
+  return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
+}
+
+/// finish = that of the finer reference from the same start, for every so many pairs.
+template <SeparableSystem S, Reference<S> R>
+std::int64_t check_reference(const S& system, const R& reference, const data_options& options,
+                             flow_map_data<S::dimension>& data) {
+  constexpr std::size_t checks = 16;  // enough for the size of an error
+  const counted<S> watched(system);
+  const R finer = reference.finer();
+  std::size_t trajectory = 0;
+  for (std::size_t pair = 0; pair < data.pairs(); pair += data.pairs() / checks + 1) {
+    while (data.first_of[trajectory + 1] <= pair) ++trajectory;
+    const path_place at{options.seed, trajectory,
+                        static_cast<std::int64_t>(pair - data.first_of[trajectory])};
+    data.finer.emplace_back(pair, data.start[pair]);
+    advance_lanes(watched, finer, data.finer.back().second, options.step, 1, at,
+                  std::span<vector<double, S::dimension>>());
+  }
+  return watched.evaluations;
 }
 
 }  // namespace detail
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
-/// there are lanes. Threads share the ensemble and the reference; each block of trajectories has its own copy
-/// of the system. Neither lanes nor threads change a bit.
+/// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble
+/// and the reference; each block of trajectories has its own copy of the system. Neither lanes nor threads
+/// change a bit.
 ///
 /// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
 /// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
 /// Memory: two states a pair. Cost: that of the reference, and one energy a pair.
-template <SeparableSystem S, Ensemble<S> E, ReferenceFlow<S> R>
+template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
 flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
                                                const data_options& options) {
-  constexpr std::size_t checks = 16;  // enough for the size of an error
   const auto began = std::chrono::steady_clock::now();
   const std::int64_t steps = detail::steps_of_each(options, size(system));
+  if (options.noise_parts > 0 && !PathReference<R, S>) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference.description()));
+  }
   const auto total = static_cast<std::size_t>(options.trajectories * steps);
-  const std::size_t check_every = total / checks + 1;
 
   flow_map_data<S::dimension> data;
   for (std::int64_t m = 0; m <= options.trajectories; ++m) {
@@ -182,6 +234,8 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   }
   data.start.resize(total);
   data.finish.resize(total);
+  data.noise_parts = options.noise_parts;
+  data.noise.resize(total * static_cast<std::size_t>(options.noise_parts));
   std::vector<energy_range> energies(data.trajectories());
   std::atomic<std::int64_t> evaluations = 0;
 
@@ -191,12 +245,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   };
   for_each_block(options.trajectories, lanes_of<S>, options.threads, follow, options.progress);
 
-  const counted<S> watched(system);
-  const R finer = reference.finer();
-  for (std::size_t pair = 0; pair < total; pair += check_every) {
-    data.finer.emplace_back(pair, data.start[pair]);
-    finer.advance(watched, data.finer.back().second, options.step);
-  }
+  evaluations += detail::check_reference(system, reference, options, data);
 
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();
@@ -210,7 +259,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
   data.ensemble = ensemble.description();
   data.reference = reference.description();
   data.seed = options.seed;
-  data.evaluations = evaluations + watched.evaluations;
+  data.evaluations = evaluations;
   data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return data;
 }

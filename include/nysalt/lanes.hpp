@@ -78,7 +78,13 @@ lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
   return a & b;
 }
 
-/// The trajectory in lane k.
+/// That of the trajectory in lane k.
+template <class T, int N>
+vector<double, N> lane(const vector<T, N>& x, int k) {
+  vector<double, N> result(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = lane(x[i], k);
+  return result;
+}
 template <class T, int N>
 phase_point<double, N> lane(const phase_point<T, N>& x, int k) {
   phase_point<double, N> result{vector<double, N>(x.size()), vector<double, N>(x.size())};

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
+#include <span>
 #include <string>
 
+#include "nysalt/bath.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {
@@ -23,6 +26,31 @@ concept ReferenceFlow = SeparableSystem<S> &&
   { reference.finer() } -> std::same_as<R>;
   { reference.description() } -> std::convertible_to<std::string>;
 };
+
+/// Whose noise a path sees, and how far it is: after `step` times of equal length.
+struct path_place {
+  std::uint64_t seed = 0;
+  std::uint64_t trajectory = 0;
+  std::int64_t step = 0;
+};
+
+/// The same for a system in a bath, path by path:
+/// advance(system, x, t, place, xi)  x becomes the state a time t later on that path, over double and packs;
+///                                   xi, a span, are given the noise of so many equal parts of t
+/// finer()                           the same path with a much smaller error
+/// description()
+template <class R, class S>
+concept PathReference = HasBath<S> && SeparableSystem<S> &&
+    requires(const R& reference, const S& system, phase_point<double, S::dimension>& x,
+             std::span<vector<double, S::dimension>> xi) {
+  reference.advance(system, x, 1.0, path_place{}, xi);
+  { reference.finer() } -> std::same_as<R>;
+  { reference.description() } -> std::convertible_to<std::string>;
+};
+
+/// Either: what data and errors can come from.
+template <class R, class S>
+concept Reference = ReferenceFlow<R, S> || PathReference<R, S>;
 
 namespace detail {
 template <class R, class S, class T>
@@ -43,6 +71,17 @@ void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimens
       reference.advance(system, one, t);
       set_lane(x, k, one);
     }
+  }
+}
+
+/// The same of any reference; a flow has no noise, and leaves xi alone.
+template <SeparableSystem S, Reference<S> R, Scalar T>
+void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimension>& x, double t, int count,
+                   const path_place& at, std::span<vector<T, S::dimension>> xi) {
+  if constexpr (PathReference<R, S>) {
+    reference.advance(system, x, t, at, xi);
+  } else {
+    advance_lanes(system, reference, x, t, count);
   }
 }
 

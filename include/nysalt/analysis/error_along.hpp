@@ -15,32 +15,46 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {
 
-/// What a measure reads along a reference, a stretch of samples at a time; one trajectory in each lane.
-template <SeparableSystem S, ReferenceFlow<S> R>
+/// What a measure reads along a reference, a stretch of samples at a time; one trajectory in each lane. In a
+/// bath the noise of that stretch is kept for those who follow.
+template <SeparableSystem S, Reference<S> R>
 class reference_along {
  public:
   using measure_type = error_measure<S::dimension, lanes_of<S>>;
   using T = typename measure_type::T;
   using state = phase_point<T, S::dimension>;
+  using path_type = recorded_path<T, S::dimension>;
 
-  /// Refers to system, reference and measure. `count` lanes hold a trajectory.
+  /// Refers to system, reference, measure and path. `count` lanes hold a trajectory, that in lane 0 is the
+  /// place's. The noise of each step is added to the path in so many parts.
   reference_along(const S& system, const R& reference, const measure_type& measure, const state& start,
-                  int count)
-      : system_(&system), reference_(&reference), measure_(&measure), x_(start), count_(count) {}
+                  int count, const path_place& at = {}, path_type* path = nullptr, int noise_parts = 0)
+      : system_(&system),
+        reference_(&reference),
+        measure_(&measure),
+        x_(start),
+        count_(count),
+        at_(at),
+        path_(path),
+        noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)) {}
 
   /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
   void go_on(double step, std::int64_t samples) {
     numbers_.resize(static_cast<std::size_t>(samples) * measure_->width);
+    // A letter O that ends the step before the stretch is still to come.
+    if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
     for (std::int64_t i = 0; i < samples; ++i) {
-      advance_lanes(*system_, *reference_, x_, step, count_);
+      advance_lanes(*system_, *reference_, x_, step, count_, at_, std::span(noise_));
+      for (const auto& xi : noise_) path_->add(xi);
+      ++at_.step;
       const auto here =
           std::span(numbers_).subspan(static_cast<std::size_t>(i) * measure_->width, measure_->width);
       measure_->read(x_, here);
-      ++step_;
       inspect(here);
     }
   }
@@ -79,7 +93,7 @@ class reference_along {
       auto& its = failures_[static_cast<std::size_t>(k)];
       const bool without_scale = scale && lane(*scale, k) == 0.0;
       if (its || (lane(sound, k) && !without_scale)) continue;
-      its = failure{step_, lane(sound, k)};
+      its = failure{at_.step, lane(sound, k)};
     }
   }
 
@@ -88,7 +102,9 @@ class reference_along {
   const measure_type* measure_;
   state x_;
   int count_;
-  std::int64_t step_ = 0;
+  path_place at_;
+  path_type* path_;
+  std::vector<vector<T, S::dimension>> noise_;
   std::vector<T> numbers_;
   std::array<std::optional<failure>, lanes_of<S>> failures_{};
 };

@@ -7,6 +7,7 @@
 
 #include "nysalt/counted.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {
 
@@ -16,7 +17,7 @@ template <SeparableSystem S, Method M>
 std::int64_t evaluations_of_run(const S& system, const M& method, double step, std::int64_t steps,
                                 const phase_point<double, S::dimension>& start) {
   const counted<S> watched(system);
-  const auto stepper = make_stepper(watched, method, step);
+  const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise
   auto run = stepper.open(start);
   std::int64_t before_last = watched.evaluations;
   for (std::int64_t n = 0; n < std::min<std::int64_t>(steps, 2); ++n) {

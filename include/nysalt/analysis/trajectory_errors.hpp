@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -63,27 +64,43 @@ inline void require_room(const trajectory_options& options, std::size_t methods,
   }
 }
 
+/// In how many parts of a step methods need the noise of a path: 0 if the system is in no noisy bath.
+template <SeparableSystem S, Method M>
+int parts_of_noise(const S& system, std::span<const M> methods) {
+  int parts = 0;
+  if constexpr (HasBath<S>) {
+    if (static_cast<const bath&>(system.bath()).sigma() == 0.0) return 0;
+    for (const M& method : methods) {
+      const int its = intervals_of_noise(word_of(method).letters(), method.coefficients()).parts;
+      parts = parts == 0 ? its : std::lcm(parts, std::max(its, 1));
+    }
+  }
+  return parts;
+}
+
 /// Runs the reference once along each trajectory, and every method beside it, as many trajectories at a time
-/// as there are lanes. The reference's own error is taken on the first 16 trajectories. Neither lanes nor
-/// threads change a bit.
+/// as there are lanes. In a bath all see the reference's noise, each in the parts of a step that its letters
+/// O cover. The reference's own error is taken on the first 16 trajectories. Neither lanes nor threads change
+/// a bit.
 ///
 /// System, reference, ensemble and measure are used by several threads at once. Memory: 24 bytes for each
 /// method and trajectory, and none that grows with the steps.
 /// Throws std::invalid_argument if there is not one step or trajectory, they do not fit into memory, a start
 /// does not fit, or what method, reference and measure refuse; std::runtime_error if the reference is not
 /// finite. Of several trajectories in trouble it is the first that is named.
-template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Methods Given>
+template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Methods Given>
 trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
                                            const Given& methods,
                                            const error_measure<S::dimension, lanes_of<S>>& measure,
                                            const trajectory_options& options) {
   constexpr std::int64_t most_checks = 16;  // enough for the size of an error
-  using stepper_type = decltype(make_stepper(system, *std::ranges::data(methods), options.step));
+  using M = std::ranges::range_value_t<Given>;
   using T = scalar_of_lanes<lanes_of<S>>;
   const std::size_t count = std::ranges::size(methods);
+  const std::span<const M> all(std::ranges::data(methods), count);
   require_room(options, count, measure.width);
-  std::vector<stepper_type> steppers;
-  for (const auto& method : methods) steppers.push_back(make_stepper(system, method, options.step));
+  const int parts = parts_of_noise(system, all);
+  for (const M& method : all) make_stepper(system, method, options.step, counter_noise(0));  // refuses early
 
   const auto trajectories = static_cast<std::size_t>(options.trajectories);
   std::vector<std::vector<run_score>> runs(count, std::vector<run_score>(trajectories));
@@ -93,9 +110,9 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
   const auto follow = [&](std::int64_t first, int n) {
     const auto start = sound_starts<T>(system, ensemble, options.seed, first, n);
     const auto to_check = std::clamp<std::int64_t>(std::ssize(checks) - first, 0, n);
-    compared_block<stepper_type, S, R> block(system, reference, steppers, measure, start, n,
-                                             static_cast<int>(to_check));
-    block.run(options.step, options.steps);
+    compared_block<M, S, R> block(system, reference, all, options.step, measure, start, n,
+                                  static_cast<int>(to_check), {parts, options.seed, first});
+    block.run(options.steps);
     block.require_sound(first);
     for (int k = 0; k < n; ++k) {
       const auto slot = static_cast<std::size_t>(first + k);
@@ -122,7 +139,7 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
 }
 
 /// The same for one method.
-template <SeparableSystem S, ReferenceFlow<S> R, Ensemble<S> E, Method M>
+template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Method M>
 trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
                                            const M& method,
                                            const error_measure<S::dimension, lanes_of<S>>& measure,

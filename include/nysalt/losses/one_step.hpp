@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -28,7 +31,8 @@ class one_step {
   using family = F;
   using scalar = R;
 
-  /// Refers to system and metric, and copies the data.
+  /// Refers to system and metric, and copies the data. Throws std::invalid_argument if the system is in a
+  /// noisy bath and the data do not hold the noise that the letters O of the word need.
   one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
            int threads = 1)
       : system_(&system),
@@ -37,7 +41,7 @@ class one_step {
         share_(1.0 / static_cast<double>(data.pairs())),
         threads_(threads),
         first_of_(data.first_of),
-        parts_(gather_pairs<R>(data)) {}
+        parts_(gather_pairs<R>(data, noise_wanted(system, data))) {}
 
   std::size_t trajectories() const { return first_of_.size() - 1; }
   /// Of each pair.
@@ -57,7 +61,9 @@ class one_step {
       const auto& part = parts_[static_cast<std::size_t>(index)];
       if (part.entries.empty()) return;  // trajectories without a pair
       const counted<S> watched(*system_);
-      const stepper<counted<S>, typename F::word, C> one(watched, coefficients, step_);
+      const noise_of_entries<R, S::dimension> noise{&part.entries};
+      const stepper<counted<S>, typename F::word, C, noise_of_entries<R, S::dimension>> one(
+          watched, coefficients, step_, noise);
       flow_state<C, S::dimension> x{{make_vector<C>(watched), make_vector<C>(watched)},
                                     make_vector<C>(watched)};
       std::vector<C> r(residuals());
@@ -65,12 +71,13 @@ class one_step {
       std::size_t trajectory = part.first_trajectory;
       std::size_t pair = first_of_[trajectory];
       Sum sum = zero;  // of one trajectory: local, so that it may stay in registers
-      for (const auto& [start, finish] : part.entries) {
+      std::int64_t entry = 0;
+      for (const auto& [start, finish, its_noise] : part.entries) {
         for (Eigen::Index i = 0; i < start.size(); ++i) {
           x.q[i] = C(start.q[i]);
           x.p[i] = C(start.p[i]);
         }
-        one.step(x);
+        one.step(x, 0, entry++);
         metric_->residual(x.q, x.p, finish, r.data());
         of_pair(r, terms);
         for (int k = 0; k < lanes_in<R> && pair < part.end; ++k, ++pair) {
@@ -92,6 +99,23 @@ class one_step {
   }
 
  private:
+  static wanted_noise noise_wanted(const S& system, const flow_map_data<S::dimension>& data) {
+    if constexpr (HasBath<S>) {
+      const bath& its = system.bath();
+      if (its.sigma() == 0.0 || F::word::stochastic_letters == 0) return {};
+      const auto needed = intervals_of_noise(F::word::letters(), F::coefficients(F::start()));
+      if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
+        throw std::invalid_argument(
+            fmt::format("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
+                        "multiple: make "
+                        "them with noise_parts = {}",
+                        data.noise_parts, F::word::letters(), needed.parts, needed.parts));
+      }
+      return {needed.in_parts(data.noise_parts), its.friction() * data.step / data.noise_parts};
+    }
+    return {};
+  }
+
   const S* system_;
   const metric<S::dimension>* metric_;
   double step_;

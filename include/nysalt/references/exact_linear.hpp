@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/bath.hpp"
 #include "nysalt/force.hpp"
 
 namespace nysalt {
@@ -19,8 +20,8 @@ namespace nysalt {
 class exact_linear {
  public:
   // Not of itself, first of all: whether that is a system depends on whether it can be copied.
-  /// Throws std::invalid_argument if the modes are not orthonormal or the force is not the linear one that
-  /// they describe. Cost: 9 forces.
+  /// Throws std::invalid_argument if a bath acts, the modes are not orthonormal or the force is not the
+  /// linear one that they describe. Cost: 9 forces.
   template <class S>
     requires(!std::same_as<S, exact_linear> && NystromSystem<S> && HasModes<S>)
   explicit exact_linear(const S& system)
@@ -28,6 +29,7 @@ class exact_linear {
     if constexpr (HasInverseMass<S>) {
       for (Eigen::Index i = 0; i < size(system); ++i) root_mass_[i] = 1.0 / std::sqrt(system.inverse_mass(i));
     }
+    if constexpr (HasBath<S>) require_alone(system);
     require_modes();
     require_linear(system);
   }
@@ -59,6 +61,12 @@ class exact_linear {
  private:
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
+  void require_alone(const auto& system) const {
+    const bath& its = system.bath();
+    if (!its.acts()) return;
+    throw std::invalid_argument(
+        fmt::format("exact_linear: the flow of {} is not known, as it is in a bath", system_));
+  }
   void require_modes() const {
     const Eigen::Index n = root_mass_.size();
     const bool fit = modes_.basis.rows() == n && modes_.basis.cols() == n && modes_.frequencies.size() == n;

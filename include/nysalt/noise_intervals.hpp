@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+// Which part of a step each letter O of a word covers.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "nysalt/flows/ornstein_uhlenbeck.hpp"
+
+namespace nysalt {
+
+/// From begin to end, in equal parts of a step.
+struct noise_interval {
+  int begin;
+  int end;
+  friend bool operator==(const noise_interval&, const noise_interval&) = default;
+};
+
+/// The letters O share the step in their order: each covers as much as its coefficient says. `parts` is the
+/// least number of equal parts such that none is cut; 0 where there is no letter O.
+struct noise_intervals {
+  int parts = 0;
+  std::vector<noise_interval> of_letters;
+
+  /// The same in a multiple of the parts.
+  noise_intervals in_parts(int more) const {
+    noise_intervals result{more, {}};
+    for (const auto& [begin, end] : of_letters) {
+      result.of_letters.push_back({begin * (more / parts), end * (more / parts)});
+    }
+    return result;
+  }
+};
+
+/// Throws std::invalid_argument unless the letters O cover the step once, in at most 60 equal parts.
+inline noise_intervals intervals_of_noise(std::string_view letters, const auto& coefficients) {
+  constexpr int most_parts = 60;
+  std::vector<double> ends{0.0};
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    if (letters[i] == ornstein_uhlenbeck::letter) ends.push_back(ends.back() + coefficients[i]);
+  }
+  if (ends.size() == 1) return {};
+  constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more
+  if (!(std::abs(ends.back() - 1.0) <= rounding)) {
+    throw std::invalid_argument(
+        fmt::format("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
+                    letters, ends.back()));
+  }
+  for (int parts = 1; parts <= most_parts; ++parts) {
+    noise_intervals result{parts, {}};
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      const auto at = [&](double end) { return std::round(end * parts); };
+      if (!(std::abs(ends[k] * parts - at(ends[k])) <= rounding * parts)) break;
+      result.of_letters.push_back({static_cast<int>(at(ends[k - 1])), static_cast<int>(at(ends[k]))});
+    }
+    if (result.of_letters.size() + 1 == ends.size()) return result;
+  }
+  throw std::invalid_argument(fmt::format(
+      "the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
+}
+
+}  // namespace nysalt

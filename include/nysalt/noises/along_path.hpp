@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "nysalt/noise_intervals.hpp"
+#include "nysalt/noises/recorded_path.hpp"
+
+namespace nysalt {
+
+/// The noise of a recorded path as a method needs it: that of each letter O over its own part of the step,
+/// halves included. Refers to the path.
+template <class T, int N>
+class along_path {
+ public:
+  static constexpr bool draws_freely = false;
+
+  /// Throws std::invalid_argument unless the parts of a step are whole intervals of the path.
+  along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
+      : path_(&path), intervals_(std::move(intervals)) {
+    if (intervals_.parts == 0) return;
+    const double part = step / intervals_.parts / path.interval();
+    per_part_ = std::llround(part);
+    if (per_part_ >= 1 && std::abs(part - static_cast<double>(per_part_)) <= 1e-9 * part) return;
+    throw std::invalid_argument(fmt::format(
+        "the step {} in {} parts, as the letters O need them, does not consist of whole intervals {} of the "
+        "recorded path",
+        step, intervals_.parts, path.interval()));
+  }
+
+  /// Throws std::invalid_argument where the path is too short, or is another trajectory's.
+  template <class U>
+  void normals(const noise_place& at, vector<U, N>& xi) const {
+    const auto [begin, end] = intervals_.of_letters[static_cast<std::size_t>(at.flow)];
+    const std::int64_t first = at.step * intervals_.parts;
+    const std::int64_t from = (first + begin) * per_part_;
+    const std::int64_t to = (first + end) * per_part_;
+    if (at.trajectory < path_->trajectory() || at.trajectory - path_->trajectory() >= lanes_in<T>) {
+      throw std::invalid_argument(fmt::format("the recorded path is that of trajectory {}, not of {}",
+                                              path_->trajectory(), at.trajectory));
+    }
+    if constexpr (std::is_same_v<U, T>) {
+      path_->over(from, to, xi);
+    } else {  // one lane of several
+      vector<T, N> all(xi.size());
+      path_->over(from, to, all);
+      const auto k = static_cast<int>(at.trajectory - path_->trajectory());
+      for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(all[i], k);
+    }
+  }
+
+ private:
+  const recorded_path<T, N>* path_;
+  noise_intervals intervals_;
+  std::int64_t per_part_ = 0;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "nysalt/lanes.hpp"
+#include "nysalt/noise.hpp"
+
+namespace nysalt {
+
+/// Standard normal numbers of n consecutive intervals become those of all of them in one: with a the decay of
+/// one interval, exp(-gamma tau),
+///   xi = sqrt((1 - a^2)/(1 - a^{2 n})) sum_{j = 1..n} a^{n - j} xi_j,
+/// so that the noise of O is the same exactly, whatever sigma [li_lu_tao_ye_2023, equation (3.11), with the
+/// exponent that does not reverse time].
+class coarse_graining {
+ public:
+  /// gamma tau of one interval.
+  explicit coarse_graining(double damping) : damping_(damping), decay_(std::exp(-damping)) {}
+
+  /// Interval by interval: first() clears the sum, next() adds, and last() brings that of n to unit variance.
+  template <class T, int N>
+  static void first(vector<T, N>& sum) {
+    for (T& x : sum) x = T(0.0);
+  }
+  template <class T, int N>
+  void next(vector<T, N>& sum, const vector<T, N>& xi) const {
+    for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] = sum[i] * decay_ + xi[i];
+  }
+  template <class T, int N>
+  void last(vector<T, N>& sum, std::int64_t n) const {
+    if (n == 1) return;
+    const auto count = static_cast<double>(n);
+    const double share =
+        damping_ == 0.0 ? 1.0 / count : std::expm1(-2.0 * damping_) / std::expm1(-2.0 * damping_ * count);
+    const double scale = std::sqrt(share);
+    for (T& x : sum) x = x * scale;
+  }
+
+  template <class T, int N>
+  void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
+    first(xi);
+    for (const auto& one : intervals) next(xi, one);
+    last(xi, std::ssize(intervals));
+  }
+
+ private:
+  double damping_;
+  double decay_;
+};
+
+/// The noise of a run as it was: standard normal numbers of consecutive intervals, of one trajectory or of
+/// those in the lanes of T.
+template <class T, int N>
+class recorded_path {
+ public:
+  /// Throws std::invalid_argument unless the interval is positive and the friction not negative, and finite.
+  recorded_path(double interval, double friction, std::uint64_t trajectory = 0)
+      : interval_(interval), trajectory_(trajectory), coarse_(friction * interval) {
+    if (interval > 0.0 && std::isfinite(interval) && friction >= 0.0 && std::isfinite(friction)) return;
+    throw std::invalid_argument(fmt::format(
+        "recorded_path: needs a positive interval and a friction >= 0, got {} and {}", interval, friction));
+  }
+
+  double interval() const { return interval_; }
+  std::uint64_t trajectory() const { return trajectory_; }
+  /// Number of the first interval that is held, and of the one after the last.
+  std::int64_t begin() const { return begin_; }
+  std::int64_t end() const { return begin_ + std::ssize(normals_); }
+
+  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }
+  /// Whoever goes along the path in stretches keeps little of it.
+  void forget_before(std::int64_t interval) {
+    const std::int64_t known = std::clamp(interval, begin_, end());
+    normals_.erase(normals_.begin(), normals_.begin() + (known - begin_));
+    begin_ = known;
+  }
+
+  /// Those of intervals from .. to - 1 in one. Throws std::invalid_argument if they are not held.
+  void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
+    if (from < begin_ || to > end()) {
+      throw std::invalid_argument(fmt::format(
+          "the recorded path holds the intervals {} to {} of length {}, but the run needs {} to {}: record a "
+          "longer one",
+          begin_, end(), interval_, from, to));
+    }
+    const auto held = std::span<const vector<T, N>>(normals_);
+    coarse_.over(held.subspan(static_cast<std::size_t>(from - begin_), static_cast<std::size_t>(to - from)),
+                 xi);
+  }
+
+ private:
+  double interval_;
+  std::uint64_t trajectory_;
+  std::int64_t begin_ = 0;
+  coarse_graining coarse_;
+  std::vector<vector<T, N>> normals_;
+};
+
+}  // namespace nysalt
