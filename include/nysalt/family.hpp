@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
-#include "nysalt/word.hpp"
 
 namespace nysalt {
 
@@ -32,14 +32,16 @@ using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)
 template <class F>
 using theta_dual = dual<double, F::parameters>;
 
-/// theta -> coefficients of a fixed word, over double and over derivatives with respect to theta:
+/// theta -> coefficients of a word, over double and over derivatives with respect to theta:
 ///   word, name, parameters, parameter_names
 ///   order, symmetric, requires_quadratic_kinetic   what holds for every theta
 ///   ranges(), start()                              where theta may lie, and where a search begins
 ///   coefficients(theta)                            over any scalar
+///   letters()                                      where the word is a run_time_word
+/// All but the last two are static; these may be, or depend on what the family is told when it is made.
 template <class F>
-concept Family = TypeLevelWord<typename F::word> &&
-    requires(const parameters_of<F>& theta,
+concept Family = std::copyable<F> && Word<typename F::word> &&
+    requires(const F& family, const parameters_of<F>& theta,
              const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
   { F::name } -> std::convertible_to<std::string_view>;
   { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
@@ -48,9 +50,21 @@ concept Family = TypeLevelWord<typename F::word> &&
   { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
   { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
   { F::start() } -> std::same_as<parameters_of<F>>;
-  { F::coefficients(theta) } -> std::same_as<std::array<double, F::word::length>>;
-  { F::coefficients(lifted) } -> std::same_as<std::array<theta_dual<F>, F::word::length>>;
-};
+  { family.coefficients(theta) } -> std::same_as<typename F::word::template coefficients<double>>;
+  { family.coefficients(lifted) } -> std::same_as<typename F::word::template coefficients<theta_dual<F>>>;
+} &&(TypeLevelWord<typename F::word> || requires(const F& family) {
+  { family.letters() } -> std::convertible_to<run_time_word>;
+});
+
+/// The word of a family or a method, as an object.
+template <class F>
+typename F::word word_of(const F& family) {
+  if constexpr (TypeLevelWord<typename F::word>) {
+    return {};
+  } else {
+    return family.letters();
+  }
+}
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 template <Family F>

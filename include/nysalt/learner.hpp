@@ -89,7 +89,7 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
 /// is returned with usable = false. Cost: some 20 to 80 passes over the data, each a plain step with
 /// derivatives a pair; R carries the pairs, and changes no bit. Memory: another copy of the data.
 template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<F, S>>
-learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& data,
+learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimension>& data,
                  const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
   const auto began = std::chrono::steady_clock::now();
   require_suited<F, S>();
@@ -108,8 +108,8 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   require_in_range<F>(theta);
 
   const metric<S::dimension> measure(system, data, options.coordinates);
-  const one_step<F, S, R> loss(system, data, measure, options.threads);
-  const one_step<F, S, R> held_out_loss(system, held_out, measure, options.threads);
+  const one_step<F, S, R> loss(system, data, measure, options.threads, family);
+  const one_step<F, S, R> held_out_loss(system, held_out, measure, options.threads, family);
   const auto held_out_at_start = trajectory_losses(held_out_loss, theta);
 
   std::vector<Eigen::Index> free;
@@ -175,10 +175,10 @@ learned<F> learn(const F&, const S& system, const flow_map_data<S::dimension>& d
   fit.data_seconds = data.seconds + held_out.seconds;
   fit.learning_evaluations =
       data.evaluations + held_out.evaluations + loss.evaluations() + held_out_loss.evaluations();
-  fit.reason = detail::objection<F>(system, fit, theta, converged);
+  fit.reason = detail::objection(system, fit, member<F>(theta, family), converged);
   fit.usable = fit.reason.empty();
   fit.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return {tuned_method<F>(member<F>(theta), data.step, data.system), fit};
+  return {tuned_method<F>(member<F>(theta, family), data.step, data.system), fit};
 }
 
 }  // namespace nysalt

@@ -30,16 +30,6 @@ concept Method = Word<typename M::word> && requires(const M& method) {
   { method.letters() } -> std::convertible_to<run_time_word>;
 });
 
-/// The word of a method, as an object.
-template <Method M>
-typename M::word word_of(const M& method) {
-  if constexpr (TypeLevelWord<typename M::word>) {
-    return {};
-  } else {
-    return method.letters();
-  }
-}
-
 /// A family at a theta, usable at any step.
 template <Family F>
 class member {
@@ -51,14 +41,18 @@ class member {
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
   /// Throws std::invalid_argument if a parameter is out of its range.
-  explicit member(const parameters_of<F>& theta) : theta_(theta) { require_in_range<F>(theta); }
+  explicit member(const parameters_of<F>& theta, const F& family = {}) : theta_(theta), family_(family) {
+    require_in_range<F>(theta);
+  }
 
   const parameters_of<F>& parameters() const { return theta_; }
-  std::array<double, word::length> coefficients() const { return F::coefficients(theta_); }
+  typename word::template coefficients<double> coefficients() const { return family_.coefficients(theta_); }
+  word letters() const { return word_of(family_); }
   std::string name() const { return std::string(F::name); }
 
  private:
   parameters_of<F> theta_;
+  [[no_unique_address]] F family_;
 };
 
 /// A member with the step and the system that it was learned for; it refuses any other.
@@ -76,7 +70,8 @@ class tuned_method {
       : member_(plain), step_(step), system_(std::move(system)) {}
 
   const parameters_of<F>& parameters() const { return member_.parameters(); }
-  std::array<double, word::length> coefficients() const { return member_.coefficients(); }
+  typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
+  word letters() const { return member_.letters(); }
   std::string name() const { return "learned:" + member_.name(); }
   double step() const { return step_; }
   const std::string& system() const { return system_; }

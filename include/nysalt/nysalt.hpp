@@ -2,14 +2,21 @@
 // All of nysalt but the learner (which needs Ceres) and what needs Boost.Odeint.
 #pragma once
 
+#include "nysalt/analysis/acf_error.hpp"
+#include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/convergence_order.hpp"
 #include "nysalt/analysis/energy_drift.hpp"
+#include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/histogram.hpp"
+#include "nysalt/analysis/integrated_time.hpp"
+#include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/timing.hpp"
+#include "nysalt/analysis/total_variation.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
 #include "nysalt/counted.hpp"

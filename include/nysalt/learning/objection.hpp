@@ -30,8 +30,7 @@ inline double noise_of_difference(const std::vector<double>& a, const std::vecto
 
 /// Why a fit should not be used; empty if it may be.
 template <Family F, System S>
-std::string objection(const S& system, const fit_summary& fit, const parameters_of<F>& theta,
-                      bool converged) {
+std::string objection(const S& system, const fit_summary& fit, const member<F>& found, bool converged) {
   if (!converged) return "the search did not converge";
   // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
   if (!(fit.held_out_loss < static_cast<double>(fit.coordinates_used))) {
@@ -53,7 +52,7 @@ std::string objection(const S& system, const fit_summary& fit, const parameters_
                        fit.reference_error, fit.one_step_error);
   }
   if constexpr (HasFrequencyBands<S>) {
-    const auto windows = stability_windows(member<F>(theta));
+    const auto windows = stability_windows(found);
     for (const auto& band : system.frequency_bands()) {
       if (is_stable(windows, fit.step * band.low, fit.step * band.high)) continue;
       return fmt::format("it is not linearly stable for the frequencies {:g} to {:g} of the system", band.low,

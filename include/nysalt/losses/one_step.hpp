@@ -34,14 +34,15 @@ class one_step {
   /// Refers to system and metric, and copies the data. Throws std::invalid_argument if the system is in a
   /// noisy bath and the data do not hold the noise that the letters O of the word need.
   one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
-           int threads = 1)
-      : system_(&system),
+           int threads = 1, const F& family = {})
+      : family_(family),
+        system_(&system),
         metric_(&measure),
         step_(data.step),
         share_(1.0 / static_cast<double>(data.pairs())),
         threads_(threads),
         first_of_(data.first_of),
-        parts_(gather_pairs<R>(data, noise_wanted(system, data))) {}
+        parts_(gather_pairs<R>(data, noise_wanted(data))) {}
 
   std::size_t trajectories() const { return first_of_.size() - 1; }
   /// Of each pair.
@@ -56,14 +57,15 @@ class one_step {
   std::vector<Sum> sums(const std::array<C, static_cast<std::size_t>(F::parameters)>& theta, const Sum& zero,
                         const auto& of_pair) const {
     std::vector<Sum> result(trajectories(), zero);
-    const auto coefficients = F::coefficients(theta);
+    const auto coefficients = family_.coefficients(theta);
+    const auto word = word_of(family_);
     const auto visit = [&](std::int64_t index) {
       const auto& part = parts_[static_cast<std::size_t>(index)];
       if (part.entries.empty()) return;  // trajectories without a pair
       const counted<S> watched(*system_);
       const noise_of_entries<R, S::dimension> noise{&part.entries};
       const stepper<counted<S>, typename F::word, C, noise_of_entries<R, S::dimension>> one(
-          watched, coefficients, step_, noise);
+          watched, word, coefficients, step_, noise);
       flow_state<C, S::dimension> x{{make_vector<C>(watched), make_vector<C>(watched)},
                                     make_vector<C>(watched)};
       std::vector<C> r(residuals());
@@ -99,23 +101,25 @@ class one_step {
   }
 
  private:
-  static wanted_noise noise_wanted(const S& system, const flow_map_data<S::dimension>& data) {
+  wanted_noise noise_wanted(const flow_map_data<S::dimension>& data) const {
     if constexpr (HasBath<S>) {
-      const bath& its = system.bath();
-      if (its.sigma() == 0.0 || F::word::stochastic_letters == 0) return {};
-      const auto needed = intervals_of_noise(F::word::letters(), F::coefficients(F::start()));
+      const bath& its = system_->bath();
+      const auto word = word_of(family_);
+      if (its.sigma() == 0.0 || word.stochastic_letters == 0) return {};
+      const auto needed = intervals_of_noise(word.letters(), family_.coefficients(F::start()));
       if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
         throw std::invalid_argument(
             fmt::format("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
                         "multiple: make "
                         "them with noise_parts = {}",
-                        data.noise_parts, F::word::letters(), needed.parts, needed.parts));
+                        data.noise_parts, word.letters(), needed.parts, needed.parts));
       }
       return {needed.in_parts(data.noise_parts), its.friction() * data.step / data.noise_parts};
     }
     return {};
   }
 
+  F family_;
   const S* system_;
   const metric<S::dimension>* metric_;
   double step_;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+// What an ensemble of trajectories shows in the mean, none of them kept.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/gathered_statistics.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+
+namespace nysalt {
+
+/// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
+/// options cannot be, or lags need more samples.
+inline std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
+  if (options.trajectories < 1 || options.first < 0 || options.steps < 0 || options.every < 1 ||
+      wanted.from < 0 || wanted.from > options.steps) {
+    throw std::invalid_argument(fmt::format(
+        "ensemble_statistics: {} trajectories from {} on, of {} steps, sampled every {} from step "
+        "{} on: cannot be",
+        options.trajectories, options.first, options.steps, options.every, wanted.from));
+  }
+  const std::int64_t before = wanted.from == 0 ? 0 : (wanted.from - 1) / options.every + 1;
+  const std::int64_t samples = options.steps / options.every + 1 - before;
+  if (samples > wanted.lags.value_or(0)) return samples;
+  throw std::invalid_argument(
+      fmt::format("ensemble_statistics: {} samples along a trajectory are not enough for {} lags; take more "
+                  "steps or fewer lags",
+                  samples, wanted.lags.value_or(0)));
+}
+
+/// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
+/// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from
+/// wanted.from on. The observable is called as in integrate_ensemble: for all lanes at a time if it is marked
+/// by over_lanes, which is much faster; it must bear any state.
+///
+/// A trajectory that diverges, or where a number is not finite, counts in nothing, not even with what came
+/// before: runs that are short because they go astray would bend every law. It is reported in `lost`. Neither
+/// lanes nor threads change a bit.
+///
+/// Memory: 48 bytes a trajectory, a histogram for each of 64 groups, and none that grows with the steps. Cost
+/// of a sample, beside the steps and the observable: a product a lag, and an increment for the histogram.
+/// Throws std::invalid_argument if the options cannot be, there are not more samples than lags, or a start
+/// does not fit.
+template <class Stepper, Ensemble<typename Stepper::system_type> E, class Observable>
+gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensemble,
+                                        const ensemble_options& options, const Observable& observable,
+                                        const statistics_wanted& wanted) {
+  using T = scalar_of_lanes<lanes_of<typename Stepper::system_type>>;
+  using state = phase_point<T, Stepper::dimension>;
+  const std::int64_t samples = samples_of_trajectory(options, wanted);
+  const auto starts = [&](std::int64_t first, int count) {
+    return sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
+  };
+  // Any number near the mean, the same for all.
+  const double seen_first = lane(value_in_lanes<T>(observable, starts(options.first, 1)), 0);
+  const double centre = std::isfinite(seen_first) ? seen_first : 0.0;
+  const double interval = static_cast<double>(options.every) * stepper.step_size();
+  gathering all(wanted, options.trajectories, samples, interval, centre);
+
+  const auto read = [&](const state& x, std::span<T> numbers) {
+    read_sample(wanted, stepper, observable, x, numbers);
+  };
+  const auto follow = [&](std::int64_t block, int count) {
+    const std::int64_t first = options.first + block;
+    const state start = starts(first, count);
+    statistics_along<T> along(wanted, centre);
+    std::vector<T> numbers(numbers_of_sample(wanted));
+    read(start, std::span<T>(numbers));
+    along.add(0, std::span<const T>(numbers), first_lanes<T>(count));
+    lockstep<Stepper, T> run(stepper, start, count, first);
+    run.go_on(options.steps, options.every, numbers.size(), read,
+              [&](std::int64_t n, std::span<const T> seen, const auto& live) { along.add(n, seen, live); });
+    for (int k = 0; k < count; ++k) {
+      const auto lost_at = along.lost_at(k);
+      all.keep(block + k, along, k, lost_at ? lost_at : run.diverged_at(k));
+    }
+  };
+  const auto follow_all_of_thread = [&](std::int64_t first, int count) {
+    for (int done = 0; done < count; done += lanes_in<T>) {
+      follow(first + done, std::min(lanes_in<T>, count - done));
+    }
+  };
+  for_each_block(options.trajectories, all.trajectories_of_thread(), options.threads, follow_all_of_thread,
+                 options.progress);
+  return all.result(options.first);
+}
+
+}  // namespace nysalt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+// How many samples count for one.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+
+namespace nysalt {
+
+/// In units of the interval between samples.
+struct integrated_time {
+  double tau = 1.0;        // 1 + 2 sum_{k=1..W} rho(k): so many samples count for one in a mean
+  double memory = 1.0;     // 1 + 2 sum_{k=1..W} |rho(k)|: how long an oscillating observable remembers
+  std::size_t window = 0;  // W
+  bool enough = false;     // else the lags end before the window does, or noise outweighs tau
+};
+
+/// From rho(0..L), rho(0) = 1, with Sokal's self-consistent window [sokal_1997]: the smallest W >= 5
+/// memory(W) (10 of his times, which are half of ours; the rest of an exponential is then below 1e-4). The
+/// window asks memory, which for rho >= 0 is tau: tau itself dips where rho oscillates, and the window would
+/// close there. Without enough lags tau and memory are what all of them add up to. A burn-in is told by
+/// memory. Throws std::invalid_argument if there is no lag.
+inline integrated_time integrated_autocorrelation_time(std::span<const double> rho) {
+  if (rho.size() < 2) throw std::invalid_argument("integrated_autocorrelation_time: there is no lag");
+  integrated_time result;
+  for (std::size_t k = 1; k < rho.size(); ++k) {
+    result.tau += 2.0 * rho[k];
+    result.memory += 2.0 * std::abs(rho[k]);
+    result.window = k;
+    result.enough = static_cast<double>(k) >= 5.0 * result.memory && result.tau > 0.0;
+    if (static_cast<double>(k) >= 5.0 * result.memory) break;
+  }
+  return result;
+}
+
+/// The independent samples that would give a mean the error of so many along a trajectory, samples/tau; for
+/// trajectories much longer than the window. NaN where the lags were not enough.
+inline double effective_sample_size(double samples, const integrated_time& time) {
+  return time.enough ? samples / time.tau : std::nan("");
+}
+
+}  // namespace nysalt

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSL-1.0
+// Statistics of ensembles: those of a law that is known, those that stored trajectories give, and the same
+// bits by any lanes and threads.
+#include "nysalt/analysis/ensemble_statistics.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include "../support/allocations.hpp"
+#include "../support/in_lanes.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+const auto position = over_lanes([](const auto& x) { return x.q[0]; });
+const statistics_wanted everything{.histogram = equal_bins{-1.0, 1.0, 50},
+                                   .lags = 12,
+                                   .moments = true,
+                                   .kinetic_temperature = true,
+                                   .half_step_kinetic_temperature = true};
+
+/// Of Verlet on the oscillator omega = 2 at z = omega h = 1.2: q = A cos(n turn + phase), and normal starts
+/// with omega^2 <q^2> = kT = 4 and <p^2> = (1 - z^2/4) kT stay what they are.
+namespace oscillation {
+const harmonic_oscillator system(2.0);
+constexpr double step = 0.6;
+constexpr double low = 1.0 - 1.44 / 4.0;
+constexpr double kt = 4.0;
+const double turn = std::acos(1.0 - 1.44 / 2.0);
+const normal_around<1> law({vector<double, 1>::Zero(), vector<double, 1>::Zero()}, 1.0, std::sqrt(kt* low));
+constexpr std::int64_t trajectories = 1024;
+
+gathered_statistics run(std::int64_t steps, std::int64_t every, const statistics_wanted& wanted) {
+  return ensemble_statistics(make_stepper(system, verlet(), step), law,
+                             {.trajectories = trajectories, .steps = steps, .every = every}, position,
+                             wanted);
+}
+}  // namespace oscillation
+
+/// Some of these leave the well, at times of their own.
+namespace galaxy {
+const henon_heiles system;
+const normal_around<2> law({vector<double, 2>::Zero(), vector<double, 2>::Zero()}, 0.5, 0.5);
+
+template <class S>
+gathered_statistics run(const S& with_lanes, ensemble_options options,
+                        statistics_wanted wanted = everything) {
+  return ensemble_statistics(make_stepper(with_lanes, verlet(), 0.1), law, options, position, wanted);
+}
+}  // namespace galaxy
+
+bool equal(const estimate& a, const estimate& b) {
+  return a.mean == b.mean && a.standard_error == b.standard_error;
+}
+bool equal(const gathered_statistics& a, const gathered_statistics& b) {
+  const auto same = [](const lost_trajectory& x, const lost_trajectory& y) {
+    return x.trajectory == y.trajectory && x.step == y.step;
+  };
+  const auto counts = a.histogram->counts();
+  return a.counted == b.counted && a.samples == b.samples &&
+         std::equal(a.lost.begin(), a.lost.end(), b.lost.begin(), b.lost.end(), same) &&
+         std::equal(counts.begin(), counts.end(), b.histogram->counts().begin()) &&
+         a.autocovariance->normalised() == b.autocovariance->normalised() &&
+         a.autocovariance->standard_error() == b.autocovariance->standard_error() &&
+         a.autocovariance->mean() == b.autocovariance->mean() && equal(a.mean, b.mean) &&
+         a.variance == b.variance && a.effective_sample_size == b.effective_sample_size &&
+         equal(a.kinetic_temperature, b.kinetic_temperature) &&
+         equal(a.half_step_kinetic_temperature, b.half_step_kinetic_temperature);
+}
+
+bool agrees(const estimate& of, double expected) {
+  return std::abs(of.mean - expected) < 4.0 * of.standard_error;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(oscillators_show_their_temperature) {
+  const auto all = oscillation::run(30, 2, everything);
+  BOOST_TEST(all.counted == oscillation::trajectories);
+  BOOST_TEST(all.samples == 16);
+  BOOST_TEST(agrees(all.half_step_kinetic_temperature, oscillation::kt));
+  BOOST_TEST(agrees(all.kinetic_temperature, oscillation::kt * oscillation::low));
+  BOOST_TEST(!agrees(all.kinetic_temperature, oscillation::kt));
+}
+
+BOOST_AUTO_TEST_CASE(oscillators_have_a_cosine_for_autocovariance) {
+  const auto all = oscillation::run(30, 2, everything);
+  const auto rho = all.autocovariance->normalised();
+  const auto error = all.autocovariance->standard_error();
+  for (std::size_t k = 1; k < rho.size(); ++k) {
+    const double lag = static_cast<double>(k);
+    BOOST_TEST(std::abs(rho[k] - std::cos(2.0 * lag * oscillation::turn)) < 4.0 * error[k]);
+    BOOST_TEST(std::abs(rho[k] - std::cos(2.04 * lag * oscillation::turn)) > 4.0 * error[k]);
+  }
+  BOOST_TEST(all.autocovariance->interval() == 2.0 * oscillation::step);
+  BOOST_TEST(all.autocovariance->groups() == 64U);
+}
+
+// A trajectory counts once at least: n = 1024. Bins of .04 hold the normal law's F at their edges.
+BOOST_AUTO_TEST_CASE(oscillators_have_a_normal_histogram) {
+  const auto all = oscillation::run(30, 2, everything);
+  const auto fractions = all.histogram->fractions();
+  const auto farthest = [&](double deviation) {
+    double worst = 0.0;
+    double below = 0.0;
+    for (int edge = 0; edge <= 50; ++edge) {
+      below += fractions[static_cast<std::size_t>(edge)];
+      const double x = (-1.0 + 0.04 * edge) / deviation;
+      worst = std::max(worst, std::abs(below - 0.5 * std::erfc(-x / std::sqrt(2.0))));
+    }
+    return worst * std::sqrt(1024.0);
+  };
+  BOOST_TEST(farthest(1.0) < 2.0);  // Kolmogorov and Smirnov: beyond with a probability of 0.0007
+  BOOST_TEST(farthest(1.4) > 2.0);
+  BOOST_TEST(all.histogram->total() == 16 * oscillation::trajectories);
+}
+
+// One look at each: independent samples, of which each counts, exactly but for rounding. Along the way the
+// time mean of n samples is A cos(...) D, D = sin(n turn/2)/(n sin(turn/2)): so many more samples are worth
+// 1/D^2 each; the variance of 1024 means is known to sqrt(2/1024).
+BOOST_AUTO_TEST_CASE(samples_count_as_they_do) {
+  const statistics_wanted moments{.moments = true};
+  const auto once = oscillation::run(0, 1, moments);
+  BOOST_TEST(once.effective_sample_size == 1024.0, boost::test_tools::tolerance(1e4 * eps));
+  BOOST_TEST(std::abs(once.variance - 1.0) < 4.0 * std::sqrt(2.0 / 1024.0));
+  BOOST_TEST(agrees(once.mean, 0.0));
+  BOOST_TEST(!agrees(once.mean, 0.2));  // 6 errors of 1/32
+  const auto seven = oscillation::run(6, 1, moments);
+  const double ratio = std::sin(3.5 * oscillation::turn) / (7.0 * std::sin(0.5 * oscillation::turn));
+  const double expected = 1024.0 / (ratio * ratio);
+  BOOST_TEST(std::abs(seven.effective_sample_size / expected - 1.0) < 4.0 * 2.0 * std::sqrt(2.0 / 1024.0));
+  BOOST_TEST(std::abs(expected / 7168.0 - 1.0) > 1.0);  // it is not the number of samples
+}
+
+// From all that was ever seen, stored: lost trajectories count in nothing.
+BOOST_AUTO_TEST_CASE(statistics_are_those_of_stored_trajectories) {
+  const ensemble_options options{.trajectories = 50, .steps = 200, .every = 3};
+  statistics_wanted wanted = everything;
+  wanted.from = 10;
+  const auto found = galaxy::run(galaxy::system, options, wanted);
+  std::vector<std::vector<double>> seen(50);
+  const auto take = [&](std::int64_t m, std::int64_t n, double x) {
+    if (n >= 10) seen[static_cast<std::size_t>(m)].push_back(x);
+  };
+  const auto diverged =
+      integrate_ensemble(galaxy::system, verlet(), 0.1, galaxy::law, options, position, take);
+  histogram all(*wanted.histogram);
+  std::int64_t counted = 0;
+  std::size_t lost = 0;
+  pair_sums at_lag;
+  std::vector<double> means;
+  for (std::size_t m = 0; m < 50; ++m) {
+    if (diverged[m]) {
+      BOOST_TEST(found.lost.at(lost).trajectory == static_cast<std::int64_t>(m));
+      BOOST_TEST(found.lost.at(lost).step == *diverged[m]);
+      ++lost;
+      continue;
+    }
+    ++counted;
+    const auto& x = seen[m];
+    BOOST_TEST(std::ssize(x) == found.samples);
+    for (const double value : x) all.add(value);
+    for (std::size_t t = 0; t + 5 < x.size(); ++t) {
+      at_lag = at_lag + pair_sums{1.0, x[t] * x[t + 5], x[t], x[t + 5]};
+    }
+    double sum = 0.0;
+    for (const double value : x) sum += value / static_cast<double>(x.size());
+    means.push_back(sum);
+  }
+  BOOST_TEST(lost > 0U);
+  BOOST_TEST(counted > 10);
+  BOOST_TEST(found.lost.size() == lost);
+  BOOST_TEST(found.counted == counted);
+  BOOST_TEST(found.histogram->counts() == all.counts(), boost::test_tools::per_element());
+  // About 2000 terms below 1, whose roundings add up.
+  const double rounding = 1e4 * eps;
+  BOOST_TEST(std::abs(found.autocovariance->covariance(5) - at_lag.covariance()) < rounding);
+  BOOST_TEST(std::abs(found.autocovariance->covariance(4) - at_lag.covariance()) > rounding);
+  BOOST_TEST(std::abs(found.mean.mean - mean_and_error(means).mean) < rounding);
+  BOOST_TEST(std::abs(found.mean.standard_error - mean_and_error(means).standard_error) < rounding);
+}
+
+// Groups of 1, and of 32 with a part of one at the end.
+BOOST_AUTO_TEST_CASE(neither_lanes_nor_threads_change_a_bit) {
+  for (const std::int64_t trajectories : {37, 1100}) {
+    ensemble_options options{.trajectories = trajectories, .steps = trajectories == 37 ? 300 : 80};
+    const auto expected = galaxy::run(in_lanes<henon_heiles, 1>(galaxy::system), options);
+    BOOST_TEST(!expected.lost.empty());
+    for (const int threads : {1, 2}) {
+      options.threads = threads;
+      BOOST_TEST(equal(galaxy::run(in_lanes<henon_heiles, 1>(galaxy::system), options), expected));
+      BOOST_TEST(equal(galaxy::run(in_lanes<henon_heiles, 3>(galaxy::system), options), expected));
+      BOOST_TEST(equal(galaxy::run(in_lanes<henon_heiles, 8>(galaxy::system), options), expected));
+      BOOST_TEST(equal(galaxy::run(in_lanes<henon_heiles, 16>(galaxy::system), options), expected));
+    }
+    options.seed = 2;
+    BOOST_TEST(!equal(galaxy::run(galaxy::system, options), expected));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_ensemble_has_numbers_of_its_own) {
+  const statistics_wanted moments{.moments = true};
+  ensemble_options options{.trajectories = 30, .steps = 0};
+  options.first = 7;
+  const auto later = galaxy::run(galaxy::system, options, moments);
+  double mean = 0.0;
+  for (std::uint64_t m = 7; m < 37; ++m) mean += galaxy::law(1, m).q[0] / 30.0;
+  BOOST_TEST(std::abs(later.mean.mean - mean) < 100.0 * eps);
+}
+
+// An observable without a value ends a trajectory, where it has none.
+BOOST_AUTO_TEST_CASE(what_is_not_finite_is_lost) {
+  const auto root = [](const auto& x) { return std::sqrt(2.0 - x.q[0]); };
+  const ensemble_options options{.trajectories = 200, .steps = 10};
+  const auto stepper = make_stepper(oscillation::system, verlet(), oscillation::step);
+  const auto found = ensemble_statistics(stepper, oscillation::law, options, root, {.moments = true});
+  std::size_t lost = 0;
+  for (std::uint64_t m = 0; m < 200; ++m) {
+    std::int64_t first = -1;
+    const auto look = [&](std::int64_t n, double, const auto& x) {
+      if (first < 0 && x.q[0] > 2.0) first = n;
+    };
+    integrate(stepper, oscillation::law(1, m), 10, look, 1);
+    if (first < 0) continue;
+    BOOST_TEST(found.lost.at(lost).trajectory == static_cast<std::int64_t>(m));
+    BOOST_TEST(found.lost.at(lost).step == first);
+    ++lost;
+  }
+  BOOST_TEST(lost > 0U);
+  BOOST_TEST(found.lost.size() == lost);
+  BOOST_TEST(std::isfinite(found.mean.mean));
+}
+
+BOOST_AUTO_TEST_CASE(when_all_are_lost_it_is_said) {
+  const auto nowhere = [](const auto&) { return std::nan(""); };
+  const auto stepper = make_stepper(oscillation::system, verlet(), oscillation::step);
+  const auto found =
+      ensemble_statistics(stepper, oscillation::law, {.trajectories = 20, .steps = 50}, nowhere, everything);
+  BOOST_TEST(found.counted == 0);
+  BOOST_TEST(found.lost.size() == 20U);
+  BOOST_TEST(found.histogram->total() == 0);
+  BOOST_TEST(std::isnan(found.mean.mean));
+  BOOST_TEST(refuses<std::runtime_error>([&] { found.autocovariance->normalised(); }, {"no trajectory"}));
+}
+
+BOOST_AUTO_TEST_CASE(only_what_is_wanted_is_gathered) {
+  const auto nothing = oscillation::run(5, 1, {});
+  BOOST_TEST(!nothing.histogram.has_value());
+  BOOST_TEST(!nothing.autocovariance.has_value());
+  BOOST_TEST(std::isnan(nothing.mean.mean));
+  BOOST_TEST(std::isnan(nothing.effective_sample_size));
+  BOOST_TEST(std::isnan(nothing.kinetic_temperature.mean));
+  BOOST_TEST(std::isnan(nothing.half_step_kinetic_temperature.mean));
+  const auto half = oscillation::run(15, 1, {.half_step_kinetic_temperature = true});
+  BOOST_TEST(std::isnan(half.kinetic_temperature.mean));
+  const auto all = oscillation::run(15, 1, everything);
+  BOOST_TEST(equal(half.half_step_kinetic_temperature, all.half_step_kinetic_temperature));
+}
+
+BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_steps) {
+  const auto bytes = [](std::int64_t steps) {
+    const auto before = allocated_bytes;
+    oscillation::run(steps, 1, everything);
+    return allocated_bytes - before;
+  };
+  BOOST_TEST(bytes(100) == bytes(1000));
+}
+
+// A jackknife over 33 groups knows its errors to 13 %.
+BOOST_AUTO_TEST_CASE(there_are_enough_groups) {
+  for (std::int64_t n = 1; n < 20'000; ++n) {
+    const std::int64_t size = trajectories_of_group(n);
+    const std::int64_t groups = (n - 1) / size + 1;
+    if (groups > 64 || groups < std::min<std::int64_t>(n, 33)) BOOST_ERROR(groups << " groups of " << n);
+    if (16 % size != 0 && size % 16 != 0) BOOST_ERROR(size << " in a group do not fit lanes");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const auto refused = [](const ensemble_options& options, const statistics_wanted& wanted, auto... words) {
+    return refuses<std::invalid_argument>([&] { galaxy::run(galaxy::system, options, wanted); }, {words...});
+  };
+  BOOST_TEST(refused({.trajectories = 0}, {}, "0 trajectories"));
+  BOOST_TEST(refused({.steps = -1}, {}, "-1 steps"));
+  BOOST_TEST(refused({.every = 0}, {}, "every 0"));
+  BOOST_TEST(refused({.threads = 0}, {}, "thread"));
+  BOOST_TEST(refused({.steps = 10}, {.from = 11}, "step 11"));
+  BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 6}, "6 samples", "6 lags"));
+  BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 3, .from = 5}, "3 samples"));
+  BOOST_TEST(refused({.steps = 10}, {.lags = 0}, "0 lags"));
+  BOOST_TEST(refused({.steps = 10}, {.lags = -1}, "-1 lags"));
+  BOOST_TEST(refused({.steps = 10}, {.histogram = equal_bins{1.0, 0.0, 3}}, "bins"));
+  BOOST_TEST(galaxy::run(galaxy::system, {.steps = 10, .every = 2}, {.lags = 5}).samples == 6);
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/analysis/total_variation.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/noises/counter_based.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+constexpr equal_bins bins{-2.0, 2.0, 40};
+constexpr std::size_t n = 4000;
+
+histogram of(const std::vector<double>& numbers) {
+  histogram all(bins);
+  for (const double x : numbers) all.add(x);
+  return all;
+}
+
+/// n normal numbers around a mean, independent for each seed.
+histogram normal_around(double mean, std::uint64_t seed) {
+  std::vector<double> numbers(n);
+  standard_normals(seed, {.purpose = noise_purpose::initial_state}, std::span(numbers));
+  for (double& x : numbers) x += mean;
+  return of(numbers);
+}
+
+double normal_law(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
+std::vector<double> probabilities() {
+  std::vector<double> result{normal_law(bins.low)};
+  for (int k = 0; k < bins.count; ++k) {
+    const double left = bins.low + k * bins.width();
+    result.push_back(normal_law(left + bins.width()) - normal_law(left));
+  }
+  result.push_back(normal_law(bins.low));
+  return result;
+}
+
+/// p - q of two samples is nearly normal, of variance 2 p (1 - p)/n, and E|x| = sqrt(2/pi) sd.
+double expected_floor() {
+  double sum = 0.0;
+  for (const double p : probabilities()) sum += std::sqrt(p * (1.0 - p) / (std::numbers::pi * n));
+  return sum;
+}
+
+/// Of one pair: the bins are nearly independent, and Var|x| = (1 - 2/pi) sd^2.
+double deviation_of_floor() {
+  double sum = 0.0;
+  for (const double p : probabilities())
+    sum += 0.25 * (1.0 - 2.0 / std::numbers::pi) * 2.0 * p * (1.0 - p) / n;
+  return std::sqrt(sum);
+}
+
+std::vector<histogram> ensembles(int count) {
+  std::vector<histogram> result;
+  for (int k = 0; k < count; ++k) result.push_back(normal_around(0.0, 100U + static_cast<unsigned>(k)));
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_distance_by_hand) {
+  // Fractions 1/2, 1/2 and 1/4, 3/4; then nothing in common, outside too.
+  BOOST_TEST(total_variation(of({0.0, 1.0}), of({0.0, 1.0, 1.0, 1.0})) == 0.25);
+  BOOST_TEST(total_variation(of({0.0, 1.0}), of({0.0, 1.0})) == 0.0);
+  BOOST_TEST(total_variation(of({0.0}), of({1.0})) == 1.0);
+  BOOST_TEST(total_variation(of({-9.0}), of({9.0})) == 1.0);
+  BOOST_TEST(total_variation(of({-9.0, 0.0}), of({0.0})) == 0.5);
+}
+
+// Two means d apart: TV = 2 F(d/2) - 1, and the bins merge densities that cross at an edge.
+BOOST_AUTO_TEST_CASE(the_distance_of_two_normal_laws) {
+  const double expected = 2.0 * normal_law(0.5) - 1.0;
+  const double found = total_variation(normal_around(-0.5, 1), normal_around(0.5, 2));
+  // The sign of p - q is known in nearly all bins, so that noise is that of one binomial: 2 x 1/(4 n); where
+  // it is not, noise adds less than the floor.
+  const double tolerance = 4.0 * std::sqrt(0.5 / n) + 0.25 * expected_floor();
+  BOOST_TEST(std::abs(found - expected) < tolerance);
+  const double farther = total_variation(normal_around(-0.5, 1), normal_around(0.8, 2));
+  BOOST_TEST(std::abs(farther - expected) > tolerance);
+}
+
+// Pairs share ensembles: their mean has at most the deviation of one pair, and at least that of 15
+// independent.
+BOOST_AUTO_TEST_CASE(samples_of_one_law_are_a_floor_apart) {
+  const auto some = ensembles(6);
+  const double floor = sampling_floor(some);
+  BOOST_TEST(std::abs(floor - expected_floor()) < 4.0 * deviation_of_floor());
+  BOOST_TEST(std::abs(2.0 * floor - expected_floor()) > 4.0 * deviation_of_floor());
+}
+
+// The same law is at the floor, and another above it.
+BOOST_AUTO_TEST_CASE(a_histogram_is_compared_with_all_ensembles) {
+  const auto some = ensembles(6);
+  const double floor = sampling_floor(some);
+  BOOST_TEST(std::abs(mean_total_variation(normal_around(0.0, 7), some) - floor) <
+             4.0 * deviation_of_floor());
+  BOOST_TEST(mean_total_variation(normal_around(0.2, 7), some) > floor + 4.0 * deviation_of_floor());
+  BOOST_TEST(mean_total_variation(some[0], std::span(some).subspan(1, 1)) ==
+             total_variation(some[0], some[1]));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
+  const auto some = ensembles(4);
+  const histogram empty(bins);
+  histogram other({-2.0, 2.0, 39});
+  other.add(0.0);
+  const auto refused = [](auto&& action, auto... words) {
+    return refuses<std::invalid_argument>(action, {words...});
+  };
+  BOOST_TEST(refused([&] { total_variation(some[0], other); }, "40 bins", "39"));
+  BOOST_TEST(refused([&] { total_variation(some[0], empty); }, "nothing was added"));
+  BOOST_TEST(refused([&] { sampling_floor(std::span(some).first(3)); }, "3 independent", "at least"));
+  BOOST_TEST(refused([&] { mean_total_variation(some[0], {}); }, "nothing to compare"));
+  BOOST_TEST(sampling_floor(some) > 0.0);
+}
