@@ -9,6 +9,7 @@
 // of first order.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/exact_paths.hpp"
 #include "../support/langevin_methods.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/noises/along_path.hpp"
@@ -36,21 +37,11 @@ struct driven {
   phase_point<T, 1> finish;
 };
 driven solution(std::uint64_t first) {
-  const auto interval = oscillator.exact_with_bath(fine);
-  const square<3> L = cholesky(interval.covariance);
-  const double deviation = std::sqrt(interval.covariance(2, 2));
-  const auto& E = interval.map;
   driven result{recorded_path<T, 1>(fine, oscillator.gamma, first), start.cast<T>()};
-  std::array<T, 3> z;
-  for (std::int64_t j = 0; j < fine_intervals; ++j) {
-    standard_normals<T>(1, {.trajectory = first, .step = j}, z);
-    const T q = result.finish.q[0];
-    const T p = result.finish.p[0];
-    result.finish.q[0] = q * E(0, 0) + p * E(0, 1) + z[0] * L(0, 0);
-    result.finish.p[0] = q * E(1, 0) + p * E(1, 1) + z[0] * L(1, 0) + z[1] * L(1, 1);
-    const T eta = z[0] * L(2, 0) + z[1] * L(2, 1) + z[2] * L(2, 2);
-    result.path.add(vector<T, 1>(eta / deviation));
-  }
+  std::vector<vector<T, 1>> noise(fine_intervals);
+  exact_paths(oscillator)
+      .advance(system_of(oscillator), result.finish, horizon, {1, first, 0}, std::span(noise));
+  for (const auto& xi : noise) result.path.add(xi);
   return result;
 }
 const std::vector<driven>& solutions() {
