@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSL-1.0
+// Every formula and table of docs/theory-langevin-optimum.md: where the best two-stage step of a damped
+// oscillator is, and how it moves with friction.
+#include <boost/test/unit_test.hpp>
+
+#include <functional>
+
+#include "../support/langevin_linear.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/thermostatted.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using enum placement;
+
+template <placement P>
+std::vector<spelled> two_stages(double b1, double beta1) {
+  using family = thermostatted_family<nystrom, P>;
+  return spell(family::word::letters(), family::coefficients(std::array{b1, beta1}));
+}
+std::vector<spelled> two_stages(placement where, double b1, double beta1) {
+  if (where == end) return two_stages<end>(b1, beta1);
+  if (where == symmetric) return two_stages<symmetric>(b1, beta1);
+  return two_stages<middle>(b1, beta1);
+}
+
+/// A mean square one-step error, from states of covariance `start` and with `weights` of q^2 and p^2.
+struct loss {
+  placement where;
+  double z;
+  bool with_noise = false;
+  double omega = 3.0;  // any: nothing may depend on it
+  square<2> start = Eigen::Vector2d(1.0 / (omega * omega), 1.0).asDiagonal();  // the energy norm, kT = 1
+  Eigen::Vector2d weights = {omega * omega, 1.0};
+
+  double at(double b1, double u, double g) const {
+    const double gamma = g * omega;
+    const damped_oscillator x{omega, gamma, with_noise ? std::sqrt(2.0 * gamma) : 0.0};
+    const auto step = step_with_error(x, two_stages(where, b1, 0.5 * b1 + u), z / omega);
+    return weights.dot(error_after(step, start, 1).diagonal());
+  }
+};
+
+/// Five points: exact for polynomials up to the fourth degree, which the leading part of every loss is.
+double derivative(const std::function<double(double)>& f, double x) {
+  const double d = 1e-3;
+  return (8.0 * (f(x + d) - f(x - d)) - (f(x + 2.0 * d) - f(x - 2.0 * d))) / (12.0 * d);
+}
+double second_derivative(const std::function<double(double)>& f, double x) {
+  return derivative([&](double y) { return derivative(f, y); }, x);
+}
+double root(const std::function<double(double)>& f, double x) {
+  for (int n = 0; n < 40; ++n) {
+    const double change = f(x) / derivative(f, x);
+    x -= change;
+    if (std::abs(change) < 1e-13) break;
+  }
+  return x;
+}
+
+/// beta1* at b1 = 1/2, followed from no friction on.
+double best_beta1(const loss& of, double g) {
+  double u = 0.15;
+  for (int part = 0; part <= 8; ++part) {
+    const auto at = [&](double v) { return of.at(0.5, v, g * part / 8.0); };
+    u = root([&](double v) { return derivative(at, v); }, u);
+  }
+  return 0.25 + u;
+}
+
+/// b1* and u* at once.
+Eigen::Vector2d best(const loss& of, double g) {
+  Eigen::Vector2d x(0.5, best_beta1(of, 0.0) - 0.25);
+  for (int n = 0; n < 20; ++n) {
+    const auto along_b1 = [&](double u) {
+      return derivative([&](double b1) { return of.at(b1, u, g); }, x[0]);
+    };
+    const auto in_b1 = [&](double b1) { return of.at(b1, x[1], g); };
+    const auto in_u = [&](double u) { return of.at(x[0], u, g); };
+    const double mixed = derivative(along_b1, x[1]);
+    square<2> hessian;
+    hessian << second_derivative(in_b1, x[0]), mixed, mixed, second_derivative(in_u, x[1]);
+    const Eigen::Vector2d change =
+        hessian.inverse() * Eigen::Vector2d(derivative(in_b1, x[0]), derivative(in_u, x[1]));
+    x -= change;
+    if (change.norm() < 1e-12) break;
+  }
+  return x;
+}
+
+/// From three values at 0, g, 2g. The next term is below 1e-7 of beta1* at g = 3e-5 z.
+double slope_in_g(const std::function<double(double)>& f, double g) {
+  return (4.0 * f(g) - f(2.0 * g) - 3.0 * f(0.0)) / (2.0 * g);
+}
+double slope(const loss& of) {
+  return slope_in_g([&](double g) { return best_beta1(of, g); }, 3e-5 * of.z);
+}
+
+// The root of 192 u^3 + 2u - 1: McLachlan's coefficient.
+double u_of_small_steps(double k = 0.0) {
+  return root([&](double u) { return 192.0 * u * u * u + (2.0 + 8.0 * k) * u - (1.0 - k); }, 0.15);
+}
+
+struct row {
+  double z, beta1, end, symmetric, middle;  // the slopes times z; with the noise of the data
+};
+const std::vector<row> table{{0.1, .403381, -.429030, -.118050, .010181},
+                             {0.5, .402727, -.416658, -.110990, .009067},
+                             {1.0, .400582, -.376968, -.088624, .005721},
+                             {1.5, .396636, -.307214, -.050207, .000579},
+                             {2.0, .390164, -.202054, .005888, -.005653}};
+
+// Six digits are given, and differences err by 1e-7 (above). Rounding: residuals of size 1e-5 (z = .1) err by
+// 1e-16, the derivative of their squares by 1e-21/1e-3, beta1* by that over 5 z^6 and the slope by that over
+// g = 3e-6, 7e-8.
+constexpr double digits = 0.5e-6 + 2e-7;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_table_of_slopes) {
+  for (const auto& r : table) {
+    BOOST_TEST_CONTEXT("z = " << r.z) {
+      for (const auto where : {end, symmetric, middle}) {
+        BOOST_TEST(std::abs(best_beta1({where, r.z}, 0.0) - r.beta1) <= digits);
+      }
+      BOOST_TEST(std::abs(r.z * slope({end, r.z}) - r.end) <= digits);
+      BOOST_TEST(std::abs(r.z * slope({end, r.z, true}) - r.end) <= digits);  // noise: no matter
+      BOOST_TEST(std::abs(r.z * slope({symmetric, r.z})) <= digits);
+      BOOST_TEST(std::abs(r.z * slope({middle, r.z})) <= digits);
+      BOOST_TEST(std::abs(r.z * slope({symmetric, r.z, true}) - r.symmetric) <= digits);
+      BOOST_TEST(std::abs(r.z * slope({middle, r.z, true}) - r.middle) <= digits);
+    }
+  }
+  // The paper's -.43 is the limit of small steps, of one placement.
+  BOOST_TEST(std::abs(1.0 * slope({end, 1.0}) + .43) > .05);
+}
+
+BOOST_AUTO_TEST_CASE(the_slopes_have_closed_form) {
+  for (const auto& r : table) {
+    const double z = r.z;
+    const auto m = [&](double b) { return 1 - z * z / 2 + z * z * z * z * (1 - 2 * b) * (4 * b - 1) / 4; };
+    const auto n = [&](double b) { return z * (1 - z * z * (b - 0.25)); };
+    const auto x = [&](double b) {
+      return z *
+             (1 - 2 * z * z * b * (1 - 2 * b) + z * z * z * z * (1 - 2 * b) * (1 - 2 * b) * (4 * b - 1) / 4);
+    };
+    const auto F0 = [&](double b) {
+      return 2 * std::pow(m(b) - std::cos(z), 2) + std::pow(x(b) - std::sin(z), 2) +
+             std::pow(n(b) - std::sin(z), 2);
+    };
+    const auto G = [&](double b) { return z * (x(b) - n(b)) * (x(b) + n(b) - std::sin(z)); };
+    const auto N_symmetric = [&](double b) {
+      return 2 * (z * (x(b) * x(b) + m(b) * m(b)) / 2 - 2 * x(b) * (std::cos(z / 2) - std::cos(z)) -
+                  2 * m(b) * (std::sin(z) - std::sin(z / 2)));
+    };
+    const auto N_middle = [&](double b) {
+      const double q = z / 2 - (1 - 2 * b) * (4 * b - 1) * z * z * z / 4;
+      const double p = 1 - (4 * b - 1) * z * z / 4;
+      return 2 * (z * (q * q + p * p) - 2 * q * (1 - std::cos(z)) - 2 * p * std::sin(z));
+    };
+    const double b = root([&](double y) { return derivative(F0, y); }, 0.4);
+    const double curvature = second_derivative(F0, b);
+    // N is a sum of terms of size z and less, each with some eps, in a difference over 1e-3.
+    const double rounding = 10.0 * 2.2e-16 * z / 1e-3 * z / curvature;
+    BOOST_TEST_CONTEXT("z = " << z) {
+      BOOST_TEST(std::abs(b - r.beta1) <= digits);
+      BOOST_TEST(std::abs(-z * derivative(G, b) / curvature - r.end) <= digits);
+      BOOST_TEST(std::abs(-z * derivative(N_symmetric, b) / curvature - r.symmetric) <= digits + rounding);
+      BOOST_TEST(std::abs(-z * derivative(N_middle, b) / curvature - r.middle) <= digits + rounding);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(small_steps) {
+  const double u = u_of_small_steps();
+  BOOST_TEST(std::abs(0.25 + u - nystrom::start()[1]) <= 1e-14);
+  const double denominator = 1.0 + 288.0 * u * u;
+  BOOST_TEST(std::abs(-1.5 * (1.0 + 8.0 * u) / denominator - -.429542) <= 0.5e-6);
+  BOOST_TEST(std::abs(-6.0 * u / denominator - -.118343) <= 0.5e-6);
+  BOOST_TEST(std::abs((1.0 - 6.0 * u) / denominator - .010228) <= 0.5e-6);
+  for (const auto& [z, beta1, of_end, of_symmetric, of_middle] : table) {
+    // The next terms: z^6 in the slope; z^4 in beta1, where the coefficient is of the size of the last.
+    const double z2 = z * z;
+    BOOST_TEST(std::abs(of_end - (-.429542 + .051198 * z2 + .00134 * z2 * z2)) <= 5e-5 * z2 * z2 * z2 + 2e-6);
+    BOOST_TEST(std::abs(beta1 - (.403408 - .0026958 * z2)) <= 2e-4 * z2 * z2 + 2e-6);
+  }
+}
+
+// Friction over z at hand: k = 3 g/z is kept while both become small; what is left out is O(z^2).
+BOOST_AUTO_TEST_CASE(friction_that_is_not_small_against_z) {
+  const double z = 0.01;
+  for (const double k : {0.0, 0.1, 0.5, 1.0, 3.0}) {
+    BOOST_TEST_CONTEXT("k = " << k) {
+      BOOST_TEST(std::abs(best_beta1({end, z}, k * z / 3.0) - (0.25 + u_of_small_steps(k))) <= z * z);
+    }
+  }
+  // Where the paper's line has left the optimum.
+  BOOST_TEST(std::abs(best_beta1({end, z}, 0.5 * z / 3.0) - (.4034 - .43 * 0.5 / 3.0)) > .005);
+}
+
+BOOST_AUTO_TEST_CASE(the_table_of_finite_friction) {
+  struct finite {
+    double g, z, end, symmetric, middle;
+  };
+  for (const auto& r : std::vector<finite>{{.0002, 0.5, .402560, .402727, .402727},
+                                           {.01, 0.5, .394247, .402727, .402726},
+                                           {.01, 1.0, .396781, .400581, .400581},
+                                           {.1, 0.5, .307340, .402732, .402655},
+                                           {.1, 1.0, .360024, .400501, .400515},
+                                           {.1, 2.0, .379638, .389896, .390122},
+                                           {.5, 1.0, .242831, .398609, .399062}}) {
+    BOOST_TEST_CONTEXT("g = " << r.g << ", z = " << r.z) {
+      BOOST_TEST(std::abs(best_beta1({end, r.z}, r.g) - r.end) <= digits);
+      BOOST_TEST(std::abs(best_beta1({symmetric, r.z}, r.g) - r.symmetric) <= digits);
+      BOOST_TEST(std::abs(best_beta1({middle, r.z}, r.g) - r.middle) <= digits);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(b1_moves_too) {
+  struct moving {
+    double z, end, symmetric, with_noise, middle, middle_with_noise;
+  };
+  for (const auto& r : std::vector<moving>{{0.5, -1.1978, -1.1978, -.4560, 1.7137, 2.6520},
+                                           {1.0, -1.1052, -1.1052, -.4386, .8752, 1.0484},
+                                           {2.0, -.6274, -.6274, -.2848, .4177, .4339}}) {
+    const auto slopes = [&](const loss& of) {
+      const auto b1 = [&](double g) { return best(of, g)[0]; };
+      const auto u = [&](double g) { return best(of, g)[1]; };
+      const double g = 2e-6 * r.z;  // b1 bends: 1.5e-5 at z = .5 would err by 2e-4
+      BOOST_TEST(std::abs(r.z * (slope_in_g(u, g) - slope(of))) <= 5e-6);  // u has the slope of a fixed b1
+      return slope_in_g(b1, g);
+    };
+    BOOST_TEST_CONTEXT("z = " << r.z) {
+      const double four_digits = 0.5e-4 + 1e-5;
+      BOOST_TEST(std::abs(slopes({end, r.z}) - r.end) <= four_digits);
+      BOOST_TEST(std::abs(slopes({symmetric, r.z}) - r.symmetric) <= four_digits);
+      BOOST_TEST(std::abs(slopes({symmetric, r.z, true}) - r.with_noise) <= four_digits);
+      BOOST_TEST(std::abs(slopes({middle, r.z}) - r.middle) <= four_digits);
+      BOOST_TEST(std::abs(slopes({middle, r.z, true}) - r.middle_with_noise) <= four_digits);
+    }
+  }
+}
+
+// With the weights diag(1, Omega^2) of the paper, at omega = 50.
+BOOST_AUTO_TEST_CASE(the_weights_as_printed_depend_on_the_units) {
+  const auto as_printed = [](double z, double omega) {
+    const double Omega = omega * omega;
+    return loss{end, z, false, omega, square<2>::Identity(), {1.0, 1.0 / (Omega * Omega)}};
+  };
+  BOOST_TEST(std::abs(best_beta1(as_printed(0.5, 50.0), 0.0) - .3772) <= 0.5e-4);
+  BOOST_TEST(std::abs(best_beta1(as_printed(1.0, 50.0), 0.0) - .3756) <= 0.5e-4);
+  BOOST_TEST(std::abs(0.5 * slope(as_printed(0.5, 50.0)) - -.069) <= 1e-3);
+  BOOST_TEST(std::abs(1.0 * slope(as_printed(1.0, 50.0)) - -.019) <= 1e-3);
+  BOOST_TEST(std::abs(best_beta1(as_printed(0.5, 1.0), 0.0) - .402727) <=
+             digits);  // the same units by chance
+  BOOST_TEST(std::abs(best_beta1({end, 0.5, false, 50.0}, 0.0) - .402727) <= digits);
+}
+
+// The noise of one step alone: half as much where O is placed symmetrically.
+BOOST_AUTO_TEST_CASE(the_noise_of_the_placements) {
+  const double z = 0.01;
+  const double g = 1e-4;
+  const auto root_mean_square = [&](placement where) {
+    loss of{where, z, true};
+    of.start.setZero();
+    return std::sqrt(of.at(0.5, 0.15, g));
+  };
+  // What is left out is of the order of z and g.
+  BOOST_TEST(std::abs(root_mean_square(end) / std::sqrt(2.0 * g * z * z * z / 3.0) - 1.0) <= z);
+  BOOST_TEST(std::abs(root_mean_square(symmetric) / std::sqrt(g * z * z * z / 6.0) - 1.0) <= z);
+  BOOST_TEST(std::abs(root_mean_square(middle) / std::sqrt(g * z * z * z / 6.0) - 1.0) <= z);
+}
