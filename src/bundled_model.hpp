@@ -91,7 +91,7 @@ class bundled_model final : public bundled_system {
     if (starts_) return;
     const auto& alone = system_.alone();
     if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
-    if (start_ == start::trajectory) starts_.emplace(alone, long_trajectory());
+    if (start_ == start::trajectory) starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
   }
   int lanes() const override { return width; }
 
@@ -315,8 +315,6 @@ class bundled_model final : public bundled_system {
     if (system_.bath().sigma() == 0.0) return 0;
     return intervals_of_noise(family.letters().letters(), family.coefficients(family.start())).parts;
   }
-
-  one_long_trajectory<S> long_trajectory() const { return one_long_trajectory<S>(system_, law_); }
 
   template <Family F>
   learn_options<F> options_for(const learn_settings& how, int threads) const {

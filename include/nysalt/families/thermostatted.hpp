@@ -10,15 +10,15 @@
 
 namespace nysalt {
 
-/// A family in a bath: the same parameters, with letters O at a placement. Order and symmetry are those
-/// without noise: O itself spoils them at the end (order 1), and keeps order 2 elsewhere.
+/// A family in a bath: the same parameters, with letters O at a placement. Its order is that of damping alone
+/// (sigma = 0): 1 at the end, and in the middle of what is not symmetric; else 2 at most.
 template <Family F, placement P>
 struct thermostatted_family {
   using plain = F;
   using word = thermostatted_word<typename F::word, P>;
   static constexpr int parameters = F::parameters;
   static constexpr auto parameter_names = F::parameter_names;
-  static constexpr int order = P == placement::end ? 1 : std::min(F::order, 2);
+  static constexpr int order = thermostatted_order(P, F::order, F::symmetric);
   static constexpr bool symmetric = P != placement::end && F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 

@@ -11,14 +11,13 @@
 
 namespace nysalt {
 
-/// A method in a bath: its word with letters O at a placement. As for families, order 1 at the end and 2
-/// elsewhere at most.
+/// A method in a bath: its word with letters O at a placement.
 template <placement P, Method M>
   requires TypeLevelWord<typename M::word>
 class thermostatted_method {
  public:
   using word = thermostatted_word<typename M::word, P>;
-  static constexpr int order = P == placement::end ? 1 : std::min(M::order, 2);
+  static constexpr int order = thermostatted_order(P, M::order, M::symmetric);
   static constexpr bool symmetric = P != placement::end && M::symmetric;
   static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;
 
@@ -47,8 +46,8 @@ inline tabulated thermostat(const tabulated& method, placement where) {
   return tabulated(
       method.name(), letters,
       thermostatted_coefficients(where, method.coefficients(), std::vector<double>(letters.length)),
-      {where == placement::end ? 1 : std::min(method.order, 2), where != placement::end && method.symmetric,
-       method.requires_quadratic_kinetic});
+      {thermostatted_order(where, method.order, method.symmetric),
+       where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
 }
 
 }  // namespace nysalt
