@@ -39,17 +39,19 @@ class along_path {
     const std::int64_t first = at.step * intervals_.parts;
     const std::int64_t from = (first + begin) * per_part_;
     const std::int64_t to = (first + end) * per_part_;
-    if (at.trajectory < path_->trajectory() || at.trajectory - path_->trajectory() >= lanes_in<T>) {
+    constexpr bool all_lanes = std::is_same_v<U, T>;
+    static_assert(all_lanes || std::is_same_v<U, double>, "nysalt: a path is for all its lanes or one");
+    const std::uint64_t lane_of = at.trajectory - path_->trajectory();
+    if (lane_of >= (all_lanes ? 1 : lanes_in<T>)) {
       throw std::invalid_argument(fmt::format("the recorded path is that of trajectory {}, not of {}",
                                               path_->trajectory(), at.trajectory));
     }
-    if constexpr (std::is_same_v<U, T>) {
+    if constexpr (all_lanes) {
       path_->over(from, to, xi);
     } else {  // one lane of several
       vector<T, N> all(xi.size());
       path_->over(from, to, all);
-      const auto k = static_cast<int>(at.trajectory - path_->trajectory());
-      for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(all[i], k);
+      for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(all[i], static_cast<int>(lane_of));
     }
   }
 

@@ -38,7 +38,7 @@ class coarse_graining {
   }
   template <class T, int N>
   void last(vector<T, N>& sum, std::int64_t n) const {
-    if (n == 1) return;
+    if (n <= 1) return;  // of none, for a letter O that does nothing, there is no noise
     const auto count = static_cast<double>(n);
     const double share =
         damping_ == 0.0 ? 1.0 / count : std::expm1(-2.0 * damping_) / std::expm1(-2.0 * damping_ * count);

@@ -1,0 +1,12 @@
+// expect: fine paths need a method with one letter O
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/methods/baoab.hpp"
+#include "nysalt/references/fine_paths.hpp"
+
+int main() {
+#ifdef NYSALT_CONTROL
+  nysalt::fine_paths(0.1, nysalt::aboba());
+#else
+  nysalt::fine_paths(0.1, nysalt::obabo());
+#endif
+}
