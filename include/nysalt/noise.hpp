@@ -9,6 +9,9 @@
 
 namespace nysalt {
 
+/// The letter of the bath in words.
+inline constexpr char bath_letter = 'O';
+
 /// Where in a run noise is wanted: by the letter O that is number `flow` among those of the word, in the step
 /// from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
 struct noise_place {

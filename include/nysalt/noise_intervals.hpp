@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/noise.hpp"
 
 namespace nysalt {
 
@@ -43,7 +43,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const auto& 
   constexpr int most_parts = 60;
   std::vector<double> ends{0.0};
   for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (letters[i] != ornstein_uhlenbeck::letter) continue;
+    if (letters[i] != bath_letter) continue;
     if (coefficients[i] < 0.0) {
       throw std::invalid_argument(fmt::format(
           "a letter O of {} has the coefficient {}: noise cannot go back in time", letters, coefficients[i]));

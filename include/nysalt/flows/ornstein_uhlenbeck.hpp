@@ -8,6 +8,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/flow.hpp"
+#include "nysalt/noise.hpp"
 
 namespace nysalt {
 
@@ -16,7 +17,7 @@ namespace nysalt {
 /// [leimkuhler_matthews_2015]. Its noise is that of the interval of the step which it covers: the
 /// letters O of a word share the step in their order.
 struct ornstein_uhlenbeck {
-  static constexpr char letter = 'O';
+  static constexpr char letter = bath_letter;
   static constexpr bool reads_force = false;
   static constexpr bool moves_q = false;
   static constexpr bool additive = false;  // the noise of two is not that of one
