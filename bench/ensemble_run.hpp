@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A run as a user has it: trajectories in memory, the ensemble loop, the two-stage step.
+// A run as a user has it: trajectories in memory, and the ensemble loop.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,21 @@ inline states starts_of(std::int64_t trajectories) {
   return result;
 }
 
-inline void run_ensemble(states& all, std::int64_t steps, int threads) {
-  const fpu_chain<3> chain(50.0);
-  const auto stepper = make_stepper(chain, member<nystrom>({0.5, 0.4}), 0.01);
+void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int threads) {
   const auto block = [&](std::int64_t first, int count) {
     const auto at = [&](int k) -> auto& { return all[static_cast<std::size_t>(first + k)]; };
-    auto run = stepper.open(gather<pack<double>, 6>(count, at));
+    auto run = stepper.open(gather<pack<double>, 6>(count, at), static_cast<std::uint64_t>(first));
     stepper.advance(run, steps);
     const auto end = stepper.synchronous(run);
     for (int k = 0; k < count; ++k) at(k) = lane(end, k);
   };
   for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, threads, block);
+}
+
+/// The two-stage step.
+inline void run_ensemble(states& all, std::int64_t steps, int threads) {
+  const fpu_chain<3> chain(50.0);
+  run_ensemble(all, make_stepper(chain, member<nystrom>({0.5, 0.4}), 0.01), steps, threads);
 }
 
 inline std::vector<double> numbers(const states& all) {

@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
     race_long_chain();
     race_growth();
     race_noise();
+    race_langevin();
+    race_heaviest_run();
     race_learning();
     race_threads();
     race_compiling();

@@ -11,6 +11,8 @@ void race_single_trajectory();
 void race_long_chain();
 void race_growth();
 void race_noise();
+void race_langevin();
+void race_heaviest_run();
 void race_learning();
 void race_threads();
 void race_compiling();

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "document.hpp"
+#include "heaviest_run.hpp"
 #include "picture.hpp"
 #include "rows.hpp"
 
@@ -92,6 +93,8 @@ std::string pages(const judged_rows& rows, const measurements& gnu, const measur
   text += "\n" + remarks + "\nReported without a target:\n\n" + form(to_table(rows.told));
   for (const auto& g : growths())
     text += fmt::format("\n{}, nanoseconds:\n\n", g.name) + form(to_table(g, gnu, clang));
+  text += "\nThe heaviest run of the paper, 10^4 trajectories in a bath over a time of 40:\n\n" +
+          form(heaviest_run(gnu, clang));
   if (gnu.has("compiling", "with learner")) {
     text +=
         fmt::format("\nCompiling a first example takes g++ {:.1f} s with the learner, {:.1f} s without.\n",

@@ -62,3 +62,9 @@ BOOST_AUTO_TEST_CASE(not_zero_tells_lanes_apart) {
   some.set(1, std::uint64_t{1} << 63U);
   for (int lane = 0; lane < words::lanes; ++lane) BOOST_TEST(some.not_zero()[lane] == (lane == 1));
 }
+
+BOOST_AUTO_TEST_CASE(lanes_are_numbered) {
+  const words numbers = words::lane_numbers();
+  for (int lane = 0; lane < words::lanes; ++lane)
+    BOOST_TEST(numbers[lane] == static_cast<std::uint64_t>(lane));
+}

@@ -115,13 +115,11 @@ template <class T>
 
   const auto step = static_cast<std::uint64_t>(first.step);
   const std::uint64_t purpose = std::uint64_t{static_cast<std::uint8_t>(first.purpose)} << 24U;
+  const words number = words::lane_numbers();
   for (int lane = 0; lane < lanes; lane += trajectories) {
-    words trajectory;
-    words slot;
-    for (int k = 0; k < words::lanes; ++k) {
-      trajectory.set(k, first.trajectory + static_cast<std::uint64_t>(lane + k % trajectories));
-      slot.set(k, first.slot + static_cast<std::uint64_t>(k / trajectories));
-    }
+    const words trajectory =
+        (number & (trajectories - 1)) + (first.trajectory + static_cast<std::uint64_t>(lane));
+    const words slot = (number >> std::countr_zero(unsigned{trajectories})) + first.slot;
     const words upper = (trajectory >> 32) | ((step >> 32U) << 16U);
     for (std::uint64_t done = 0; done < needed; done += most * slots) {
       const std::size_t count = std::min<std::size_t>(most, (needed - done + slots - 1) / slots);

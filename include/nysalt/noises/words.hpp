@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,6 +23,16 @@ class words {
   words() = default;
   words(std::uint64_t all) {
     for (part& mine : parts) mine = part{} + all;
+  }
+
+  /// 0, 1, 2, ...: a constant to the compiler, which numbers set one by one are not.
+  static words lane_numbers() {
+    constexpr auto numbers = [] {
+      std::array<std::uint64_t, lanes> result{};
+      for (std::size_t lane = 0; lane < lanes; ++lane) result[lane] = lane;
+      return result;
+    }();
+    return std::bit_cast<words>(numbers);
   }
 
   std::uint64_t operator[](int lane) const {
