@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "catalogue.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
+#include "stability.hpp"
 
 namespace nysalt::program {
 
@@ -126,7 +126,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
-  const auto windows = stability_windows(method);
+  const auto windows = stability_of(method);
   for (const auto& [low, high] : system.frequency_bands()) {
     if (is_stable(windows, step * low, step * high)) continue;
     warnings.push_back(
