@@ -198,11 +198,13 @@ class bundled_model final : public bundled_system {
                                    .threads = its.threads,
                                    .first = plan.first,
                                    .progress = progress};
+    // Half a step on is where B(1/2) at the beginning of a word leads.
+    const bool leaps = method.letters().letters().front() == kick::letter && method.coefficients()[0] == 0.5;
     const statistics_wanted wanted{.histogram = plan.bins,
                                    .lags = plan.lags,
                                    .moments = true,
-                                   .kinetic_temperature = true,
-                                   .half_step_kinetic_temperature = true};
+                                   .kinetic_temperature = plan.bins.has_value(),
+                                   .half_step_kinetic_temperature = plan.bins && leaps};
     return ensemble_statistics(stepper, *starts_, options, over_lanes(observable<T>(system_, name)), wanted);
   }
 
