@@ -8,6 +8,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/steps_in_bath.hpp"
+#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
@@ -120,6 +121,20 @@ BOOST_AUTO_TEST_CASE(whatever_makes_the_paths_the_same_is_learned) {
     BOOST_TEST(by_baoab.summary.reference_error < 0.05 * by_baoab.summary.one_step_error);
     BOOST_TEST(by_baoab.summary.reference == "baoab with step 0.0025");
   }
+}
+
+BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are) {
+  const listed<2> same({starts(1, 0), starts(1, 1), starts(1, 2)});
+  const auto with = [&](std::uint64_t seed, int parts) {
+    return made_by_steps(warm, same, member<family>({0.45, 0.38}),
+                         {.step = h, .trajectories = 3, .seed = seed, .parts = parts});
+  };
+  const auto is_new = [&](const auto& held_out) {
+    return fit_to({with(1, 2), held_out}).summary.held_out_is_new;
+  };
+  BOOST_TEST(is_new(with(2, 2)));
+  BOOST_TEST(!is_new(with(1, 2)));
+  BOOST_TEST(!is_new(with(1, 4)));  // nobody can tell
 }
 
 BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
