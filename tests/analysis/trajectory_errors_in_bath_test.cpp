@@ -19,6 +19,7 @@
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -232,6 +233,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   BOOST_TEST(refused({half}, 0.06, {"ABOBA cover 0.5"}));
   const tabulated back("back", run_time_word("OABOBAO"), {1.0, 0.5, 0.5, -1.0, 0.5, 0.5, 1.0}, {});
   BOOST_TEST(refused({back}, 0.06, {"back in time"}));
+  const auto along_a_flow = [&] { judged(all, options, fine_steps<>(0.06)); };
+  BOOST_TEST(refuses<wrong>(along_a_flow, {"srkn11b", "no noise to share", "fine_paths"}));
 }
 
 BOOST_AUTO_TEST_CASE(the_energy_error_needs_the_noise_alone) {
