@@ -42,7 +42,12 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const auto& 
   constexpr int most_parts = 60;
   std::vector<double> ends{0.0};
   for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (letters[i] == ornstein_uhlenbeck::letter) ends.push_back(ends.back() + coefficients[i]);
+    if (letters[i] != ornstein_uhlenbeck::letter) continue;
+    if (coefficients[i] < 0.0) {
+      throw std::invalid_argument(
+          fmt::format("a letter O of {} goes back in time, by {} of a step", letters, -coefficients[i]));
+    }
+    ends.push_back(ends.back() + coefficients[i]);
   }
   if (ends.size() == 1) return {};
   constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more
