@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -90,8 +91,14 @@ class bundled_model final : public bundled_system {
   void prepare_starts() override {
     if (starts_) return;
     const auto& alone = system_.alone();
-    if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
-    if (start_ == start::trajectory) starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
+    try {
+      if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+      if (start_ == start::trajectory) {
+        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
+      }
+    } catch (const std::runtime_error& problem) {
+      refuse("{}; take another temperature, or --start law", problem.what());
+    }
   }
   int lanes() const override { return width; }
 

@@ -137,6 +137,9 @@ std::string sums_of(const std::string& letters, const std::vector<double>& coeff
 }
 
 tabulated table_in(const json& document, const reader& read) {
+  if (document.contains("placement")) {
+    refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
+  }
   const std::string letters = read.text("letters");
   constexpr std::size_t most_letters = 200;  // finding the order takes their square: a second
   if (letters.size() > most_letters) {

@@ -98,8 +98,9 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
       refuse("{} at step {}: {}", source.typed, step, problem.what());
     }
   }
-  refuse("{} must be learned first: nysalt learn --family {} --step {} --output scheme.json", source.typed,
-         *source.family, step);
+  const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
+  refuse("{} must be learned first: nysalt learn --family {}{} --step {} --output scheme.json", source.typed,
+         *source.family, where, step);
 }
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
@@ -112,7 +113,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
   if (!system.its_bath().acts()) {
     if (has_letters || source.where) {
       warnings.push_back(
-          fmt::format("{}: without a bath its letters O are left out (--friction gives one)", source.typed));
+          fmt::format("{}: without a bath (--friction) its letters O are left out", source.typed));
     }
     return method;
   }
