@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "../stability.hpp"
 #include "../catalogue.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
-#include "../stability.hpp"
 
 namespace nysalt::program {
 
