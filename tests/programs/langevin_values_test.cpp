@@ -102,6 +102,20 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
   }
 }
 
+// BAOAB errs along a noisy path to first order: its step must be small beside that of the method, not beside
+// the frequencies alone, which say little of a system that is not stiff.
+BOOST_AUTO_TEST_CASE(the_reference_is_fine_enough_where_nothing_is_stiff) {
+  for (const char* system : {"pendulum", "henon_heiles"}) {
+    for (const char* kt : {"0.001", "0"}) {
+      const std::string line = std::string("learn --step 0.1 --horizon 1 --friction 0.1 --system ") + system;
+      const auto fit = document(line + " --temperature " + kt);
+      BOOST_TEST(fit["usable"] == true, system << " at kT = " << kt);
+      const auto coarse = nysalt::test::run(line + " --fine-step 0.005 --temperature " + kt);
+      BOOST_TEST(coarse.err.find("the reference's own error") != std::string::npos, coarse.err);
+    }
+  }
+}
+
 // Measured beforehand by other programs on 2000 trajectories.
 BOOST_AUTO_TEST_CASE(path_errors_are_the_known_ones) {
   const auto all = document(
@@ -241,6 +255,11 @@ BOOST_AUTO_TEST_CASE(a_scheme_keeps_its_bath_and_its_placement) {
   BOOST_TEST(row_of(all, "end.json")["error"] == row_of(all, "learned:nystrom@end")["error"]);
   BOOST_TEST(row_of(all, "symmetric.json")["error"] == row_of(all, "learned:nystrom")["error"]);
   BOOST_TEST(row_of(all, "end.json")["error"] != row_of(all, "symmetric.json")["error"]);
+
+  const auto stability = document("stability --method end.json --step 0.02" + in_the_bath, folder);
+  BOOST_TEST(stability["letters"] == "ABABAO");
+  BOOST_TEST(stability["warnings"].empty());
+  BOOST_TEST(in_folder("stability --method end.json --step 0.02").code == 2);
 
   for (const std::string& elsewhere : {std::string(), std::string(" --friction 0.02 --sigma 0.05"),
                                        std::string(" --friction 0.01 --sigma 0.06")}) {
