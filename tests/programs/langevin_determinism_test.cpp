@@ -46,8 +46,7 @@ BOOST_AUTO_TEST_CASE(threads_change_no_byte) {
   for (const auto& line : lines) {
     const auto one = printed(line + " --threads 1");
     BOOST_TEST(one.size() > 500U, line);
-    for (const char* threads : {"2", "5"})
-      BOOST_TEST((printed(line + " --threads " + threads) == one), line << " --threads " << threads);
+    BOOST_TEST((printed(line + " --threads 2") == one), line);
   }
 }
 

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
   };
   for (const auto& [step, b1, beta1] : {known{"0.019", .5248, .4155}, {"0.033", .5265, .4079}}) {
     const auto fit = document(std::string("learn --placement end --step ") + step + in_the_bath);
-    const auto must_be = [&](const char* name, double value) {
+    const auto must_be = [&, step = step](const char* name, double value) {
       BOOST_TEST(is_near(fit["parameters"][name], fit["standard_errors"][name], value, 1e-4),
                  name << " at " << step << ": " << fit["parameters"][name]);
     };
@@ -277,8 +277,8 @@ BOOST_AUTO_TEST_CASE(a_scheme_keeps_its_bath_and_its_placement) {
 // A table may hold O: that of BAOAB is BAOAB.
 BOOST_AUTO_TEST_CASE(a_table_may_hold_letters_of_the_bath) {
   const scratch folder("langevin_table");
-  std::ofstream(folder / "table.json")
-      << R"({"format": "nysalt table", "version": 1, "letters": "BAOAB", "coefficients": [0.5, 0.5, 1, 0.5, 0.5]})";
+  std::ofstream(folder / "table.json") << R"({"format": "nysalt table", "version": 1, "letters": "BAOAB",)"
+                                       << R"( "coefficients": [0.5, 0.5, 1, 0.5, 0.5]})";
   const auto rows = [&](const std::string& method) {
     return document(
         "run --start law --step 0.02 --horizon 0.4 --trajectories 5 --method " + method + in_the_bath,
