@@ -114,13 +114,22 @@ void comparison::write(const std::filesystem::path& folder) const {
   make_folder(folder);
   write_result(folder / "table.md", work_precision_table(rows).markdown() + "\n" + at_equal_cost(true),
                common_);
-  table all({"method", "step", "step_size", "evaluations_per_time", "seconds_per_time", "error",
-             "standard_error", "diverged", "floor"});
+  std::vector<std::string> columns{"method",           "step",  "step_size",      "evaluations_per_time",
+                                   "seconds_per_time", "error", "standard_error", "diverged"};
+  if (is_statistical()) columns.emplace_back("floor");
+  table all(columns);
   for (const auto& its : rows_) {
     const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
-    all.add({its.method, number(its.nominal), number(its.step), number(its.evaluations_per_time),
-             number(its.seconds_per_time), number(its.error.mean), number(its.error.standard_error),
-             fmt::format("{}", its.diverged), its.floor ? number(*its.floor) : std::string()});
+    std::vector<std::string> cells{its.method,
+                                   number(its.nominal),
+                                   number(its.step),
+                                   number(its.evaluations_per_time),
+                                   number(its.seconds_per_time),
+                                   number(its.error.mean),
+                                   number(its.error.standard_error),
+                                   fmt::format("{}", its.diverged)};
+    if (is_statistical()) cells.push_back(its.floor ? number(*its.floor) : std::string());
+    all.add(cells);
   }
   write_result(folder / "rows.csv", all.csv(), common_);
   const std::string emphasised = families_.empty() ? "" : families_.begin()->first;

@@ -106,6 +106,14 @@ std::vector<double> parameters_in(const json& parameters, const std::string& fam
   return theta;
 }
 
+placement placement_in(const reader& read) {
+  const std::string name = read.text("placement");
+  for (const auto known : placements) {
+    if (name == to_string(known)) return known;
+  }
+  refuse("{}: unknown placement '{}': it is one of end, symmetric, middle", read.file(), name);
+}
+
 scheme scheme_in(const json& document, const reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
@@ -120,7 +128,7 @@ scheme scheme_in(const json& document, const reader& read) {
   const reader of_system(read.member("system"), read.file());
   return in_file(read.file(), [&] {
     tabulated method = family_member(family, theta);
-    if (document.contains("placement")) method = thermostat(method, placement_named(read.text("placement")));
+    if (document.contains("placement")) method = thermostat(method, placement_in(read));
     return scheme{method, step, of_system.text("description"), read.flag("usable"), read.text("reason")};
   });
 }

@@ -85,10 +85,11 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   };
   BOOST_TEST(names("systems") == "fpu oscillator linear_chain pendulum henon_heiles ");
   BOOST_TEST(names("families") == "nystrom ");
-  BOOST_TEST(names("metrics") == "path state exchange energy ");
+  BOOST_TEST(names("metrics") == "path state exchange energy distribution acf ");
   BOOST_TEST(
       names("methods") ==
-      "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 pefrl blanes_moan_s6 srkn6b srkn11b s_aia2 ");
+      "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 pefrl blanes_moan_s6 srkn6b srkn11b baoab baoab_2x "
+      "aboba obabo s_aia2 ");
 }
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
@@ -97,7 +98,7 @@ BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
                                " system:text coordinates:text held_out_samples:integer trajectories:integer "
                                "one_step_error:number reference:text reference_error:number condition:number "
                                "flat_directions:list dropped_coordinates:list iterations:integer starts:text "
-                               "energy_range:list seed:integer output:null");
+                               "energy_range:list seed:integer placement:null output:null");
   BOOST_TEST(shape(fit["parameters"]) == "b1:number beta1:number");
   BOOST_TEST(shape(fit["standard_errors"]) == "b1:number beta1:number");
   BOOST_TEST(fit["samples"] == 100);  // 4 trajectories of 25 steps
@@ -137,6 +138,33 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
   BOOST_TEST(energy["references"].empty());
   BOOST_TEST(energy["rows"][0]["reference_error"].is_null());
   BOOST_TEST(energy["rows"][0]["standard_error"].is_null());
+}
+
+// What a bath adds: where O was placed, and what laws are compared by.
+BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
+  const std::string in_the_bath = " --start law --friction 0.01 --sigma 0.05";
+  BOOST_TEST(document("learn --step 0.02 --trajectories 4" + in_the_bath)["placement"] == "symmetric");
+  const std::string head =
+      "system:text starts:text metric:text observable:text horizon:number trajectories:integer "
+      "equal_cost:flag seed:integer references:list rows:list fits:list warnings:list";
+  const auto row_with = [](const std::string& standard_error) {
+    return "method:text step:number step_size:number evaluations_per_time:number seconds_per_time:number "
+           "error:number standard_error:" +
+           standard_error +
+           " diverged:integer reference_error:null floor:number mean:number mean_standard_error:number "
+           "effective_sample_size:number kinetic_temperature:number half_step_kinetic_temperature:number";
+  };
+  const std::string line = "compare --methods baoab --steps 0.02 --horizon 2 --trajectories 20 --metric ";
+  const auto law = document(line + "distribution" + in_the_bath);
+  BOOST_TEST(shape(law) == head + " histogram:object");
+  BOOST_TEST(shape(law["histogram"]) == "low:number high:number bins:integer");
+  BOOST_TEST(shape(law["rows"][0]) == row_with("null"));
+  const auto acf = document(line + "acf" + in_the_bath);
+  BOOST_TEST(shape(acf) == head + " longest_lag:number");
+  BOOST_TEST(shape(acf["rows"][0]) == row_with("number"));
+  BOOST_TEST(shape(acf["references"][0]) ==
+             "step_size:number reference:text ensembles:integer mean:number kinetic_temperature:number "
+             "half_step_kinetic_temperature:number error:number");
 }
 
 BOOST_AUTO_TEST_CASE(run_gives_samples) {

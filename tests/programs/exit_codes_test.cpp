@@ -2,6 +2,8 @@
 // 0 done, 2 bad input, 3 no result: every trajectory diverged, or the fit is not usable.
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 

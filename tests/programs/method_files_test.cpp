@@ -198,7 +198,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
     std::vector<std::string> words;
   };
   const std::vector<change> changes{
-      {[](json& s) { s["version"] = 2; }, {"version 2", "newer"}},
+      {[](json& s) { s["version"] = 3; }, {"version 3", "newer"}},
       {[](json& s) { s["version"] = 0; }, {"version 0"}},
       {[](json& s) { s["version"] = "1"; }, {"\"version\"", "number"}},
       {[](json& s) { s.erase("version"); }, {"\"version\"", "missing"}},

@@ -200,6 +200,30 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
   BOOST_TEST(has(table, "bcss2"));
 }
 
+// What the metrics of laws add: a picture of each step, and the floor of the errors.
+BOOST_AUTO_TEST_CASE(a_comparison_of_laws_draws_them) {
+  const scratch folder("laws");
+  for (const std::string& metric : {std::string("distribution"), std::string("acf")}) {
+    const std::string line =
+        "compare --system oscillator --omega 1 --friction 1 --temperature 0.5 --steps 0.1,0.2 "
+        "--methods baoab,obabo --trajectories 20 --horizon 4 --metric " +
+        metric;
+    const finished done = run(folder, line + " --output " + metric);
+    BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
+    for (const char* step : {"_at_0_1", "_at_0_2"}) {
+      const auto picture = (folder / metric) / (metric + step);
+      BOOST_TEST(has(contents(picture.string() + ".svg"), "<svg"));
+      BOOST_TEST(contents(picture.string() + ".png").starts_with("\x89PNG"));
+      for (const char* curve : {"reference", "baoab", "obabo"})
+        BOOST_TEST(has(contents(picture.string() + ".dat"), curve), metric << step << ": " << curve);
+    }
+    const std::string csv = contents((folder / metric) / "rows.csv");
+    BOOST_TEST(has(csv, ",diverged,floor\n"));
+    for (const auto& row : json_of(run(line + " --json"))["rows"])
+      BOOST_TEST(has(csv, ",0," + row["floor"].dump() + "\n"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_comparison_that_cannot_be_leaves_no_folder) {
   const scratch folder("no_folder");
   refused_and_left(folder,
