@@ -227,7 +227,7 @@ class bundled_model final : public bundled_system {
     return statistics(method_of_reference(), its, name, progress);
   }
   std::string reference_of_statistics(double step, std::optional<double> fine_step) const override {
-    return fmt::format("{} with step {}", method_of_reference().name(),
+    return fmt::format("{} with step {:.12g}", method_of_reference().name(),
                        reference().fine_step_for_statistics(step, fine_step));
   }
 

@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(the_default_fine_step_divides_the_step) {
     const auto fit =
         document(fmt::format("learn --step 0.01 --trajectories 20 --horizon 0.1 --omega {}", omega));
     const double fine = 0.01 / std::ceil(0.01 * omega / 5e-3);
-    BOOST_TEST(fit["reference"] == fmt::format("srkn11b with step {}", fine));
+    BOOST_TEST(fit["reference"] == fmt::format("srkn11b with step {:.12g}", fine));
   }
 }
 

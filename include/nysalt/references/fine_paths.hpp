@@ -63,7 +63,7 @@ class fine_paths {
 
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }
-  std::string description() const { return fmt::format("{} with step {}", method_.name(), step_); }
+  std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
  private:
   /// Adds up what it hands out.

@@ -42,7 +42,7 @@ class fine_steps {
   }
 
   fine_steps finer() const { return fine_steps(0.5 * step_, method_); }
-  std::string description() const { return fmt::format("{} with step {}", method_.name(), step_); }
+  std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
  private:
   double step_;
