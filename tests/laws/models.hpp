@@ -8,6 +8,7 @@
 #include "../support/systems.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"
@@ -61,8 +62,9 @@ using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a
 /// One of each kind, for laws about methods rather than systems.
 using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;
 
+/// Of those for baths one, as what it is without: its conservative part.
 using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, pefrl,
-                           blanes_moan_s6, srkn6b, srkn11b, member<nystrom>>;
+                           blanes_moan_s6, srkn6b, srkn11b, member<nystrom>, baoab>;
 
 /// A theta well inside the ranges, where coefficients are of moderate size.
 template <Family F>

@@ -4,7 +4,6 @@
 
 #include "models.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

@@ -42,7 +42,8 @@ double radius_rounding(const M& method, double z) {
   Eigen::Matrix2d product = Eigen::Matrix2d::Identity();
   for (std::size_t k = 0; k < c.size(); ++k) {
     letter[k].setIdentity();
-    (letters[k] == 'B' ? letter[k](1, 0) : letter[k](0, 1)) = letters[k] == 'B' ? -c[k] * z : c[k] * z;
+    if (letters[k] == 'B') letter[k](1, 0) = -c[k] * z;
+    if (letters[k] == 'A') letter[k](0, 1) = c[k] * z;
     so_far[k] = product = letter[k] * product;
   }
   double error = 0.0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "nysalt/method.hpp"
 
@@ -69,14 +70,15 @@ shears shears_at(const S& system, const phase_point<double, S::dimension>& x) {
 }
 
 /// How much the letters of one step can magnify a perturbation: the product of 1 + |c h| |shear| over
-/// them, with shears twice as large as at the start, since the state moves.
+/// them, with shears twice as large as at the start, since the state moves. Those of the bath do not magnify.
 template <Method M>
 double magnification(const M& method, double step, const shears& at) {
   double product = 1.0;
-  bool kicks = M::word::letters().front() == 'B';  // in all our words kicks and drifts take turns
-  for (const double c : method.coefficients()) {
-    product *= 1.0 + 2.0 * std::abs(c * step) * (kicks ? at.potential : at.kinetic);
-    kicks = !kicks;
+  const std::string letters = M::word::letters();
+  const auto c = method.coefficients();
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (letters[i] == 'O') continue;
+    product *= 1.0 + 2.0 * std::abs(c[i] * step) * (letters[i] == 'B' ? at.potential : at.kinetic);
   }
   return product;
 }
