@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -90,8 +91,14 @@ class bundled_model final : public bundled_system {
   void prepare_starts() override {
     if (starts_) return;
     const auto& alone = system_.alone();
-    if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
-    if (start_ == start::trajectory) starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
+    try {
+      if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+      if (start_ == start::trajectory) {
+        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
+      }
+    } catch (const std::runtime_error& problem) {
+      refuse("{}; take another temperature, or --start law", problem.what());
+    }
   }
   int lanes() const override { return width; }
 
@@ -198,11 +205,13 @@ class bundled_model final : public bundled_system {
                                    .threads = its.threads,
                                    .first = plan.first,
                                    .progress = progress};
+    // Half a step on is where B(1/2) at the beginning of a word leads.
+    const bool leaps = method.letters().letters().front() == kick::letter && method.coefficients()[0] == 0.5;
     const statistics_wanted wanted{.histogram = plan.bins,
                                    .lags = plan.lags,
                                    .moments = true,
-                                   .kinetic_temperature = true,
-                                   .half_step_kinetic_temperature = true};
+                                   .kinetic_temperature = plan.bins.has_value(),
+                                   .half_step_kinetic_temperature = plan.bins && leaps};
     return ensemble_statistics(stepper, *starts_, options, over_lanes(observable<T>(system_, name)), wanted);
   }
 

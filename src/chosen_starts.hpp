@@ -2,6 +2,7 @@
 // Where the trajectories of a bundled system start, as `--start` says.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -20,25 +21,27 @@ class any_starts {
  public:
   template <class S, Ensemble<S> E>
   any_starts(const S& system, E ensemble) : text_(ensemble.description()) {
-    one_ = [ensemble](std::uint64_t seed, std::uint64_t n) { return ensemble(seed, n); };
     block_ = [&system, ensemble = std::move(ensemble)](std::uint64_t seed, std::int64_t first, int count) {
       return sound_starts<T>(system, ensemble, seed, first, count);
     };
   }
 
-  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const { return one_(seed, n); }
+  /// The bits of a state do not depend on who is beside it.
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
+    return lane(block_(seed, static_cast<std::int64_t>(n), 1), 0);
+  }
   template <class U>
   phase_point<U, N> block(std::uint64_t seed, std::int64_t first, int count) const {
+    const auto all = block_(seed, first, count);
     if constexpr (std::is_same_v<U, T>) {
-      return block_(seed, first, count);
+      return all;
     } else {
-      return gather<U, N>(count, [&](int k) { return one_(seed, static_cast<std::uint64_t>(first + k)); });
+      return gather<U, N>(std::min(count, lanes_in<U>), [&](int k) { return lane(all, k); });
     }
   }
   const std::string& description() const { return text_; }
 
  private:
-  std::function<phase_point<double, N>(std::uint64_t, std::uint64_t)> one_;
   std::function<phase_point<T, N>(std::uint64_t, std::int64_t, int)> block_;
   std::string text_;
 };

@@ -107,11 +107,15 @@ void add_system(CLI::App& command, system_settings& system) {
   add_number(command, "--spring", system.spring, "linear_chain [1]");
 }
 
-/// What a system is in, where it starts, and how methods meet it.
-void add_bath(CLI::App& command, system_settings& system, std::string& placement) {
+/// What a system is in.
+void add_bath(CLI::App& command, system_settings& system) {
   add_number(command, "--friction", system.bath.friction, "of a bath: gamma; with --sigma or --temperature");
   add_number(command, "--sigma", system.bath.sigma, "of its noise");
   add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
+}
+
+/// Where trajectories start in it, and how methods meet it.
+void add_starts_and_placement(CLI::App& command, system_settings& system, std::string& placement) {
   command.add_option("--start", system.start, "law, gibbs or trajectory [gibbs in a bath, else law]");
   command.add_option("--placement", placement,
                      "of O in a word that has none: end, symmetric or middle [symmetric]");
@@ -136,7 +140,8 @@ void add_list(CLI::App& app, typed& to) {
 void add_learn(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("learn", "fit a family to a system at a step");
   add_system(command, to.learn.system);
-  add_bath(command, to.learn.system, to.learn.placement);
+  add_bath(command, to.learn.system);
+  add_starts_and_placement(command, to.learn.system, to.learn.placement);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
   add_number(command, "--step", to.learn.step, "to learn for")->default_str("")->required();
   add_learning(command, to.learn.learning, "--");
@@ -153,7 +158,8 @@ void add_learn(CLI::App& app, typed& to) {
 void add_run(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
   add_system(command, to.run.system);
-  add_bath(command, to.run.system, to.run.placement);
+  add_bath(command, to.run.system);
+  add_starts_and_placement(command, to.run.system, to.run.placement);
   command.add_option("--method", to.run.method, "a name of nysalt list, or the file of a scheme or table")
       ->required();
   add_number(command, "--step", to.run.step, "of the method")->default_str("")->required();
@@ -175,7 +181,8 @@ void add_run(CLI::App& app, typed& to) {
 void add_compare(CLI::App& app, typed& to) {
   auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
   add_system(command, to.compare.system);
-  add_bath(command, to.compare.system, to.compare.placement);
+  add_bath(command, to.compare.system);
+  add_starts_and_placement(command, to.compare.system, to.compare.placement);
   command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas")->required();
   command.add_option("--steps", to.steps, "joined by commas")->required();
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
@@ -208,6 +215,7 @@ void add_stability(CLI::App& app, typed& to) {
   command.add_option("--family", to.stability.family, "with --parameters");
   command.add_option("--parameters", to.parameters, "of the family, joined by commas");
   add_system(command, to.stability_system);
+  add_bath(command, to.stability_system);
   add_number(command, "--step", to.stability.step, "with --system: is the system stable there?");
   add_common(command, to.common);
   add_force(command, to.common, "look at a scheme at another step or system than it was learned for");
@@ -250,7 +258,8 @@ int run_parsed(const CLI::App& command, typed& to) {
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--step"}) {
+  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--friction",
+                             "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ class comparison {
   void prepare_bins();
   void measure_statistics_at(double step, const std::vector<row*>& group);
   std::vector<gathered_statistics> references_at(double step);
+  void require_samples_in_range(std::span<const gathered_statistics> all) const;
 
   std::string quantity() const;
   std::vector<work_precision_row> work_precision_rows() const;

@@ -73,18 +73,21 @@ json comparison::document() const {
     rows.back()["kinetic_temperature"] = found.kinetic_temperature.mean;
     rows.back()["half_step_kinetic_temperature"] = found.half_step_kinetic_temperature.mean;
   }
-  return {{"system", system_->description()},
-          {"starts", system_->starts()},
-          {"metric", command_.metric},
-          {"observable", has_observable ? json(command_.observable) : json(nullptr)},
-          {"horizon", command_.horizon},
-          {"trajectories", command_.trajectories},
-          {"equal_cost", command_.equal_cost},
-          {"seed", common_.seed},
-          {"references", references_},
-          {"rows", rows},
-          {"fits", fits_},
-          {"warnings", warnings_}};
+  json result{{"system", system_->description()},
+              {"starts", system_->starts()},
+              {"metric", command_.metric},
+              {"observable", has_observable ? json(command_.observable) : json(nullptr)},
+              {"horizon", command_.horizon},
+              {"trajectories", command_.trajectories},
+              {"equal_cost", command_.equal_cost},
+              {"seed", common_.seed},
+              {"references", references_},
+              {"rows", rows},
+              {"fits", fits_},
+              {"warnings", warnings_}};
+  if (bins_) result["histogram"] = {{"low", bins_->low}, {"high", bins_->high}, {"bins", bins_->count}};
+  if (command_.metric == "acf") result["longest_lag"] = command_.longest_lag;
+  return result;
 }
 
 std::string comparison::readable() const {

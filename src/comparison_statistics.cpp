@@ -64,7 +64,10 @@ void comparison::require_sound_statistics() const {
     refuse("--bins must be at least 1 and at most 100000, got {}", command_.bins);
   }
   if (!command_.range.empty()) {
-    histogram({command_.range[0], command_.range[1], static_cast<int>(command_.bins)});
+    const equal_bins bins{command_.range[0], command_.range[1], static_cast<int>(command_.bins)};
+    if (!(bins.low < bins.high && std::isfinite(bins.width()))) {
+      refuse("--range takes LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
+    }
   }
   require_positive("--longest-lag", command_.longest_lag);
 }
@@ -101,6 +104,17 @@ void comparison::prepare_bins() {
   bins_ = equal_bins{range[0], range[1], static_cast<int>(command_.bins)};
 }
 
+/// Else all laws would be the same: none of them is seen.
+void comparison::require_samples_in_range(std::span<const gathered_statistics> all) const {
+  for (const auto& its : all) {
+    if (!its.histogram) return;
+    const auto inside = its.histogram->counts().subspan(1, static_cast<std::size_t>(bins_->count));
+    if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
+  }
+  refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins_->low,
+         bins_->high, command_.observable, all.front().mean.mean);
+}
+
 /// Their trajectories have numbers of their own, hence starts and noise of their own. The law does not depend
 /// on the step of those who are compared with it: one set serves all, at the smallest.
 std::vector<gathered_statistics> comparison::references_at(double step) {
@@ -117,8 +131,10 @@ std::vector<gathered_statistics> comparison::references_at(double step) {
                                                 shown_.counter(plan.trajectories.count)));
     if (all.back().lost.empty()) continue;
     const auto [trajectory, at] = all.back().lost.front();
-    refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step", trajectory, at);
+    refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step or another system",
+           trajectory, at);
   }
+  require_samples_in_range(all);
   references_.push_back({{"step_size", step},
                          {"reference", system_->reference_of_statistics(step, command_.learning.fine_step)},
                          {"ensembles", references},

@@ -11,11 +11,11 @@
 #include "build_info.hpp"
 #include "catalogue.hpp"
 #include "learning.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
+#include "stability.hpp"
 
 namespace nysalt::program {
 
@@ -137,6 +137,9 @@ std::string sums_of(const std::string& letters, const std::vector<double>& coeff
 }
 
 tabulated table_in(const json& document, const reader& read) {
+  if (document.contains("placement")) {
+    refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
+  }
   const std::string letters = read.text("letters");
   constexpr std::size_t most_letters = 200;  // finding the order takes their square: a second
   if (letters.size() > most_letters) {
@@ -168,7 +171,7 @@ tabulated table_in(const json& document, const reader& read) {
             read.file(), declared, found.quadratic_kinetic);
       }
     }
-    if (stability_limit(bare) == 0.0) {  // throws where there are too many letters to tell
+    if (limit_of(bare) == 0.0) {  // throws where there are too many letters to tell
       refuse("{}: it is not linearly stable at any small step", read.file());
     }
     const auto palindrome = [](const auto& x) { return std::equal(x.begin(), x.end(), x.rbegin()); };

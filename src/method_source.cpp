@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "catalogue.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
+#include "stability.hpp"
 
 namespace nysalt::program {
 
@@ -98,8 +98,9 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
       refuse("{} at step {}: {}", source.typed, step, problem.what());
     }
   }
-  refuse("{} must be learned first: nysalt learn --family {} --step {} --output scheme.json", source.typed,
-         *source.family, step);
+  const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
+  refuse("{} must be learned first: nysalt learn --family {}{} --step {} --output scheme.json", source.typed,
+         *source.family, where, step);
 }
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
@@ -112,7 +113,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
   if (!system.its_bath().acts()) {
     if (has_letters || source.where) {
       warnings.push_back(
-          fmt::format("{}: without a bath its letters O are left out (--friction gives one)", source.typed));
+          fmt::format("{}: without a bath (--friction) its letters O are left out", source.typed));
     }
     return method;
   }
@@ -126,7 +127,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
-  const auto windows = stability_windows(method);
+  const auto windows = stability_of(method);
   for (const auto& [low, high] : system.frequency_bands()) {
     if (is_stable(windows, step * low, step * high)) continue;
     warnings.push_back(

@@ -50,11 +50,16 @@ class model_reference {
   model_reference(const in_bath<S>& system, double frequency) : system_(&system), frequency_(frequency) {}
 
   /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
-  /// The error of srkn11b is rounding then, and that of BAOAB small.
+  /// The error of srkn11b is rounding then. BAOAB errs along a noisy path to first order in the step: where
+  /// nothing is stiff, a hundredth of what is learned (detail::objection) takes more than frequencies tell.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
     constexpr double angle = 5e-3;
-    return fine_step_within(step, asked, angle / fastest(), std::max(parts, 1));
+    constexpr double fine_steps_in_bath = 200.0;  // as in the paper, at its step .02
+    const double most = angle / fastest();
+    const bool is_noisy = system_->bath().acts();
+    return fine_step_within(step, asked, is_noisy ? std::min(most, step / fine_steps_in_bath) : most,
+                            std::max(parts, 1));
   }
 
   /// Calls f(reference).

@@ -174,8 +174,8 @@ BOOST_AUTO_TEST_CASE(checks_see_the_same_path_at_half_the_step) {
   const auto data = made({.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 1});
   BOOST_TEST(data.finer.size() == 15U);  // every seventh of 105
   for (const auto& [pair, finish] : data.finer) {
-    const auto finer = [&](const path_place& at) {
-      auto x = data.start[pair];
+    const auto finer = [&, first = pair](const path_place& at) {
+      auto x = data.start[first];
       fine_paths(fine).finer().advance(chain, x, 0.012, at, std::span<numbers>());
       return x;
     };

@@ -17,6 +17,60 @@ const tuned_method<nystrom> tuned(member<nystrom>({0.5, 0.41}), 0.02, describe(l
 
 }  // namespace
 
+namespace {
+
+/// Two drifts around a kick, whose word is told when the family is made: with the bath in the middle or not.
+struct told_at_run_time {
+  using word = run_time_word;
+  static constexpr std::string_view name = "told_at_run_time";
+  static constexpr int parameters = 1;
+  static constexpr std::array<std::string_view, 1> parameter_names{"a"};
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::array<parameter_range, 1> ranges() { return {{{0.0, 1.0, false}}}; }
+  static std::array<double, 1> start() { return {0.5}; }
+
+  run_time_word letters() const { return run_time_word(in_bath ? "ABOA" : "ABA"); }
+  template <Scalar C>
+  std::vector<C> coefficients(const std::array<C, 1>& a) const {
+    std::vector<C> all{a[0], C(1.0), C(1.0) - a[0]};
+    if (in_bath) all.insert(all.begin() + 2, C(1.0));
+    return all;
+  }
+
+  bool in_bath = false;
+};
+static_assert(Family<told_at_run_time> && Method<member<told_at_run_time>> &&
+              Method<tuned_method<told_at_run_time>>);
+
+struct without_letters : told_at_run_time {
+  void letters() const = delete;
+};
+static_assert(!Family<without_letters>);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_family_may_be_told_its_word_at_run_time) {
+  const member<told_at_run_time> plain({0.3});
+  const member<told_at_run_time> thermostatted({0.3}, told_at_run_time{true});
+  BOOST_TEST(plain.letters().letters() == "ABA");
+  BOOST_TEST(thermostatted.letters().letters() == "ABOA");
+  BOOST_TEST((thermostatted.coefficients() == std::vector{0.3, 1.0, 1.0, 1.0 - 0.3}));
+  BOOST_TEST(refuses<wrong>([] { member<told_at_run_time>({1.5}); }, {"told_at_run_time", "a must lie"}));
+  const tuned_method<told_at_run_time> learned(thermostatted, 0.02, describe(learned_for));
+  BOOST_TEST(learned.letters().letters() == "ABOA");
+  BOOST_TEST((learned.coefficients() == thermostatted.coefficients()));
+
+  // Its run is that of the same word as a type.
+  const pendulum system;
+  const phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.5)};
+  const auto ours = integrate(system, plain, 0.1, x, 20).finish;
+  const stepper<pendulum, word<drift, kick, drift>> by_type(system, {0.3, 1.0, 1.0 - 0.3}, 0.1);
+  const auto expected = integrate(by_type, x, 20).finish;
+  BOOST_TEST((ours.q == expected.q && ours.p == expected.p));
+}
+
 BOOST_AUTO_TEST_CASE(a_tuned_method_runs_where_it_was_learned) {
   BOOST_CHECK_NO_THROW(make_stepper(learned_for, tuned, 0.02));
   BOOST_CHECK_NO_THROW(make_stepper(learned_for, tuned, 0.1 * 0.2));  // as typed, not to the bit

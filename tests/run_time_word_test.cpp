@@ -24,6 +24,8 @@ void compare() {
     BOOST_TEST(as_data.letters() == W::letters());
     BOOST_TEST(as_data.length == W::length);
     BOOST_TEST(as_data.merges == W::merges);
+    BOOST_TEST(as_data.halves_meet == W::halves_meet);
+    BOOST_TEST(as_data.stochastic_letters == W::stochastic_letters);
     BOOST_TEST(as_data.first_in_loop() == W::first_in_loop);
     BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
     BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
@@ -50,8 +52,24 @@ BOOST_AUTO_TEST_CASE(also_of_odd_words) {
   compare<word<kick, drift, kick, kick>>();
 }
 
+BOOST_AUTO_TEST_CASE(also_of_words_with_letters_of_the_bath) {
+  using O = ornstein_uhlenbeck;
+  compare<word<kick, drift, O, drift, kick>>();
+  compare<word<O, kick, drift, kick, O>>();
+  compare<word<drift, kick, O, kick, drift>>();
+  compare<word<drift, kick, drift, kick, drift, O>>();
+  compare<word<O, drift, kick>>();
+  compare<word<O, drift>>();
+  compare<word<O, O, drift, O, kick, O, O>>();
+}
+
 BOOST_AUTO_TEST_CASE(letters_that_are_not_known_are_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(""); }, {"at least one letter"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B, O"}));
+  for (const char* bath_alone : {"O", "OO"}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{bath_alone}; },
+                                              {bath_alone, "needs a letter beside those of the bath"}));
+  }
   BOOST_TEST(!refuses<std::invalid_argument>([] { run_time_word("AB"); }, {}));
+  BOOST_TEST(!refuses<std::invalid_argument>([] { run_time_word("OA"); }, {}));
 }

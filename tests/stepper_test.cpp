@@ -24,34 +24,6 @@ struct euler_b {
 };
 static_assert(Method<euler_b>);
 
-/// Whether W trajectories side by side have the bits of each alone, run by the same stepper.
-template <int W, class Stepper>
-bool lanes_are_alone(const Stepper& fixed, draws& random, double reach, std::int64_t steps = 31) {
-  constexpr int N = Stepper::dimension;
-  std::vector<phase_point<double, N>> alone;
-  for (int lane = 0; lane < W; ++lane) alone.push_back(random.state(fixed.system(), reach));
-  auto together = alone[0].template cast<pack<double, W>>();
-  for (int lane = 0; lane < W; ++lane) {
-    for (Eigen::Index i = 0; i < together.size(); ++i) {
-      together.q[i].set(lane, alone[static_cast<std::size_t>(lane)].q[i]);
-      together.p[i].set(lane, alone[static_cast<std::size_t>(lane)].p[i]);
-    }
-  }
-  auto run = fixed.open(together);
-  fixed.advance(run, 30);
-  fixed.advance(run, 1);
-  const auto after = fixed.synchronous(run);
-  for (int lane = 0; lane < W; ++lane) {
-    auto single = fixed.open(alone[static_cast<std::size_t>(lane)]);
-    fixed.advance(single, steps);
-    const auto expected = fixed.synchronous(single);
-    for (Eigen::Index i = 0; i < after.size(); ++i) {
-      if (after.q[i][lane] != expected.q[i] || after.p[i][lane] != expected.p[i]) return false;
-    }
-  }
-  return true;
-}
-
 phase_point<double, 1> somewhere() { return {vector<double, 1>(0.7), vector<double, 1>(-0.4)}; }
 
 }  // namespace

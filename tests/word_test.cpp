@@ -4,11 +4,14 @@
 
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
+#include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/palindrome.hpp"
 
 using namespace nysalt;
 
 namespace {
+
+using O = ornstein_uhlenbeck;
 
 /// Like a kick, but not to be merged.
 struct lonely_kick : kick {
@@ -35,6 +38,14 @@ static_assert(costs<word<kick>>(1, 0, 1));                             // q neve
 static_assert(costs<word<kick, kick>>(1, 0, 1));                       // one force serves both
 static_assert(costs<word<lonely_kick, drift, lonely_kick>>(1, 1, 2));  // not merged, yet reused
 static_assert(costs<word<kick, kick, drift>>(0, 1, 1));
+
+// The bath reads no force and moves no q: costs are those of the word without it, but for the merging that
+// it prevents, where the force is reused instead.
+static_assert(costs<word<kick, drift, O, drift, kick>>(1, 1, 2));
+static_assert(costs<word<O, kick, drift, kick, O>>(1, 1, 2));
+static_assert(costs<word<drift, kick, O, kick, drift>>(0, 1, 1));
+static_assert(costs<word<kick, drift, kick, O>>(1, 1, 2));
+static_assert(costs<word<kick, O, kick, drift>>(0, 1, 1));
 
 // Where the force is evaluated, and whether it must be stored for later letters.
 constexpr auto none = evaluation::none;
@@ -67,7 +78,22 @@ static_assert(evaluates<word<drift, kick, lonely_kick>>(std::array{none, shared,
                                                         std::array{none, shared, none}));
 static_assert(evaluates<word<kick>>(std::array{alone}, std::array{none}, std::array{none}));
 
+// Half kicks around a bath share one force; those around a drift and a bath leave it for the next step.
+static_assert(evaluates<word<drift, kick, O, kick, drift>>(std::array{none, shared, none, none, none},
+                                                           std::array{none, shared, none, none, none},
+                                                           std::array{none, shared, none, none, none}));
+static_assert(evaluates<word<O, kick, drift, kick, O>>(std::array{none, alone, none, alone, none},
+                                                       std::array{none, none, none, shared, none},
+                                                       std::array{none, none, none, shared, none}));
+
 static_assert(word<kick, drift, kick>::merges);
+static_assert(!word<O, drift, O>::merges && word<O, drift, O>::halves_meet);
+static_assert(!word<O, drift>::halves_meet && !word<drift, O>::halves_meet);
+static_assert(!word<kick, drift, O, drift, kick>::halves_meet && word<kick, drift, O, drift, kick>::merges);
+static_assert(word<O, drift, O, kick, O>::stochastic_letters == 3);
+static_assert(word<O, drift, O, kick, O>::stochastic_number(0) == 0 &&
+              word<O, drift, O, kick, O>::stochastic_number(2) == 1 &&
+              word<O, drift, O, kick, O>::stochastic_number(4) == 2);
 static_assert(!word<kick, drift>::merges);
 static_assert(!word<drift>::merges);
 static_assert(!word<lonely_kick, drift, lonely_kick>::merges);

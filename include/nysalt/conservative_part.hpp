@@ -60,10 +60,12 @@ std::array<C, conservative_word<W>::length> conservative_part(const W&, const st
   }
   return result;
 }
+/// Throws std::invalid_argument unless there is a coefficient for each letter.
 template <class C>
 std::vector<C> conservative_part(const run_time_word& w, const std::vector<C>& all) {
+  w.require_one_for_each_letter(all);
   std::vector<C> result;
-  for (std::size_t i = 0; i < all.size() && i < w.length; ++i) {
+  for (std::size_t i = 0; i < w.length; ++i) {
     if (w.letters()[i] != ornstein_uhlenbeck::letter) result.push_back(all[i]);
   }
   return result;

@@ -56,16 +56,21 @@ struct thermostatted_letters<placement::middle, word<L...>, std::index_sequence<
                 "nysalt: a word with an even number of letters has no central letter to split");
   static constexpr std::size_t central = W::length / 2;
   template <std::size_t K>
-  using letter = typename W::template letter<(K <= central ? K : K - 2)>;
+  using letter = typename W::template letter<(K <= central + 1 ? std::min(K, central) : K - 2)>;
   using type = word<std::conditional_t<I == central + 1, ornstein_uhlenbeck, letter<I>>...>;
+};
+
+template <TypeLevelWord W, placement P>
+struct thermostatted_type {
+  static_assert(W::stochastic_letters == 0, "nysalt: this word has its letters O already");
+  using type = typename thermostatted_letters<P, W, std::make_index_sequence<W::length + 2>>::type;
 };
 
 }  // namespace detail
 
 /// The word of type W with its letters O.
 template <TypeLevelWord W, placement P>
-using thermostatted_word =
-    typename detail::thermostatted_letters<P, W, std::make_index_sequence<W::length + 2>>::type;
+using thermostatted_word = typename detail::thermostatted_type<W, P>::type;
 
 /// Coefficients with those of the letters O: a container of any size, filled from one that is shorter.
 template <class Result, class Coefficients>

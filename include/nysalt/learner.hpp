@@ -64,6 +64,13 @@ std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, 
   return result;
 }
 
+/// Whether the first trajectory is the same. In a bath other noise makes another of the same start.
+template <int N>
+bool begin_alike(const flow_map_data<N>& a, const flow_map_data<N>& b) {
+  const bool other_noise = a.noise_parts > 0 && a.noise_parts == b.noise_parts && a.noise[0] != b.noise[0];
+  return a.start[0].q == b.start[0].q && a.start[0].p == b.start[0].p && !other_noise;
+}
+
 /// The root mean square error of the reference, where it was checked.
 template <int N>
 double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure) {
@@ -149,8 +156,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
   fit.step = data.step;
   fit.seed = data.seed;
   fit.held_out_seed = held_out.seed;
-  fit.held_out_is_new =
-      data.start.front().q != held_out.start.front().q || data.start.front().p != held_out.start.front().p;
+  fit.held_out_is_new = !detail::begin_alike(data, held_out);
   fit.stability_checked = HasFrequencyBands<S>;
   fit.coordinates_used = measure.residuals();
   for (std::size_t k = 0; k < theta.size(); ++k) {

@@ -20,12 +20,14 @@ struct noise_place {
   int flow = 0;
 };
 
-/// normals(place, xi)   for xi of the states that are stepped: xi_i become the standard normal numbers of
-/// that place, a pure function of it draws_freely         true: the numbers are whatever comes; then the
-/// halves of a letter O in which one step
-///                      ends and the next begins become one, and
-/// halving(place, zeta) are further ones, independent of the first, from which the halves are told apart
-///                      when somebody looks. false: they belong to a path, which has its own halves
+// clang-format off
+/// normals(place, xi)      for xi of the states that are stepped: xi_i become the standard normal numbers of
+///                         that place, a pure function of it
+/// draws_freely            true: the numbers are whatever comes; then the halves of a letter O in which one
+///                         step ends and the next begins become one, and
+/// halving(place, zeta)    are further ones, independent of the first, from which the halves are told apart
+///                         when somebody looks. false: they belong to a path, which has its own halves
+// clang-format on
 template <class N>
 concept NoiseSource = std::copyable<N> && requires {
   { N::draws_freely } -> std::convertible_to<bool>;

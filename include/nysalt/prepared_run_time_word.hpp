@@ -2,11 +2,8 @@
 // A word with its coefficients and the step folded in, letters as data.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
 #include "nysalt/prepared_word.hpp"
@@ -21,10 +18,7 @@ class prepared_word<run_time_word, C> {
   /// Throws std::invalid_argument unless there is a coefficient for each letter.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const bath* its)
       : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.evaluations_to_open > 0) {
-    if (c.size() != w.length) {
-      throw std::invalid_argument(fmt::format("the word {} has {} letters, but {} coefficients are given",
-                                              w.letters(), w.length, c.size()));
-    }
+    w.require_one_for_each_letter(c);
     int number = 0;
     for (std::size_t i = 0; i < w.length; ++i) {
       plain_.push_back(prepare(w, i, c[i], h, its, w.plan().in_step[i]));

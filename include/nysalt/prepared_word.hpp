@@ -14,11 +14,14 @@
 
 namespace nysalt {
 
-/// open(system, x)                from a synchronous state to an open one: force and first letter where
-/// needed advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next
-/// are one close(system, x, cursor)       an open state becomes synchronous step(system, x, cursor) one plain
-/// step, letter by letter, from q and p alone in_loop()                      itself, as a loop should hold it
+// clang-format off
+/// open(system, x)                from a synchronous state to an open one: force and first letter where needed
+/// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
+/// close(system, x, cursor)       an open state becomes synchronous
+/// step(system, x, cursor)        one plain step, letter by letter, from q and p alone
+/// in_loop()                      itself, as a loop should hold it
 /// The cursor says where the run is in its noise, and goes on with it.
+// clang-format on
 ///
 /// An open run is ahead of the synchronous state by a first letter that merges with the last. Where both are
 /// of the bath it is behind instead: the letter O that meets the next step's is still to come.

@@ -73,6 +73,13 @@ class run_time_word {
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
 
+  /// Throws std::invalid_argument otherwise.
+  void require_one_for_each_letter(const auto& coefficients) const {
+    if (coefficients.size() == length) return;
+    throw std::invalid_argument(fmt::format("the word {} has {} letters, but {} coefficients are given",
+                                            letters_, length, coefficients.size()));
+  }
+
   const std::string& letters() const { return letters_; }
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }

@@ -5,7 +5,7 @@
 #include "../catalogue.hpp"
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
+#include "../stability.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/report/table.hpp"
 
@@ -45,7 +45,7 @@ json methods_json() {
                    {"letters", method.letters().letters()},
                    {"order", method.order},
                    {"evaluations_per_step", evaluations},
-                   {"limit_per_evaluation", stability_limit(method) / evaluations},
+                   {"limit_per_evaluation", limit_of(method) / evaluations},
                    {"source", source}});
   }
   all.push_back({{"name", adaptive_method},

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/derivatives/linear_stability.hpp"
-
 #include "../catalogue.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
+#include "../stability.hpp"
 
 namespace nysalt::program {
 
@@ -50,7 +49,7 @@ int stability(const stability_command& command, const common_settings& common) {
   const auto system = command.system ? make_system(*command.system) : nullptr;
   std::vector<std::string> warnings;
   const auto [name, method] = subject_of(command, system.get(), common.force, warnings);
-  const auto windows = stability_windows(method);
+  const auto windows = stability_of(method);
   const bool from_zero = !windows.empty() && windows.front().low == 0.0;
   const double limit = from_zero ? windows.front().high : 0.0;
   const int evaluations = method.letters().evaluations_per_step;

@@ -7,6 +7,19 @@
 
 namespace nysalt::test {
 
+/// Calls f(system, method, step, x) for each system of the list.
+template <class List>
+void try_on_method(const auto& method, auto&& f) {
+  draws random;
+  for_each<List>([&]<class Model>() {
+    const auto system = Model::make();
+    const auto x = random.state(system, Model::reach);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)) {
+      f(system, method, gentle_step(shears_at(system, x)), x);
+    }
+  });
+}
+
 /// Calls f(system, method, step, x) for each system of the list that the method fits.
 template <Method M, class List>
 void try_on(auto&& f) {

@@ -107,6 +107,38 @@ BOOST_AUTO_TEST_CASE(halves_are_standard_normal_and_independent) {
   }
 }
 
+// At the beginning of many trajectories, where steps of all levels have the same small numbers.
+BOOST_AUTO_TEST_CASE(neighbours_of_all_levels_are_independent) {
+  constexpr std::uint64_t count = 4000;
+  const finer_noise fine(7, 0.7, 3);
+  std::array<sample, 24> x;
+  for (std::uint64_t m = 0; m < count; ++m) {
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      x[n].push_back(at(fine, static_cast<std::int64_t>(n), m)[0]);
+    }
+  }
+  double worst = 0.0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    worst = std::max(worst, deviation_off(x[n], 1.0));
+    for (std::size_t k = 0; k < n; ++k) worst = std::max(worst, off(x[n], x[k]));
+  }
+  BOOST_TEST(worst <= 4.5);  // 300 of them: passed with a probability of .998
+  for (std::size_t k = 0; k < count; ++k) x[17][k] += 0.1 * x[3][k];
+  BOOST_TEST(off(x[17], x[3]) > 4.5);
+}
+
+BOOST_AUTO_TEST_CASE(what_halves_is_no_noise_of_a_run) {
+  const finer_noise halves(7, 0.0, 1);
+  const auto halving = [&](std::int64_t step) -> numbers {  // (xi_1 - xi_2)/sqrt 2 without friction
+    return (at(halves, 2 * step) - at(halves, 2 * step + 1)) / std::sqrt(2.0);
+  };
+  for (int letter = 0; letter < 4; ++letter) {
+    numbers xi;
+    counter_noise(7).normals(noise_place{0, 5, letter}, xi);
+    BOOST_TEST((xi - halving(5)).norm() > 1e-3);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(levels_share_the_path_and_nothing_else) {
   constexpr std::int64_t count = 20'000;
   sample whole, first, second, of_the_next;

@@ -30,8 +30,8 @@ void check(const char* name, const auto& f, double x, double value, double slope
 
 BOOST_AUTO_TEST_CASE(elementary_functions_have_their_derivatives) {
   draws random;
-  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::pow, std::sin, std::sinh,
-      std::sqrt, std::tan, std::tanh;
+  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::expm1, std::log, std::pow, std::sin,
+      std::sinh, std::sqrt, std::tan, std::tanh;
   for (int n = 0; n < 50; ++n) {
     const double x = random.uniform(0.1, 1.4);
     const double y = random.uniform(-1.4, 1.4);
@@ -43,6 +43,10 @@ BOOST_AUTO_TEST_CASE(elementary_functions_have_their_derivatives) {
         "pow", [](const auto& a) { return pow(a, 2.5); }, x, std::pow(x, 2.5), 2.5 * std::pow(x, 1.5));
     check(
         "exp", [](const auto& a) { return exp(a); }, y, std::exp(y), std::exp(y));
+    check(
+        "expm1", [](const auto& a) { return expm1(a); }, y, std::expm1(y), std::exp(y));
+    check(
+        "expm1", [](const auto& a) { return expm1(a); }, 1e-12 * y, std::expm1(1e-12 * y), 1.0 + 1e-12 * y);
     check(
         "sin", [](const auto& a) { return sin(a); }, y, std::sin(y), std::cos(y));
     check(

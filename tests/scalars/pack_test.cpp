@@ -85,8 +85,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(arithmetic_has_the_bits_of_double, Lanes, all_widt
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(elementary_functions_have_the_bits_of_double, Lanes, all_widths) {
   constexpr int W = Lanes::value;
-  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::pow, std::sin, std::sinh;
-  using std::sqrt, std::tan, std::tanh;
+  using std::abs, std::atan, std::cos, std::cosh, std::exp, std::expm1, std::log, std::pow, std::sin;
+  using std::sinh, std::sqrt, std::tan, std::tanh;
   draws random;
   const auto a = drawn<W>(random, false);
   const auto odd = drawn<W>(random);
@@ -97,6 +97,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(elementary_functions_have_the_bits_of_double, Lane
   agree([](const auto& x) { return sqrt(x); });
   agree([](const auto& x) { return abs(x); });
   agree([](const auto& x) { return exp(x); });
+  agree([](const auto& x) { return expm1(x); });
   agree([](const auto& x) { return log(x * x); });
   agree([](const auto& x) { return sin(x); });
   agree([](const auto& x) { return cos(x); });

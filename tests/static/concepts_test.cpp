@@ -9,11 +9,13 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
 #include "nysalt/scalars/series.hpp"
+#include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt::test {
 namespace {
@@ -68,6 +70,31 @@ struct mass_by_reference : pendulum {
 };
 static_assert(HasInverseMass<mass_by_reference>);  // not silently a unit mass
 
+// Baths: a member that says what it is, whatever it returns it by.
+struct bath_by_value : pendulum {
+  nysalt::bath bath() const { return nysalt::bath::of_sigma(0.1, 0.2); }
+};
+struct bath_not_const : pendulum {
+  nysalt::bath bath() { return nysalt::bath::of_sigma(0.1, 0.2); }
+};
+struct bath_of_another_type : pendulum {
+  double bath() const { return 0.1; }
+};
+template <class S>
+concept CanBeInBath = requires {
+  typename in_bath<S>;
+};
+static_assert(HasBath<bath_by_value> && HasBath<in_bath<pendulum>> && !HasBath<pendulum>);
+static_assert(!HasBath<bath_not_const> && !HasBath<bath_of_another_type> && !HasBath<bath>);
+static_assert(CanBeInBath<pendulum> && CanBeInBath<black_box> && CanBeInBath<linear_chain>);
+static_assert(!CanBeInBath<relativistic> && !CanBeInBath<relativistic_with_velocity>);
+static_assert(!CanBeInBath<in_bath<pendulum>> && !CanBeInBath<bath_by_value>);  // one bath is enough
+
+// Sources of noise.
+struct says_not_how_it_draws {};
+static_assert(NoiseSource<counter_noise> && NoiseSource<no_noise>);
+static_assert(!NoiseSource<says_not_how_it_draws> && !NoiseSource<double>);
+
 // Letters and words.
 struct not_prepared {
   static constexpr char letter = 'N';
@@ -76,6 +103,7 @@ struct not_applied : kick {
   static void apply(auto&&...) = delete;
 };
 static_assert(Flow<kick> && Flow<drift> && !Flow<not_prepared> && !Flow<not_applied> && !Flow<int>);
+static_assert(Flow<ornstein_uhlenbeck> && StochasticFlow<ornstein_uhlenbeck> && !StochasticFlow<kick>);
 static_assert(Word<verlet::word> && !Word<kick> && !Word<verlet>);
 
 // Families and methods.

@@ -3,14 +3,9 @@
 // number of threads: the hashes below are those of all of them.
 #include <boost/test/unit_test.hpp>
 
-#include <bit>
-#include <cstdint>
-#include <vector>
-
 #include "../support/systems.hpp"
-#include "nysalt/ensemble_loop.hpp"
+#include "../support/trajectory_hash.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/lockstep.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -20,55 +15,6 @@
 
 using namespace nysalt;
 using namespace nysalt::test;
-
-namespace {
-
-/// Coordinates in -1/4..1/4 that no generator and no library function has a part in.
-template <System S>
-phase_point<double, S::dimension> start_of(const S& system, std::int64_t m) {
-  phase_point<double, S::dimension> x{make_vector<double>(system), make_vector<double>(system)};
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const auto residue = [](std::int64_t k) { return static_cast<double>(k % 101) / 202.0 - 0.25; };
-    x.q[i] = residue(37 * m + 11 * i + 5);
-    x.p[i] = residue(53 * m + 29 * i + 17);
-  }
-  return x;
-}
-
-/// FNV-1a over the bits of all finishes, in the order of the trajectories.
-template <class T, System S, Method M>
-std::uint64_t hash(const S& system, const M& method, double step, int threads) {
-  constexpr std::int64_t count = 37;
-  const auto stepper = make_stepper(system, method, step);
-  std::vector<phase_point<double, S::dimension>> finishes(count);
-  for_each_block(count, lanes_in<T>, threads, [&](std::int64_t first, int n) {
-    const auto start = gather<T, S::dimension>(n, [&](int k) { return start_of(system, first + k); });
-    lockstep<decltype(make_stepper(system, method, step)), T> all(stepper, start, n);
-    all.go_on(1000);
-    const auto finish = all.synchronous();
-    for (int k = 0; k < n; ++k) finishes[static_cast<std::size_t>(first + k)] = lane(finish, k);
-  });
-  std::uint64_t result = 0xcbf29ce484222325U;  // FNV's offset basis and prime for 64 bits
-  const auto add = [&](double x) { result = (result ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U; };
-  for (const auto& x : finishes) {
-    for (const double q : x.q) add(q);
-    for (const double p : x.p) add(p);
-  }
-  return result;
-}
-
-template <System S, Method M>
-void must_have(std::uint64_t expected, const S& system, const M& method, double step) {
-  BOOST_TEST_CONTEXT(describe(system) << ", " << method.name()) {
-    BOOST_TEST((hash<double>(system, method, step, 1)) == expected);
-    BOOST_TEST((hash<pack<double, 1>>(system, method, step, 1)) == expected);
-    BOOST_TEST((hash<pack<double, 8>>(system, method, step, 2)) == expected);
-    BOOST_TEST((hash<pack<double, 16>>(system, method, step, 1)) == expected);
-    BOOST_TEST((hash<pack<double, 16>>(system, method, step, 2)) == expected);
-  }
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(the_chain) {
   const fpu_chain<3> chain(50.0);
@@ -89,6 +35,8 @@ BOOST_AUTO_TEST_CASE(other_systems) {
 
 // One bit of one number is enough to be seen.
 BOOST_AUTO_TEST_CASE(the_hash_sees_the_last_bit) {
-  const auto of = [](double omega) { return hash<double>(fpu_chain<3>(omega), verlet(), 0.01, 1); };
+  const auto of = [](double omega) {
+    return trajectory_hash<double>(fpu_chain<3>(omega), verlet(), 0.01, 1);
+  };
   BOOST_TEST(of(50.0) != of(std::nextafter(50.0, 51.0)));
 }

@@ -112,8 +112,7 @@ class compared_block {
   noise_type noise_of(const M& method, const shared_noise& noise) const {
     if constexpr (PathReference<R, S>) {
       if (noise.parts == 0) return {path_, {}, step_};
-      const auto intervals = intervals_of_noise(word_of(method).letters(), method.coefficients());
-      return {path_, intervals.in_parts(noise.parts), step_};
+      return {path_, intervals_of_noise(word_of(method).letters(), method.coefficients()), step_};
     } else {
       return {};
     }

@@ -100,6 +100,11 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
   const std::span<const M> all(std::ranges::data(methods), count);
   require_room(options, count, measure.width);
   const int parts = parts_of_noise(system, all);
+  if (parts > 0 && !PathReference<R, S>) {
+    throw std::invalid_argument(
+        fmt::format("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
+                    reference.description()));
+  }
   for (const M& method : all) make_stepper(system, method, options.step, counter_noise(0));  // refuses early
 
   const auto trajectories = static_cast<std::size_t>(options.trajectories);

@@ -24,7 +24,8 @@ class counter_noise {
   }
   template <class T, int N>
   void halving(const noise_place& at, vector<T, N>& zeta) const {
-    draw(noise_purpose::bath_halves, at, zeta);
+    const bool is_burn_in = purpose_ == noise_purpose::burn_in;
+    draw(is_burn_in ? noise_purpose::burn_in_halves : noise_purpose::bath_halves, at, zeta);
   }
 
  private:

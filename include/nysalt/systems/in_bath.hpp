@@ -12,7 +12,7 @@ namespace nysalt {
 /// A Hamiltonian system in a bath: a Langevin system, dq = M^{-1} p dt,
 /// dp = force(q) dt - gamma p dt + sigma M^{1/2} dW. All else is the system's own.
 template <NystromSystem S>
-  requires(!std::is_final_v<S>)
+  requires(!std::is_final_v<S> && !HasBath<S>)
 class in_bath : public S {
  public:
   in_bath(S system, nysalt::bath its_bath) : S(std::move(system)), bath_(std::move(its_bath)) {}

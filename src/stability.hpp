@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// Linear stability of methods that are data, compiled once for all commands.
+#pragma once
+
+#include <vector>
+
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/methods/tabulated.hpp"
+
+namespace nysalt::program {
+
+std::vector<stability_window> stability_of(const tabulated& method);
+double limit_of(const tabulated& method);
+
+}  // namespace nysalt::program

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a trajectory costs is told from its first two steps: what it is when all are counted.
+#include "nysalt/analysis/evaluations.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+using galaxy = in_bath<henon_heiles>;
+const phase_point<double, 2> start{{0.1, 0.05}, {-0.05, 0.1}};
+const galaxy warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
+const galaxy damped(henon_heiles(), bath::of_sigma(0.5, 0.0));
+const galaxy at_rest(henon_heiles(), bath::of_sigma(0.0, 0.0));
+
+std::int64_t counted_through(const auto& system, const auto& method, std::int64_t steps) {
+  const counted watched(system);
+  const auto stepper = make_stepper(watched, method, 0.1, counter_noise(0));
+  auto run = stepper.open(start);
+  stepper.advance(run, steps);
+  stepper.synchronous(run);  // costs nothing
+  return watched.evaluations;
+}
+
+void check(const auto& system, const auto& method, std::int64_t to_open, std::int64_t of_a_step) {
+  for (const std::int64_t steps : {0, 1, 2, 3, 10}) {
+    BOOST_TEST_CONTEXT(method.name() << " over " << steps << " steps of " << describe(system)) {
+      const auto told = evaluations_of_run(system, method, 0.1, steps, start);
+      BOOST_TEST(told == counted_through(system, method, steps));
+      BOOST_TEST(told == to_open + steps * of_a_step);
+      BOOST_TEST(evaluations_of_run(system, tabulated(method), 0.1, steps, start) == told);
+    }
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(letters_of_the_bath_cost_no_force) {
+  for (const galaxy& system : {warm, damped, at_rest}) {
+    check(system, baoab(), 1, 1);
+    check(system, baoab_2x(), 1, 2);
+    check(system, obabo(), 1, 1);
+    check(system, thermostat<placement::end>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::symmetric>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::middle>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::symmetric>(verlet()), 1, 1);
+  }
+}
+
+// The two kicks of A B O B A are at one q, with a letter between them: the force is asked for once.
+BOOST_AUTO_TEST_CASE(a_force_is_used_again_beyond_a_letter_of_the_bath) {
+  for (const galaxy& system : {warm, damped, at_rest}) check(system, aboba(), 0, 1);
+}
+
+BOOST_AUTO_TEST_CASE(steps_are_not_taken_to_be_counted) {
+  BOOST_TEST(evaluations_of_run(warm, baoab(), 0.1, 1'000'000'000'000, start) == 1'000'000'000'001);
+}

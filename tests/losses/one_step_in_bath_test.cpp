@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSL-1.0
+// The loss of a family in a bath: a step with the noise that the data hold.
+#include <boost/test/unit_test.hpp>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/steps_in_bath.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/one_step.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+using galaxy = in_bath<henon_heiles>;
+template <placement P>
+using family = thermostatted_family<nystrom, P>;
+using symmetric = family<placement::symmetric>;
+
+constexpr double h = 0.4;
+constexpr parameters_of<nystrom> maker{0.45, 0.38};
+constexpr parameters_of<nystrom> elsewhere{0.55, 0.42};
+const galaxy warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
+const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
+
+template <Family F>
+flow_map_data<2> made(int parts, std::int64_t trajectories = 20) {
+  return made_by_steps(warm, starts, member<F>(maker),
+                       {.step = h, .trajectories = trajectories, .parts = parts});
+}
+
+/// The same data in fewer parts.
+flow_map_data<2> in_parts(flow_map_data<2> data, int parts) {
+  const int together = data.noise_parts / parts;
+  const coarse_graining coarse(warm.bath().friction() * h / data.noise_parts);
+  std::vector<vector<double, 2>> noise;
+  for (std::size_t first = 0; first < data.noise.size(); first += static_cast<std::size_t>(together)) {
+    coarse.over(std::span<const vector<double, 2>>(data.noise).subspan(first, std::size_t(together)),
+                noise.emplace_back());
+  }
+  data.noise = noise;
+  data.noise_parts = parts;
+  return data;
+}
+
+template <Family F, Scalar R = scalar_of_passes<F, galaxy>>
+double loss_of(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, int threads = 1) {
+  const metric<2> measure(warm, data, coordinates::qp);
+  return loss_value(one_step<F, galaxy, R>(warm, data, measure, threads), theta);
+}
+
+/// The formula, pair by pair over double, with letters O of which each is told its noise.
+template <Family F>
+double loss_by_hand(const flow_map_data<2>& data, const parameters_of<nystrom>& theta) {
+  const auto c = F::coefficients(theta);
+  const std::string letters = F::word::letters();
+  const bath& its = warm.bath();
+  vector<double, 2> of_q(0.0, 0.0), of_p(0.0, 0.0), sigma_q(0.0, 0.0), sigma_p(0.0, 0.0);
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    auto x = data.start[n];
+    auto next = n * static_cast<std::size_t>(data.noise_parts);
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      vector<double, 2> f;
+      force<double>(warm, x.q, f);
+      if (letters[i] == 'A') x.q += x.p * (c[i] * h);
+      if (letters[i] == 'B') x.p += f * (c[i] * h);
+      if (letters[i] == 'O') {
+        x.p = x.p * its.decay(c[i] * h) + data.noise[next++] * its.deviation(c[i] * h);
+      }
+    }
+    of_q += (x.q - data.finish[n].q).cwiseAbs2();
+    of_p += (x.p - data.finish[n].p).cwiseAbs2();
+    sigma_q += (data.start[n].q - data.finish[n].q).cwiseAbs2();
+    sigma_p += (data.start[n].p - data.finish[n].p).cwiseAbs2();
+  }
+  return of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum();
+}
+
+template <Family F>
+void check_formula(int parts) {
+  const auto data = made<F>(parts);
+  // Some thirty operations a pair, and 200 pairs added.
+  BOOST_TEST(loss_of<F>(data, elsewhere) == loss_by_hand<F>(data, elsewhere),
+             boost::test_tools::tolerance(200 * 30 * eps));
+  // Who made the data has no loss but that of rounding; increments are .03 or more.
+  const double rounding = 30.0 * eps / 0.03;
+  BOOST_TEST(loss_of<F>(data, maker) <= 4.0 * rounding * rounding);
+  BOOST_TEST(loss_of<F>(data, elsewhere) > 1e-8);
+  // With the noise of other pairs the loss is some half of the increments.
+  auto shuffled = data;
+  std::rotate(shuffled.noise.begin(), shuffled.noise.begin() + parts, shuffled.noise.end());
+  BOOST_TEST(loss_of<F>(shuffled, maker) > 0.1);
+}
+
+/// Trajectories of different lengths, among them empty ones and one longer than what a thread takes at once.
+flow_map_data<2> uneven_data() {
+  auto data = made<symmetric>(2, 350);
+  data.first_of = {0, 0, 1, 3, 3, 20, 37, 60, 61};
+  while (data.first_of.back() < 1700) {
+    data.first_of.push_back(data.first_of.back() + data.first_of.size() % 31);
+  }
+  data.first_of.push_back(data.pairs());
+  return data;
+}
+
+template <Scalar R>
+std::vector<Eigen::VectorXd> gradients(const flow_map_data<2>& data, int threads) {
+  const metric<2> measure(warm, data, coordinates::qp);
+  return trajectory_gradients(one_step<symmetric, galaxy, R>(warm, data, measure, threads), elsewhere);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_loss_is_that_of_a_step_with_its_noise) {
+  check_formula<family<placement::end>>(1);
+  check_formula<family<placement::middle>>(1);
+  check_formula<symmetric>(2);
+}
+
+BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
+  const auto sixths = made<symmetric>(6);
+  for (const auto& theta : {maker, elsewhere}) {
+    const double expected = loss_of<symmetric>(sixths, theta);
+    // Noise differs by rounding: so do residuals, which at the minimum are nothing else.
+    const double rounding = 1e4 * eps * expected + std::pow(100.0 * eps, 2);
+    BOOST_TEST(std::abs(loss_of<symmetric>(in_parts(sixths, 2), theta) - expected) <= rounding);
+  }
+  const auto quarters = made<family<placement::end>>(4);
+  BOOST_TEST(loss_of<family<placement::end>>(quarters, maker) <= 1e-24);
+  BOOST_TEST(loss_of<family<placement::end>>(in_parts(quarters, 2), maker) <= 1e-24);
+  BOOST_TEST(loss_of<family<placement::middle>>(quarters, maker) > 1e-3);  // it is another method
+}
+
+BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
+  const auto data = uneven_data();
+  const auto expected = gradients<double>(data, 1);
+  for (const int threads : {1, 2, 3}) {
+    BOOST_TEST((gradients<double>(data, threads) == expected));
+    BOOST_TEST((gradients<pack<double, 1>>(data, threads) == expected));
+    BOOST_TEST((gradients<pack<double, 8>>(data, threads) == expected));
+    BOOST_TEST((gradients<pack<double, 16>>(data, threads) == expected));
+  }
+  auto other = data;
+  other.noise.back()[1] += 1e-12;
+  BOOST_TEST((gradients<double>(other, 1) != expected));
+}
+
+BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
+  const auto data = made<symmetric>(2);
+  const metric<2> measure(warm, data, coordinates::qp);
+  const one_step<symmetric, galaxy> loss(warm, data, measure);
+  const Eigen::VectorXd ours = squares_at(loss, elsewhere).gradient();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto difference = [&](double s) {
+      auto ahead = elsewhere;
+      auto behind = elsewhere;
+      ahead[k] += s;
+      behind[k] -= s;
+      return (loss_value(loss, ahead) - loss_value(loss, behind)) / (2.0 * s);
+    };
+    // Truncation falls to a quarter with s, so it is a third of the change; each of 800 squares rounds.
+    const double s = 1e-4;
+    const double error = std::abs(difference(s) - difference(2.0 * s)) / 3.0;
+    const double rounding = 800.0 * eps * loss_value(loss, elsewhere) / s;
+    const double off = std::abs(ours[static_cast<Eigen::Index>(k)] - difference(s));
+    BOOST_TEST(off <= 2.0 * error + rounding);
+    BOOST_TEST(off <= 1e-5 * ours.norm());  // which says something
+  }
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_are_those_of_plain_steps) {
+  const auto data = made<symmetric>(2);
+  const metric<2> measure(warm, data, coordinates::qp);
+  const one_step<symmetric, galaxy> loss(warm, data, measure);
+  loss_value(loss, maker);
+  BOOST_TEST(loss.evaluations() == 2 * 200);
+}
+
+BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
+  const auto refused = [](const flow_map_data<2>& data, auto of, std::initializer_list<std::string_view> w) {
+    return refuses<wrong>([&] { loss_of<decltype(of)>(data, maker); }, w);
+  };
+  auto without = made<symmetric>(2);
+  without.noise.clear();
+  without.noise_parts = 0;
+  BOOST_TEST(refused(without, symmetric(), {"in 0 parts", "OABABAO needs it in 2", "noise_parts = 2"}));
+  BOOST_TEST(refused(without, family<placement::end>(), {"in 0 parts", "ABABAO needs it in 1"}));
+  const auto thirds = made<family<placement::end>>(3);
+  BOOST_TEST(refused(thirds, symmetric(), {"in 3 parts", "noise_parts = 2"}));
+  BOOST_TEST(!refused(thirds, family<placement::middle>(), {}));
+  BOOST_TEST(refused(made<family<placement::end>>(1), symmetric(), {"in 1 parts", "noise_parts = 2"}));
+  BOOST_TEST(refused(made<symmetric>(2), nystrom(), {"no letter O"}));
+}
+
+BOOST_AUTO_TEST_CASE(without_sigma_no_noise_is_needed) {
+  for (const double friction : {0.0, 0.7}) {
+    const galaxy quiet(henon_heiles(), bath::of_sigma(friction, 0.0));
+    auto data = made_by_steps(quiet, starts, member<symmetric>(maker), {.step = h});
+    const metric<2> measure(quiet, data, coordinates::qp);
+    const auto loss = [&] { return loss_value(one_step<symmetric, galaxy>(quiet, data, measure), maker); };
+    BOOST_TEST(loss() <= 1e-24);
+    data.noise_parts = 0;
+    data.noise.clear();
+    BOOST_TEST(loss() <= 1e-24);
+    data.finish[0].p[0] += 1e-3;
+    BOOST_TEST(loss() > 1e-9);
+  }
+}

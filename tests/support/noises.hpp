@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+// Sources of noise that only tests need.
+#pragma once
+
+#include <vector>
+
+#include "nysalt/lanes.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+
+namespace nysalt::test {
+
+/// Fresh noise, also for states that carry derivatives: it has none. If it does not draw freely it stands for
+/// a path, with numbers of its own for each letter.
+template <bool DrawsFreely>
+class lifted_noise {
+ public:
+  static constexpr bool draws_freely = DrawsFreely;
+  explicit lifted_noise(std::uint64_t seed) : source_(seed) {}
+
+  template <class T, int N>
+  void normals(const noise_place& at, vector<T, N>& xi) const {
+    source_.normals(at, xi);
+  }
+  template <class T, int N>
+  void halving(const noise_place& at, vector<T, N>& zeta) const {
+    source_.halving(at, zeta);
+  }
+  template <int K, int N>
+  void normals(const noise_place& at, vector<dual<double, K>, N>& xi) const {
+    vector<double, N> numbers(xi.size());
+    source_.normals(at, numbers);
+    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = dual<double, K>(numbers[i]);
+  }
+  template <int K, int N>
+  void halving(const noise_place& at, vector<dual<double, K>, N>& zeta) const {
+    vector<double, N> numbers(zeta.size());
+    source_.halving(at, numbers);
+    for (Eigen::Index i = 0; i < zeta.size(); ++i) zeta[i] = dual<double, K>(numbers[i]);
+  }
+
+ private:
+  counter_noise source_;
+};
+using fresh_noise = lifted_noise<true>;
+using noise_of_a_path = lifted_noise<false>;
+static_assert(NoiseSource<fresh_noise> && NoiseSource<noise_of_a_path>);
+
+/// What was drawn of a source, in its order.
+struct drawn_noise {
+  std::vector<noise_place> normals;
+  std::vector<noise_place> halves;
+};
+
+/// Fresh noise, or that of a path, which notes what is drawn. Refers to the notes.
+template <bool DrawsFreely>
+class noted_noise {
+ public:
+  static constexpr bool draws_freely = DrawsFreely;
+  explicit noted_noise(drawn_noise& notes) : notes_(&notes), source_(1) {}
+
+  template <class T, int N>
+  void normals(const noise_place& at, vector<T, N>& xi) const {
+    notes_->normals.push_back(at);
+    source_.normals(at, xi);
+  }
+  template <class T, int N>
+  void halving(const noise_place& at, vector<T, N>& zeta) const {
+    notes_->halves.push_back(at);
+    source_.halving(at, zeta);
+  }
+
+ private:
+  drawn_noise* notes_;
+  counter_noise source_;
+};
+
+}  // namespace nysalt::test
