@@ -84,9 +84,9 @@ inline std::string plot_script(const figure& f) {
   for (const auto& panel : f.panels) {
     text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset yrange {}\n", quoted(panel.title),
                         quoted(panel.x_label), quoted(panel.y_label), panel.y_range);
-    // Lines may go anywhere, so their key stands outside.
+    // Errors fall with cost, so that there is room on the right; lines may go anywhere.
     text += panel.log_log
-                ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key inside left bottom\n"
+                ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key inside right top\n"
                 : "unset logscale\nset key outside top center horizontal\n";
     for (std::size_t j = 0; j < panel.curves.size(); ++j, ++block) {
       const auto& curve = panel.curves[j];
