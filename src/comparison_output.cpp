@@ -132,7 +132,9 @@ void comparison::write(const std::filesystem::path& folder) const {
     all.add(cells);
   }
   write_result(folder / "rows.csv", all.csv(), common_);
-  const std::string emphasised = families_.empty() ? "" : families_.begin()->first;
+  const auto learned =
+      std::ranges::find_if(rows_, [&](const row& its) { return families_.contains(its.method); });
+  const std::string emphasised = learned == rows_.end() ? "" : learned->method;
   figure evaluations{"error_against_evaluations",
                      {work_precision_panel(rows, emphasised, "force evaluations per unit time",
                                            &work_precision_row::evaluations_per_time)}};

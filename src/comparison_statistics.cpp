@@ -189,6 +189,17 @@ curve acf_curve(const std::string& label, const autocovariance& its) {
   return result;
 }
 
+/// Of independent ensembles, with less noise than each has; they share their x.
+curve mean_curve(const std::vector<curve>& all) {
+  curve result = all.front();
+  for (std::size_t i = 0; i < result.y.size(); ++i) {
+    double sum = 0.0;
+    for (const curve& one : all) sum += one.y[i];
+    result.y[i] = sum / static_cast<double>(all.size());
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<figure> comparison::pictures_of_statistics() const {
@@ -208,7 +219,9 @@ std::vector<figure> comparison::pictures_of_statistics() const {
       if (its.curves.empty()) {
         const auto at = reference_statistics_.find(one.step);
         const auto& all = at == reference_statistics_.end() ? *reference_statistics_.begin() : *at;
-        its.curves.push_back(curve_of("reference", all.second.front()));
+        std::vector<curve> of_ensembles;
+        for (const auto& ensemble : all.second) of_ensembles.push_back(curve_of("reference", ensemble));
+        its.curves.push_back(mean_curve(of_ensembles));
         its.curves.back().emphasised = true;
       }
       its.curves.push_back(curve_of(one.method, *one.statistics));

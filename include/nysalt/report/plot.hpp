@@ -84,8 +84,10 @@ inline std::string plot_script(const figure& f) {
   for (const auto& panel : f.panels) {
     text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset yrange {}\n", quoted(panel.title),
                         quoted(panel.x_label), quoted(panel.y_label), panel.y_range);
-    text += panel.log_log ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key left bottom\n"
-                          : "unset logscale\n";
+    // Errors fall with cost, so that there is room on the right; lines may go anywhere.
+    text += panel.log_log
+                ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key inside right top\n"
+                : "unset logscale\nset key outside top center horizontal\n";
     for (std::size_t j = 0; j < panel.curves.size(); ++j, ++block) {
       const auto& curve = panel.curves[j];
       const std::string data = fmt::format("'{}.dat' index {}", f.name, block);
@@ -98,7 +100,7 @@ inline std::string plot_script(const figure& f) {
                         curve.emphasised ? 3 : 1.5, point, curve.emphasised ? 1.4 : 1.0, quoted(curve.label));
       } else {
         text += fmt::format("{} using 1:2 with lines {} lw {} title {}", data, colour,
-                            curve.emphasised ? 1.6 : 0.9, quoted(curve.label));
+                            curve.emphasised ? 2.5 : 0.9, quoted(curve.label));
       }
     }
     text += "\n";
