@@ -11,7 +11,6 @@
 
 #include "nysalt/learner.hpp"
 #include "nysalt/nysalt.hpp"
-#include "nysalt/references/fine_paths.hpp"
 
 using namespace nysalt;
 
