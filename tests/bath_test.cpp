@@ -180,3 +180,13 @@ BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_double) {
     BOOST_TEST(s[k] == noisy.deviation(time[k]));
   }
 }
+
+// 1 - e^{-2 gamma t} is 2 gamma t to a relative gamma t: nothing is left of it but sigma sqrt(t). Below the
+// least normal number 1/gamma overflows.
+BOOST_AUTO_TEST_CASE(friction_that_is_hardly_there_is_none) {
+  const double walk = bath::of_sigma(0.0, 0.05).deviation(0.01);
+  for (const double friction : {1e-20, 1e-300, 1e-310, 5e-324}) {
+    BOOST_TEST(relative(bath::of_sigma(friction, 0.05).deviation(0.01), walk) <= 4.0 * eps);
+  }
+  BOOST_TEST(relative(bath::of_sigma(1e-3, 0.05).deviation(0.01), walk) > 4.0 * eps);
+}

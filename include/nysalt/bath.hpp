@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -55,7 +56,8 @@ class bath {
     using std::expm1;
     using std::sqrt;
     if (sigma_ == 0.0) return T(0.0);
-    if (friction_ == 0.0) return sqrt(time) * sigma_;
+    constexpr double least = std::numeric_limits<double>::min();  // below it 1/friction overflows
+    if (friction_ < least) return sqrt(time) * sigma_;
     return sqrt(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
   }
 

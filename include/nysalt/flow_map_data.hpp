@@ -216,7 +216,8 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
 ///
 /// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
 /// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
-/// Memory: two states a pair. Cost: that of the reference, and one energy a pair.
+/// Memory: two states a pair, and half a state for each part of noise. Cost: that of the reference, and one
+/// energy a pair.
 template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
 flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
                                                const data_options& options) {

@@ -8,6 +8,8 @@
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -73,4 +75,30 @@ BOOST_AUTO_TEST_CASE(the_tolerance_of_odeint_lies_between_0_and_1) {
         refuses<wrong>([&] { odeint_reference{tolerance}; }, {"odeint_reference", "tolerance", "(0, 1)"}));
   }
   BOOST_TEST(odeint_reference(1e-9).finer().tolerance() == 1e-11, boost::test_tools::tolerance(1e-15));
+}
+
+// q = e^{-gamma t/2} (cos w t + gamma/(2 w) sin w t), w^2 = omega^2 - gamma^2/4. Some 50 steps, each within
+// the tolerance times 1 + |x|, and the motion magnifies by omega at most.
+BOOST_AUTO_TEST_CASE(odeint_damps_and_refuses_noise) {
+  const double gamma = 0.6;
+  const double omega = 2.0;
+  const double t = 1.5;
+  const harmonic_oscillator alone(omega);
+  const in_bath damped(alone, bath::of_sigma(gamma, 0.0));
+  const phase_point<double, 1> start{vector<double, 1>(1.0), vector<double, 1>(0.0)};
+  auto x = start;
+  odeint_reference(1e-12).advance(damped, x, t);
+  const double w = std::sqrt(omega * omega - 0.25 * gamma * gamma);
+  const double decay = std::exp(-0.5 * gamma * t);
+  const double q = decay * (std::cos(w * t) + 0.5 * gamma / w * std::sin(w * t));
+  const double p = -decay * omega * omega / w * std::sin(w * t);
+  BOOST_TEST(std::abs(x.q[0] - q) <= 50.0 * 4e-12 * omega);
+  BOOST_TEST(std::abs(x.p[0] - p) <= 50.0 * 4e-12 * omega);
+  auto undamped = start;
+  odeint_reference(1e-12).advance(alone, undamped, t);
+  BOOST_TEST(std::abs(undamped.q[0] - q) > 0.1);
+
+  const in_bath noisy(alone, bath::of_sigma(gamma, 0.1));
+  BOOST_TEST(refuses<wrong>([&] { odeint_reference(1e-12).advance(noisy, x, t); },
+                            {"odeint_reference", "noisy", "fine_paths"}));
 }

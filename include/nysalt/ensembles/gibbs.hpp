@@ -22,7 +22,9 @@ namespace nysalt {
 /// Friction, step and length are found by pilot chains when the ensemble is made (burn_in.hpp): the length is
 /// 20 times the longest autocorrelation time of kinetic energy, potential energy and virial, the step is
 /// halved until no bias against half of it shows, and equipartition is checked; report() tells. What none of
-/// the pilots sees in its time is not sampled: valleys behind barriers that no chain crosses.
+/// the pilots sees in its time is not sampled: valleys behind barriers that no chain crosses. Nor do energies
+/// of all tell of one mode among very many that is much slower than most: the lowest of a hundred masses may
+/// still be colder than kT, and calls for a friction near 2 omega of its own and a longer burn-in.
 ///
 /// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
 template <NystromSystem S, Ensemble<S> E>

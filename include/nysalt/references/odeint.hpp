@@ -11,12 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/bath.hpp"
 #include "nysalt/energy.hpp"
 
 namespace nysalt {
 
 /// Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with step control [ahnert_mulansky_2011]: absolute and relative
-/// error of a step below the stated tolerance. For any kinetic energy, and independent of our own steps.
+/// error of a step below the stated tolerance. For any kinetic energy, and independent of our own steps. In a
+/// bath of friction alone it is that of the damped motion.
 class odeint_reference {
  public:
   /// Throws std::invalid_argument unless 0 < tolerance < 1.
@@ -27,11 +29,13 @@ class odeint_reference {
     }
   }
 
+  /// Throws std::invalid_argument if the system is in a noisy bath.
   template <SeparableSystem S>
   void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     namespace odeint = boost::numeric::odeint;
     using state = std::vector<double>;  // q, then p
     const Eigen::Index n = size(system);
+    const double friction = friction_of(system);
     auto q = x.q;
     auto p = x.p;
     auto rate = x.q;
@@ -43,7 +47,7 @@ class odeint_reference {
       velocity<double>(system, p, rate);
       for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(i)] = rate[i];
       force<double>(system, q, rate);
-      for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(n + i)] = rate[i];
+      for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(n + i)] = rate[i] - friction * p[i];
     };
     state y(x.q.begin(), x.q.end());
     y.insert(y.end(), x.p.begin(), x.p.end());
@@ -63,6 +67,18 @@ class odeint_reference {
   }
 
  private:
+  template <System S>
+  static double friction_of(const S& system) {
+    if constexpr (HasBath<S>) {
+      const bath& its = system.bath();
+      if (its.sigma() == 0.0) return its.friction();
+      throw std::invalid_argument(
+          fmt::format("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
+                      its.description()));
+    }
+    return 0.0;
+  }
+
   double tolerance_;
 };
 
