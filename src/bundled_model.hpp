@@ -88,13 +88,19 @@ class bundled_model final : public bundled_system {
   std::vector<std::string> observables() const override { return observable_names(system_); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
-  void prepare_starts() override {
+  void prepare_starts(std::uint64_t seed) override {
     if (starts_) return;
     const auto& alone = system_.alone();
     try {
-      if (start_ == start::gibbs) starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+      if (start_ == start::gibbs) {
+        if constexpr (has_exact_flow<Alone>) {
+          starts_.emplace(alone, gibbs_of_modes<S::dimension>(alone, system_.bath().temperature()));
+        } else {
+          starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+        }
+      }
       if (start_ == start::trajectory) {
-        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_));
+        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_, {.seed = seed}));
       }
     } catch (const std::runtime_error& problem) {
       refuse("{}; take another temperature, or --start law", problem.what());

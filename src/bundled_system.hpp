@@ -78,8 +78,9 @@ class bundled_system {
 
   /// Where trajectories start. Before starts are prepared this is what is known without work.
   virtual std::string starts() const = 0;
-  /// Finds the burn-in, where there is one. To be called before anything below runs.
-  virtual void prepare_starts() = 0;
+  /// Finds the burn-in, or runs the one long trajectory, whose seed it is. To be called before anything below
+  /// runs.
+  virtual void prepare_starts(std::uint64_t seed) = 0;
 
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
 #include "settings.hpp"
 

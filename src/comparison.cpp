@@ -19,7 +19,7 @@ comparison::comparison(const compare_command& command, const common_settings& co
 }
 
 void comparison::learn_and_measure() {
-  prepare_starts(*system_, shown_);
+  prepare_starts(*system_, common_, shown_);
   for (auto& its : rows_) {
     if (const auto family = families_.find(its.method); family != families_.end()) {
       learn_for(its, family->second);
@@ -86,10 +86,10 @@ void comparison::add_row(const method_source& source, double nominal) {
     steps_within("--learn-horizon", command_.learning.horizon, step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, command_.learning, step);
-    parts = where == placement::symmetric ? 2 : 1;
+    if (where == placement::symmetric) parts = 2;
   } else {
     its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
-    parts = noise_parts(*its.coefficients, *system_);
+    if (!is_statistical()) parts = noise_parts(*its.coefficients, *system_);
   }
   system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step,
                            parts);

@@ -70,6 +70,7 @@ json comparison::document() const {
     rows.back()["mean"] = found.mean.mean;
     rows.back()["mean_standard_error"] = found.mean.standard_error;
     rows.back()["effective_sample_size"] = found.effective_sample_size;
+    if (!found.histogram) continue;
     rows.back()["kinetic_temperature"] = found.kinetic_temperature.mean;
     rows.back()["half_step_kinetic_temperature"] = found.half_step_kinetic_temperature.mean;
   }

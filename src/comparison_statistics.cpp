@@ -22,37 +22,46 @@ struct distance {
   double standard_error;
 };
 
+std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
+  std::vector<histogram> result;
+  for (const auto& one : all) result.push_back(*one.histogram);
+  return result;
+}
+
 /// Of one ensemble from the law of several: the mean over these.
 distance distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
-  distance result{0.0, std::numeric_limits<double>::quiet_NaN()};
+  if (its.histogram) {
+    return {mean_total_variation(*its.histogram, histograms_of(others)),
+            std::numeric_limits<double>::quiet_NaN()};
+  }
+  distance result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());
-  if (its.autocovariance) result.standard_error = 0.0;
   for (const auto& other : others) {
-    if (its.autocovariance) {
-      const acf_distance found = acf_error(*its.autocovariance, *other.autocovariance);
-      result.value += found.rms * share;
-      result.standard_error += found.standard_error * share;
-    } else {
-      result.value += total_variation(*its.histogram, *other.histogram) * share;
-    }
+    const acf_distance found = acf_error(*its.autocovariance, *other.autocovariance);
+    result.value += found.rms * share;
+    result.standard_error += found.standard_error * share;
   }
   return result;
 }
 
 /// The mean distance over all pairs of ensembles of one law.
 double floor_of(std::span<const gathered_statistics> all) {
+  if (all.front().histogram) return sampling_floor(histograms_of(all));
   double sum = 0.0;
+  double pairs = 0.0;
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const auto before = all.first(i);
-    sum += distance_to(all[i], before).value * static_cast<double>(i);
+    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).value;
   }
-  return sum / (0.5 * static_cast<double>(all.size() * (all.size() - 1)));
+  return sum / pairs;
 }
 
 }  // namespace
 
 void comparison::require_sound_statistics() const {
   const bath& its = system_->its_bath();
+  if (its.acts() && its.sigma() == 0.0) {
+    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", command_.metric);
+  }
   if (its.acts() && !its.has_temperature()) {
     refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
            command_.metric);
@@ -135,13 +144,16 @@ std::vector<gathered_statistics> comparison::references_at(double step) {
            trajectory, at);
   }
   require_samples_in_range(all);
-  references_.push_back({{"step_size", step},
-                         {"reference", system_->reference_of_statistics(step, command_.learning.fine_step)},
-                         {"ensembles", references},
-                         {"mean", all.front().mean.mean},
-                         {"kinetic_temperature", all.front().kinetic_temperature.mean},
-                         {"half_step_kinetic_temperature", all.front().half_step_kinetic_temperature.mean},
-                         {"error", floor_of(all)}});
+  json used{{"step_size", step},
+            {"reference", system_->reference_of_statistics(step, command_.learning.fine_step)},
+            {"ensembles", references},
+            {"mean", all.front().mean.mean},
+            {"error", floor_of(all)}};
+  if (all.front().histogram) {
+    used["kinetic_temperature"] = all.front().kinetic_temperature.mean;
+    used["half_step_kinetic_temperature"] = all.front().half_step_kinetic_temperature.mean;
+  }
+  references_.push_back(used);
   reference_statistics_[step] = all;
   return all;
 }

@@ -33,9 +33,9 @@ learn_plan plan_for(const std::string& family, std::optional<placement> where, d
           .threads = common.threads};
 }
 
-void prepare_starts(bundled_system& system, progress& shown) {
+void prepare_starts(bundled_system& system, const common_settings& common, progress& shown) {
   shown.part("preparing the starts");
-  system.prepare_starts();
+  system.prepare_starts(seed_for(role::training, common.seed));
 }
 
 json by_name(const fit_summary& fit, double fitted_parameter::*field) {

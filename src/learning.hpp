@@ -22,7 +22,7 @@ learn_plan plan_for(const std::string& family, std::optional<placement> where, d
                     const learn_settings& how, const common_settings& common);
 
 /// Before learning or running; with a burn-in that can take a moment.
-void prepare_starts(bundled_system& system, progress& shown);
+void prepare_starts(bundled_system& system, const common_settings& common, progress& shown);
 
 /// A field of each parameter, by its name.
 json by_name(const fit_summary& fit, double fitted_parameter::*field);

@@ -72,10 +72,11 @@ class model_reference {
     f(fine_steps<>(*fine));
   }
 
-  /// For statistics alone: their bias by BAOAB is of second order, and the floor of sampling is high.
+  /// For statistics alone: their bias by BAOAB is of second order, and the floor of sampling is high. A tenth
+  /// of the step at most, or a small step would be compared with itself.
   double fine_step_for_statistics(double step, std::optional<double> asked) const {
     constexpr double angle = 0.05;
-    return fine_step_within(step, asked, angle / fastest());
+    return fine_step_within(step, asked, std::min(angle / fastest(), 0.1 * step));
   }
 
  private:

@@ -52,8 +52,9 @@ class divergence {
   static double energy_of_bath(const S& system) {
     if constexpr (HasBath<S>) {
       const bath& its = system.bath();
-      if (!its.has_temperature() && its.acts()) return std::numeric_limits<double>::infinity();
-      if (its.has_temperature()) return std::max(1.0, its.temperature() * static_cast<double>(size(system)));
+      if (!its.acts()) return 1.0;
+      if (!its.has_temperature()) return std::numeric_limits<double>::infinity();
+      return std::max(1.0, its.temperature() * static_cast<double>(size(system)));
     }
     return 1.0;
   }

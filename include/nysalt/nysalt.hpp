@@ -28,6 +28,7 @@
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"

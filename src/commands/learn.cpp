@@ -49,7 +49,7 @@ int learn(const learn_command& command, const common_settings& common) {
   const auto where = placement_in(source, *system, placement_asked(command.placement));
   const learn_plan plan = plan_for(command.family, where, command.step, command.learning, common);
   system->require_learnable(plan.family, plan.where, plan.how, plan.step);
-  prepare_starts(*system, shown);
+  prepare_starts(*system, common, shown);
   const learned_scheme learned = learn_with(*system, plan, shown);
   shown.clear();
 

@@ -186,7 +186,7 @@ int run(const run_command& asked, const common_settings& common) {
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
   progress shown;
-  prepare_starts(*system, shown);
+  prepare_starts(*system, common, shown);
   shown.part("running");
   const auto began = std::chrono::steady_clock::now();
   system->run(method, plan, command.observables, command.sample_every, take,

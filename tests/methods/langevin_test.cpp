@@ -83,9 +83,9 @@ BOOST_AUTO_TEST_CASE(the_splittings_are_thermostatted_verlet) {
 
 BOOST_AUTO_TEST_CASE(names_tell_the_placement) {
   BOOST_TEST(baoab::name() == "baoab");
-  BOOST_TEST(thermostat<end>(verlet()).name() == verlet::name() + "_end");
-  BOOST_TEST(thermostat<symmetric>(verlet()).name() == verlet::name() + "_symmetric");
-  BOOST_TEST(thermostat<middle>(verlet()).name() == verlet::name() + "_middle");
+  BOOST_TEST(thermostat<end>(verlet()).name() == "verlet_end");
+  BOOST_TEST(thermostat<symmetric>(verlet()).name() == "verlet_symmetric");
+  BOOST_TEST(thermostat<middle>(verlet()).name() == "verlet_middle");
 }
 
 BOOST_AUTO_TEST_CASE(a_table_is_thermostatted_likewise) {

@@ -14,6 +14,7 @@
 
 #include "nysalt/ensembles/burn_in_pilot.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
+#include "nysalt/ensembles/slowest_mode.hpp"
 
 namespace nysalt {
 
@@ -24,6 +25,7 @@ class burn_in_search {
   burn_in_search(const S& alone, double temperature, const E& from, const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
     require(options);
+    slowest_ = slowest_mode(alone);
   }
 
   /// Throws std::runtime_error where a chain diverges, nothing becomes stationary, or a check fails.
@@ -64,7 +66,7 @@ class burn_in_search {
   burn_in_pilot<S, E> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
     const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
-    return {*alone_, *from_, temperature_, friction, step, options_, count, noise};
+    return {*alone_, *from_, temperature_, friction, step, options_, count, noise, slowest_};
   }
 
   /// Chains that are watched for 32 times what they remember, after as long a time unwatched; nothing where
@@ -140,7 +142,7 @@ class burn_in_search {
       std::vector<double> difference = later.begin[i];
       for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= later.mean[i][k];
       report.to_forget[i] = mean_over_chains(difference);
-      if (i != static_cast<std::size_t>(watched::potential)) {
+      if (i < static_cast<std::size_t>(watched::potential)) {
         report.excess[i] = mean_over_chains(later.begin[i]);
         report.excess[i].mean -= 1.0;
       }
@@ -161,6 +163,7 @@ class burn_in_search {
   double temperature_;
   const E* from_;
   burn_in_options options_;
+  Eigen::VectorXd slowest_;
   std::int64_t pilots_ = 0;
 };
 

@@ -37,9 +37,14 @@ class burn_in_pilot {
   };
 
  public:
+  /// Refers to the weights of the slowest mode, which may be empty.
   burn_in_pilot(const S& alone, const E& from, double temperature, double friction, double step,
-                const burn_in_options& options, int count, std::int64_t first_noise)
-      : chains_(alone, temperature, friction, step, options.seed), threads_(options.threads), count_(count) {
+                const burn_in_options& options, int count, std::int64_t first_noise,
+                const Eigen::VectorXd& slowest)
+      : chains_(alone, temperature, friction, step, options.seed),
+        threads_(options.threads),
+        count_(count),
+        slowest_(&slowest) {
     for (int first = 0; first < count; first += width) {
       const int here = std::min(width, count - first);
       const state start = sound_starts<T>(alone, from, options.seed, first, here);
@@ -88,6 +93,9 @@ class burn_in_pilot {
     out[0] = twice_kinetic * each;
     out[1] = virial * each;
     out[2] = (potential_of(x) - zero_) * each;
+    T of_mode(0.0);
+    for (Eigen::Index i = 0; i < slowest_->size(); ++i) of_mode += x.q[i] * (*slowest_)[i];
+    out[3] = of_mode * of_mode / chains_.temperature();
   }
   /// 0 where the system knows no potential.
   T potential_of(const state& x) const {
@@ -158,6 +166,7 @@ class burn_in_pilot {
   chains_type chains_;
   int threads_;
   int count_;
+  const Eigen::VectorXd* slowest_;
   std::vector<block> blocks_;
   double zero_ = 0.0;  // of the potential: a large constant in it would drown what varies
 };

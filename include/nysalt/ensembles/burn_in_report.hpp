@@ -21,10 +21,12 @@ struct burn_in_options {
 };
 
 /// What is watched, all in units of kT: the kinetic temperature between two steps, the virial
-/// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, and V/N.
-enum class watched : std::uint8_t { kinetic, virial, potential };
-inline constexpr std::size_t watched_numbers = 3;
-inline constexpr std::array watched_names = {"half-step kinetic temperature", "virial", "potential energy"};
+/// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, V/N, and the energy of the slowest mode
+/// where it is known (slowest_mode.hpp), else 0.
+enum class watched : std::uint8_t { kinetic, virial, potential, slowest };
+inline constexpr std::size_t watched_numbers = 4;
+inline constexpr std::array watched_names = {"half-step kinetic temperature", "virial", "potential energy",
+                                             "energy of the slowest mode"};
 
 template <class T>
 using of_watched = std::array<T, watched_numbers>;

@@ -20,11 +20,11 @@ namespace nysalt {
 /// an error.
 ///
 /// Friction, step and length are found by pilot chains when the ensemble is made (burn_in.hpp): the length is
-/// 20 times the longest autocorrelation time of kinetic energy, potential energy and virial, the step is
-/// halved until no bias against half of it shows, and equipartition is checked; report() tells. What none of
-/// the pilots sees in its time is not sampled: valleys behind barriers that no chain crosses. Nor do energies
-/// of all tell of one mode among very many that is much slower than most: the lowest of a hundred masses may
-/// still be colder than kT, and calls for a friction near 2 omega of its own and a longer burn-in.
+/// 20 times the longest autocorrelation time of kinetic energy, potential energy, virial and, where the
+/// system declares modes that all have a frequency, the energy of the slowest; the step is halved until no
+/// bias against half of it shows, and equipartition is checked; report() tells. What none of the pilots sees
+/// in its time is not sampled: valleys behind barriers that no chain crosses. Nor do means over all tell of
+/// one motion among very many that is much slower than most and is no declared mode.
 ///
 /// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
 template <NystromSystem S, Ensemble<S> E>
