@@ -18,9 +18,9 @@
 #include "bundled_systems.hpp"
 #include "catalogue.hpp"
 #include "chosen_starts.hpp"
+#include "family_options.hpp"
 #include "json.hpp"
 #include "model_reference.hpp"
-#include "number.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
@@ -41,24 +41,6 @@ struct model_facts {
   double frequency;  // times a fine step it is 5e-3 at most: the error of srkn11b is rounding then
   std::string default_observable;
 };
-
-/// "b1=0.5" into the options. Throws refusal for what is not of that form, not a parameter, or named twice.
-template <Family F>
-void fix_parameter(const std::string& text, learn_options<F>& options) {
-  const auto equals = text.find('=');
-  const auto name = text.substr(0, equals);
-  const auto value = equals == std::string::npos ? std::nullopt : number_from(text.substr(equals + 1));
-  if (!value) refuse("--fix takes name=number, such as {}=0.5, not '{}'", F::parameter_names[0], text);
-  const auto at = std::find(F::parameter_names.begin(), F::parameter_names.end(), name);
-  if (at == F::parameter_names.end()) {
-    refuse("--fix: the family {} has no parameter '{}': it has {}", F::name, name,
-           listed(F::parameter_names));
-  }
-  const auto k = static_cast<std::size_t>(at - F::parameter_names.begin());
-  auto& fixed = options.fixed[k];
-  if (fixed) refuse("--fix: the parameter {} is fixed twice", name);
-  fixed = value;
-}
 
 template <class Alone, Ensemble<Alone> E>
 class bundled_model final : public bundled_system {
@@ -329,18 +311,6 @@ class bundled_model final : public bundled_system {
   int noise_parts(const auto& family) const {
     if (system_.bath().sigma() == 0.0) return 0;
     return intervals_of_noise(family.letters().letters(), family.coefficients(family.start())).parts;
-  }
-
-  template <Family F>
-  learn_options<F> options_for(const learn_settings& how, int threads) const {
-    learn_options<F> options;
-    options.threads = threads;
-    options.coordinates = coordinates_named(how.coordinates);
-    for (const auto& text : how.fix) fix_parameter<F>(text, options);
-    auto theta = options.start;
-    for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = options.fixed[k].value_or(theta[k]);
-    require_in_range<F>(theta);
-    return options;
   }
 
   measure_type measure_named(const std::string& metric, const std::string& name) const {

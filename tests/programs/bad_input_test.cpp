@@ -2,50 +2,15 @@
 // Whatever is typed wrong: one line that says what, where and what to do; nothing printed, nothing written.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
-#include <string_view>
 #include <vector>
 
-#include "../support/program.hpp"
+#include "../support/bad_input.hpp"
 
 using namespace nysalt::test;
 
 namespace {
 
-struct bad {
-  std::string arguments;
-  std::vector<std::string_view> words;  // that must be said
-};
-
-bool is_one_line(const std::string& text) {
-  return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n') &&
-         std::none_of(text.begin(), text.end() - 1, [](unsigned char c) { return c < ' '; });
-}
-
-/// All must be refused, in one folder that stays as it is.
-void all_refused(const scratch& folder, const std::vector<bad>& cases) {
-  const auto before = folder.files();
-  for (const auto& [arguments, words] : cases) {
-    const finished done = run(folder, arguments);
-    BOOST_TEST_CONTEXT("nysalt " << arguments << "\nsaid: " << done.err) {
-      BOOST_TEST(done.code == 2);
-      BOOST_TEST(done.out == "");
-      BOOST_TEST(is_one_line(done.err));
-      BOOST_TEST(done.err.starts_with("nysalt: "));
-      for (const auto word : words) {
-        BOOST_TEST(done.err.find(word) != std::string::npos, "missing: " << word);
-      }
-      BOOST_TEST((folder.files() == before));
-    }
-  }
-}
 void all_refused(const std::vector<bad>& cases) { all_refused(scratch("bad_input"), cases); }
-
-/// Each argument list behind the same beginning.
-std::vector<bad> after(const std::string& beginning, std::vector<bad> cases) {
-  for (auto& one : cases) one.arguments = beginning + " " + one.arguments;
-  return cases;
-}
 
 // Sound beginnings: what follows makes them bad.
 const std::string learn = "learn --trajectories 3 --output scheme.json --step 0.02";

@@ -3,49 +3,18 @@
 // do; nothing printed, nothing written.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
-#include <boost/crc.hpp>
 #include <functional>
-#include <string_view>
 #include <vector>
 
-#include "../support/program.hpp"
+#include "../support/bad_input.hpp"
+#include "../support/forged.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;
 
 namespace {
 
-struct bad {
-  std::string arguments;
-  std::vector<std::string_view> words;  // that must be said
-};
-
-/// All must be refused, in one folder that stays as it is.
-void all_refused(const scratch& folder, const std::vector<bad>& cases) {
-  const auto before = folder.files();
-  for (const auto& [arguments, words] : cases) {
-    const finished done = run(folder, arguments);
-    BOOST_TEST_CONTEXT("nysalt " << arguments << "\nsaid: " << done.err) {
-      BOOST_TEST(done.code == 2);
-      BOOST_TEST(done.out == "");
-      BOOST_TEST(done.err.starts_with("nysalt: "));
-      BOOST_TEST(std::count(done.err.begin(), done.err.end(), '\n') == 1);
-      BOOST_TEST(done.err.ends_with('\n'));
-      for (const auto word : words) {
-        BOOST_TEST(done.err.find(word) != std::string::npos, "missing: " << word);
-      }
-      BOOST_TEST((folder.files() == before));
-    }
-  }
-}
 void all_refused(const std::vector<bad>& cases) { all_refused(scratch("langevin_bad_input"), cases); }
-
-/// Each argument list behind the same beginning.
-std::vector<bad> after(const std::string& beginning, std::vector<bad> cases) {
-  for (auto& one : cases) one.arguments = beginning + " " + one.arguments;
-  return cases;
-}
 
 // Sound beginnings, of the system that is burned in fastest: what follows makes them bad.
 const std::string in_the_bath = " --friction 1 --temperature 0.5";
@@ -59,20 +28,6 @@ const std::string statistics = compare + "baoab --steps 0.1" + in_the_bath + " -
 
 void write(const scratch& folder, const std::string& name, const std::string& text) {
   std::ofstream(folder / name, std::ios::binary) << text;
-}
-
-/// The file's text after a change to its document, under a checksum that fits again.
-std::string forged(const std::string& text, const std::function<void(json&)>& change) {
-  json document = json::parse(text);
-  change(document);
-  document.erase("checksum");
-  const std::string bare = document.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(bare.data(), bare.size());
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "crc32:%08x", static_cast<unsigned>(crc.checksum()));
-  document["checksum"] = digits;
-  return document.dump(2);
 }
 
 std::string table(const std::string& letters, const std::string& coefficients, const std::string& more = "") {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Methods on disk: what was learned is used as it was learned, and what is not whole, not ours or not true is
 // refused.
-#include <boost/crc.hpp>
 #include <boost/test/unit_test.hpp>
 
 #include <functional>
 #include <string_view>
 #include <vector>
 
+#include "../support/forged.hpp"
 #include "../support/program.hpp"
 
 using namespace nysalt::test;
@@ -39,20 +39,6 @@ void all_refuse(const scratch& folder, const std::string& name, const std::vecto
       BOOST_TEST(refused(done, words));
     }
   }
-}
-
-/// The file's text after a change to its document, under a checksum that fits again.
-std::string forged(const std::string& text, const std::function<void(json&)>& change) {
-  json document = json::parse(text);
-  change(document);
-  document.erase("checksum");
-  const std::string bare = document.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(bare.data(), bare.size());
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "crc32:%08x", static_cast<unsigned>(crc.checksum()));
-  document["checksum"] = digits;
-  return document.dump(2);
 }
 
 /// One folder with one scheme, learned once.
