@@ -36,11 +36,14 @@ inline double magnification(const run_time_word& word, const std::vector<double>
                              std::sqrt(std::max(0.0, squares - 2.0 * std::abs(determinant))));
   const auto n = static_cast<double>(steps);
   const double sine = std::sqrt(std::abs(determinant));
-  if (!(sine > std::numeric_limits<double>::min())) return std::max(1.0, n * norm);
-  if (determinant < 0.0) return std::max(1.0, std::sinh(n * std::asinh(sine)) / sine * norm);
-  const double angle = std::asin(std::min(sine, 1.0));
-  const double most = n * angle < 1.5 ? std::sin(n * angle) : 1.0;
-  return std::max(1.0, most / sine * norm);
+  double longest = n;  // of sin(n t)/sin t
+  if (sine > std::numeric_limits<double>::min()) {
+    const double angle = determinant > 0.0 ? std::asin(std::min(sine, 1.0)) : std::asinh(sine);
+    if (determinant > 0.0) longest = (n * angle < 1.5 ? std::sin(n * angle) : 1.0) / sine;
+    if (determinant < 0.0) longest = std::sinh(n * angle) / sine;
+  }
+  const double largest = longest * norm;
+  return largest < 1.0 ? 1.0 : largest;
 }
 
 }  // namespace nysalt

@@ -31,13 +31,14 @@ struct stiffness_range {
 /// g = f'(q) v of a force f(q, result) that is known over dual numbers.
 template <int N>
 auto derivative_along(auto f) {
-  using D = dual<double, 1>;
-  return [f, at = vector<D, N>(), result = vector<D, N>()](
-             const vector<double, N>& q, const vector<double, N>& v, vector<double, N>& g) mutable {
-    at.resize(q.size());
-    result.resize(q.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) at[i] = D(q[i]);
-    for (Eigen::Index i = 0; i < q.size(); ++i) at[i].derivative[0] = v[i];
+  return [f](const vector<double, N>& q, const vector<double, N>& v, vector<double, N>& g) {
+    using D = dual<double, 1>;
+    vector<D, N> at(q.size());
+    vector<D, N> result(q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      at[i] = D(q[i]);
+      at[i].derivative[0] = v[i];
+    }
     f(at, result);
     for (Eigen::Index i = 0; i < q.size(); ++i) g[i] = result[i].derivative[0];
   };
@@ -51,10 +52,10 @@ auto derivative_of_force(const S& system) {
 }
 
 /// Over all states (a range of phase_point<double, N>), where directional(q, v, g) gives g = f'(q) v of the
-/// system's force or of a part of it. Both ends are known to 1 % and rounded outwards; see
-/// ends_of_spectrum(). The same states give the same bits. Cost: some 8 to 40 directional derivatives a
-/// state. Throws std::invalid_argument if there are no states, or one where the force has no finite
-/// derivative.
+/// system's force or of a part of it. Both ends are known to 1 % and mostly rounded outwards, see
+/// ends_of_spectrum(); who needs a bound adds a percent. The same states give the same bits. Cost: some 8 to
+/// 40 directional derivatives a state. Throws std::invalid_argument if there are no states, or one where the
+/// force has no finite derivative.
 template <NystromSystem S>
 stiffness_range stiffness_along(const S& system, const std::ranges::range auto& states, auto&& directional) {
   const Eigen::Index n = size(system);
