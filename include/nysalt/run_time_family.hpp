@@ -134,4 +134,12 @@ class run_time_family {
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
 };
 
+/// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
+inline void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
+  for (std::size_t k = 0; k < family.ranges.size(); ++k) {
+    detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
+                             theta[static_cast<Eigen::Index>(k)]);
+  }
+}
+
 }  // namespace nysalt
