@@ -259,7 +259,9 @@ BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
   BOOST_TEST(refuses<wrong>(made(in_bath(alone, bath::of_sigma(1.0, 0.0)), word, 0.1), {"temperature"}));
   const in_bath free_mass(linear_chain(Eigen::MatrixXd::Zero(1, 1)), bath::of_sigma(1.0, 1.0));
   BOOST_TEST(refuses<wrong>(made(free_mass, word, 0.1), {"linear_chain", "frequency"}));
-  BOOST_TEST(refuses<wrong>(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), run_time_word("OSRSO"), 0.1), {"OSRSO", "soft_force"}));
+  BOOST_TEST(
+      refuses<wrong>(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), run_time_word("OSRSO"), 0.1),
+                     {"OSRSO", "soft_force"}));
   const stationary_covariance loss(warm, word, 0.1);
   BOOST_TEST(refuses<wrong>([&] { loss.residuals(std::vector{0.5, 0.5}); }, {"OABAO", "2 coefficients"}));
   static_assert(!std::is_constructible_v<stationary_covariance, harmonic_oscillator, run_time_word, double>);
