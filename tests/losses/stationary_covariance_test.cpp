@@ -57,6 +57,16 @@ double rounding_of(const damped_oscillator& x, const told& method, double step) 
   return 2000.0 * eps / ((1.0 - d) * (1.0 + d - M.trace()) * (1.0 + d + M.trace()));
 }
 
+/// A system with modes that does not say what is soft.
+struct whole_spring {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = -q[0];
+  }
+  normal_modes modes() const { return {Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Ones(1)}; }
+};
+
 /// With respect to all coefficients, those of O too.
 Eigen::MatrixXd by_each(const std::vector<double>& c) {
   return Eigen::MatrixXd::Identity(std::ssize(c), std::ssize(c));
@@ -88,6 +98,27 @@ BOOST_AUTO_TEST_CASE(baoab_errs_in_momenta_alone) {
   BOOST_TEST(std::abs(r[0]) <= rounding);
   BOOST_TEST(std::abs(r[1]) <= rounding);
   BOOST_TEST(std::abs(r[2] + z * z / 4.0) <= rounding);
+}
+
+// On an oscillator G(b, c) is B(b - 2 c z^2). R is exact, and S has nothing to do.
+BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
+  const double step = 0.4;
+  const double z = step * oscillator.omega;
+  const double b = 0.17;
+  const double c = 0.013;
+  const told gradient{"", run_time_word("OBAGABO"), {0.5, b, 0.5, 1.0 - 2.0 * b, c, 0.5, b, 0.5}};
+  const told kicks{"", run_time_word("OBABABO"), {0.5, b, 0.5, 1.0 - 2.0 * b - 2.0 * c * z * z, 0.5, b, 0.5}};
+  const auto expected = residuals_of(system_of(oscillator), kicks, step);
+  const double rounding = rounding_of(oscillator, kicks, step);
+  BOOST_TEST((residuals_of(system_of(oscillator), gradient, step) - expected).norm() <= rounding);
+  BOOST_TEST(expected.norm() > 1e-4);
+
+  const in_bath chain(linear_chain(Eigen::Vector2d(36.0, 8.0).asDiagonal()), bath::of_sigma(1.5, 0.8));
+  const told impulse{"", run_time_word("OSRSO"), {0.5, 0.5, 1.0, 0.5, 0.5}};
+  const told split{"", run_time_word("RSORSO"), {0.5, 0.5, 0.7, 0.5, 0.5, 0.3}};
+  for (const told& method : {impulse, split}) {
+    BOOST_TEST(residuals_of(chain, method, 0.2).norm() <= 100.0 * eps);  // of rotations, to rounding
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not_at_all) {
@@ -228,6 +259,9 @@ BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
   BOOST_TEST(refuses<wrong>(made(in_bath(alone, bath::of_sigma(1.0, 0.0)), word, 0.1), {"temperature"}));
   const in_bath free_mass(linear_chain(Eigen::MatrixXd::Zero(1, 1)), bath::of_sigma(1.0, 1.0));
   BOOST_TEST(refuses<wrong>(made(free_mass, word, 0.1), {"linear_chain", "frequency"}));
+  BOOST_TEST(
+      refuses<wrong>(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), run_time_word("OSRSO"), 0.1),
+                     {"OSRSO", "soft_force"}));
   const stationary_covariance loss(warm, word, 0.1);
   BOOST_TEST(refuses<wrong>([&] { loss.residuals(std::vector{0.5, 0.5}); }, {"OABAO", "2 coefficients"}));
   static_assert(!std::is_constructible_v<stationary_covariance, harmonic_oscillator, run_time_word, double>);

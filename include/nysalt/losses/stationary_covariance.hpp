@@ -17,6 +17,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/learning/squares.hpp"
 #include "nysalt/losses/discrete_lyapunov.hpp"
+#include "nysalt/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -57,8 +58,9 @@ struct mode_alone {
 /// not quadratic.
 class stationary_covariance {
  public:
-  /// The word with its letters O. Throws std::invalid_argument if it has none, if the bath has no friction or
-  /// no temperature, if no frequency is above zero, or if the step is not positive and finite.
+  /// The word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
+  /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
+  /// step is not positive and finite.
   template <System S>
     requires(HasBath<S>&& HasModes<S>)
   stationary_covariance(const S& system, const run_time_word& word, double step)
@@ -82,23 +84,17 @@ class stationary_covariance {
       throw std::invalid_argument(fmt::format(
           "{} has no mode of a frequency above zero, hence none with a law of its own", describe(system)));
     }
-    const std::string& letters = word.letters();
-    for (std::size_t first = 0; first < letters.size();) {
-      pieces_.push_back({first, std::nullopt});
-      if (letters[first++] == bath_letter) continue;
-      const std::size_t end = std::min(letters.find(bath_letter, first), letters.size());
-      pieces_.back().turn = run_time_word(letters.substr(first - 1, end - first + 1));
-      first = end;
-    }
+    require_served<S, double>(word, system);
+    split_at_bath();
   }
 
-  /// Three for each distinct frequency, from the lowest up, times the root of its multiplicity. Infinite
-  /// where the word keeps no law: its spectral radius is not below 1, or a letter O goes back in time. T is
-  /// double or a dual of it. Cost: each letter twice for each frequency, on one number. Throws
-  /// std::invalid_argument unless there is a coefficient for each letter.
+  /// Three for each distinct frequency, from the lowest up, times the root of its multiplicity.
+  /// Infinite where the word keeps no law: its spectral radius is not below 1, or a letter O goes back in
+  /// time. T is double or a dual of it. Cost: each letter twice for each frequency, on one number. Throws
+  /// std::invalid_argument unless there is a coefficient for each slot.
   template <Scalar T>
   std::vector<T> residuals(const std::vector<T>& coefficients) const {
-    word_.require_one_for_each_letter(coefficients);
+    word_.require_one_for_each_slot(coefficients);
     std::vector<T> result;
     for (const auto& [omega, multiplicity] : multiplicity_of_) {
       const double weight = std::sqrt(static_cast<double>(multiplicity));
@@ -138,9 +134,19 @@ class stationary_covariance {
  private:
   /// A letter O, or all letters between two of them.
   struct piece {
-    std::size_t first;  // of its letters
+    std::size_t first;  // of its slots
     std::optional<run_time_word> turn;
   };
+
+  void split_at_bath() {
+    const std::string& letters = word_.letters();
+    for (std::size_t i = 0; i < letters.size();) {
+      pieces_.push_back({word_.first_slot(i), std::nullopt});
+      const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
+      if (length > 0) pieces_.back().turn = run_time_word(letters.substr(i, length));
+      i += std::max<std::size_t>(length, 1);
+    }
+  }
 
   /// The map M of the word and the excess R that it makes of none: then D = M D M^T + R.
   template <Scalar T>
@@ -167,7 +173,7 @@ class stationary_covariance {
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
     const detail::mode_alone mode{omega};
-    const stepper<detail::mode_alone, run_time_word, T> one(mode, turn, {c, c + turn.length}, step_);
+    const stepper<detail::mode_alone, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
     phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
     phase_point<T, 1> from_y{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
     one.step(from_x);
