@@ -263,9 +263,8 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   summary.held_out_loss = tree_sum(at_end);
   summary.held_out_start_loss = tree_sum(at_start);
   summary.held_out_noise = detail::noise_of_difference(at_end, at_start);
-  summary.one_step_error = std::sqrt(loss_value(
-      has_data && options.loss == loss_choice{} ? held_out_loss
-                                                : loss_type(family, system, held_out, measure), theta));
+  const loss_type one_step(family, system, held_out, measure, {.threads = options.threads});
+  summary.one_step_error = std::sqrt(loss_value(one_step, theta));
   summary.trajectory_error = std::sqrt(loss_value(judge, theta));
   summary.samples = data.pairs();
   summary.trajectories = data.trajectories();
@@ -288,7 +287,8 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   summary.iterations = iterations;
   summary.data_seconds = data.seconds + held_out.seconds;
   summary.learning_evaluations = data.evaluations + held_out.evaluations + loss.evaluations() +
-                                 held_out_loss.evaluations() + judge.evaluations();
+                                 held_out_loss.evaluations() + one_step.evaluations() +
+                                 judge.evaluations();
   const auto coefficients = family.coefficients(theta);
   const std::string instability = guard.objection(family.letters, coefficients, data.step);
   if (instability.empty()) {

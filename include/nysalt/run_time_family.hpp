@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -23,7 +24,8 @@ struct named_parameters {
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
  public:
-  template <Family F>
+  template <class F>
+    requires(!std::same_as<F, run_time_family> && Family<F>)
   explicit run_time_family(const F& family)
       : name(F::name),
         parameter_names(F::parameter_names.begin(), F::parameter_names.end()),
