@@ -29,7 +29,7 @@ namespace nysalt {
 struct fit_options {
   nysalt::coordinates coordinates = nysalt::coordinates::qp;
   loss_choice loss{};
-  std::optional<Eigen::VectorXd> start{};         // instead of the family's own starts
+  std::optional<Eigen::VectorXd> start{};          // instead of the family's own starts
   std::vector<named_parameters> further_starts{};  // beside them, such as the optimum at a smaller step
   int random_starts = 0;                           // beside all these
   std::vector<std::optional<double>> fixed{};      // a value for each parameter that is not to be learned
@@ -136,8 +136,9 @@ objective covariance_objective(const run_time_family& family, const S& system, d
       return loss.at(family.coefficients(theta), family.jacobian(theta));
     };
   } else {
-    throw std::invalid_argument(fmt::format(
-        "the covariance loss needs a system in a bath that tells its modes(), and {} is none", describe(system)));
+    throw std::invalid_argument(
+        fmt::format("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
+                    describe(system)));
   }
 }
 
@@ -168,8 +169,8 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
   const auto count = static_cast<std::size_t>(family.parameters());
   if ((options.start && options.start->size() != family.parameters()) ||
       (!options.fixed.empty() && options.fixed.size() != count)) {
-    throw std::invalid_argument(
-        fmt::format("learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
+    throw std::invalid_argument(fmt::format(
+        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
   }
   require_in_range(family, starts_of(family, options, {}).front().theta);
 }
@@ -184,8 +185,8 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
 /// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if the system
 /// does not serve the family's letters, or if the coordinates, the loss, a start, a fixed value,
 /// max_iterations or threads cannot be. A fit that cannot be trusted is returned with usable = false. Cost:
-/// some 20 to 80 passes over the data for each start, each a plain step with derivatives a pair; R carries the
-/// pairs, and changes no bit. Memory: two or three copies of the data.
+/// some 20 to 80 passes over the data for each start, each a plain step with derivatives a pair; R carries
+/// the pairs, and changes no bit. Memory: two or three copies of the data.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 fit learn(const run_time_family& family, const S& system, const flow_map_data<S::dimension>& data,
           const flow_map_data<S::dimension>& held_out, const fit_options& options = {}) {
@@ -207,8 +208,9 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
                                     .threads = options.threads};
   const loss_type loss(family, system, data, measure, of_loss);
   const loss_type held_out_loss(family, system, held_out, measure, of_loss);
-  const loss_type judge(family, system, held_out, measure,
-                        {.steps = detail::shortest_of(held_out), .overlap = false, .threads = options.threads});
+  const loss_type judge(
+      family, system, held_out, measure,
+      {.steps = detail::shortest_of(held_out), .overlap = false, .threads = options.threads});
   const stability_guard guard(system, detail::some_states(data));
 
   std::vector<Eigen::Index> free;
@@ -216,27 +218,28 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
   const auto starts = detail::starts_of(family, options, free);
-  search_task task{.family = &family,
-                   .loss = has_data ? objective_of(loss) : detail::covariance_objective(family, system, data.step),
-                   .judge = [&](const Eigen::VectorXd& theta) { return loss_value(judge, theta); },
-                   .admits =
-                       [&](const Eigen::VectorXd& theta) {
-                         return !options.guarded ||
-                                guard.admits(family.letters, family.coefficients(theta), data.step);
-                       },
-                   .free = free,
-                   .max_iterations = options.max_iterations};
+  search_task task{
+      .family = &family,
+      .loss = has_data ? objective_of(loss) : detail::covariance_objective(family, system, data.step),
+      .judge = [&](const Eigen::VectorXd& theta) { return loss_value(judge, theta); },
+      .admits =
+          [&](const Eigen::VectorXd& theta) {
+            return !options.guarded || guard.admits(family.letters, family.coefficients(theta), data.step);
+          },
+      .free = free,
+      .max_iterations = options.max_iterations};
   if (!has_data) {  // it is its own judge
     task.judge = [objective = task.loss](const Eigen::VectorXd& theta) { return objective(theta).value; };
   }
   const search_result found = search(task, starts);
-  const auto& [from, theta, hessian, still_free, loss_at_end, judged, iterations, converged, admitted, is_held] =
-      found.best;
+  const auto& [from, theta, hessian, still_free, loss_at_end, judged, iterations, converged, admitted,
+               is_held] = found.best;
 
   fit_summary summary;
   const curvature bend(hessian, still_free);
-  const Eigen::VectorXd errors = has_data && !is_held ? bend.standard_errors(detail::scores(loss, measure, theta))
-                                          : Eigen::VectorXd(Eigen::VectorXd::Zero(theta.size()));
+  const Eigen::VectorXd errors = has_data && !is_held
+                                     ? bend.standard_errors(detail::scores(loss, measure, theta))
+                                     : Eigen::VectorXd(Eigen::VectorXd::Zero(theta.size()));
   const auto at_start = trajectory_losses(held_out_loss, starts.front().theta);
   const auto at_end = trajectory_losses(held_out_loss, theta);
   summary.family = family.name;
@@ -254,10 +257,9 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   summary.guard = guard.description();
   summary.coordinates_used = measure.residuals();
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const bool is_free =
-        !is_held && std::find(still_free.begin(), still_free.end(), k) != still_free.end();
-    summary.parameters.push_back({family.parameter_names[static_cast<std::size_t>(k)], theta[k],
-                                  is_free ? errors[k] : 0.0, is_free});
+    const bool is_free = !is_held && std::find(still_free.begin(), still_free.end(), k) != still_free.end();
+    summary.parameters.push_back(
+        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
   }
   summary.loss = loss_at_end;
   summary.held_out_loss = tree_sum(at_end);
@@ -280,15 +282,15 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   summary.from = from;
   summary.is_held_by_guard = is_held;
   if (found.unguarded) {
-    summary.unguarded = guard.objection(family.letters, family.coefficients(found.unguarded->theta), data.step);
+    summary.unguarded =
+        guard.objection(family.letters, family.coefficients(found.unguarded->theta), data.step);
   }
   summary.reference_checked = !data.finer.empty();
   if (summary.reference_checked) summary.reference_error = detail::error_of_reference(data, measure);
   summary.iterations = iterations;
   summary.data_seconds = data.seconds + held_out.seconds;
   summary.learning_evaluations = data.evaluations + held_out.evaluations + loss.evaluations() +
-                                 held_out_loss.evaluations() + one_step.evaluations() +
-                                 judge.evaluations();
+                                 held_out_loss.evaluations() + one_step.evaluations() + judge.evaluations();
   const auto coefficients = family.coefficients(theta);
   const std::string instability = guard.objection(family.letters, coefficients, data.step);
   if (instability.empty()) {

@@ -27,9 +27,9 @@ struct fit_summary {
   double step = 0.0;
   std::uint64_t seed = 0;
   std::uint64_t held_out_seed = 0;
-  bool held_out_is_new = true;     // false: the held-out data are those that were learned from
-  std::string loss_name;           // see loss_choice
-  bool is_of_data = true;          // false: the loss asks no data, and these only judge
+  bool held_out_is_new = true;  // false: the held-out data are those that were learned from
+  std::string loss_name;        // see loss_choice
+  bool is_of_data = true;       // false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;
   double loss = 0.0;                 // one-step: mean over pairs of the sum over coordinates of r^2/Sigma

@@ -26,8 +26,8 @@ struct candidate {
   double judged = std::numeric_limits<double>::infinity();
   int iterations = 0;
   bool converged = false;
-  bool admitted = true;    // by the guard
-  bool is_held = false;    // by the guard, at the edge of what it admits
+  bool admitted = true;  // by the guard
+  bool is_held = false;  // by the guard, at the edge of what it admits
 };
 
 /// What a search is told.
@@ -56,8 +56,8 @@ inline Eigen::VectorXd random_start(const run_time_family& family, Eigen::Vector
 
 namespace detail {
 
-/// Minimises where `defined`; bounds that may be attained are left aside, and where the search ends beyond one
-/// that parameter is held there and the others are fitted again.
+/// Minimises where `defined`; bounds that may be attained are left aside, and where the search ends beyond
+/// one that parameter is held there and the others are fitted again.
 inline candidate descend(const search_task& task, const std::function<bool(const Eigen::VectorXd&)>& defined,
                          const named_parameters& start) {
   candidate found{.from = start.name, .theta = start.theta, .hessian = {}, .free = task.free};
@@ -77,8 +77,8 @@ inline candidate descend(const search_task& task, const std::function<bool(const
                return true;
              });
   }
-  found.judged = std::isfinite(found.loss) ? task.judge(found.theta)
-                                           : std::numeric_limits<double>::infinity();
+  found.judged =
+      std::isfinite(found.loss) ? task.judge(found.theta) : std::numeric_limits<double>::infinity();
   found.admitted = task.admits(found.theta);
   return found;
 }
@@ -102,10 +102,10 @@ struct search_result {
   int tried = 0;
 };
 
-/// From each start to its minimum; the judge takes the best that converged and that the guard admits. Where it
-/// admits none, the starts that it admits are followed as far as it does: what is found then lies at the edge,
-/// or is such a start. A single start is what it was, whatever the judge thinks.
-/// Cost: a search for each start, twice where the guard acts.
+/// From each start to its minimum; the judge takes the best that converged and that the guard admits. Where
+/// it admits none, the starts that it admits are followed as far as it does: what is found then lies at the
+/// edge, or is such a start. A single start is what it was, whatever the judge thinks. Cost: a search for
+/// each start, twice where the guard acts.
 inline search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;

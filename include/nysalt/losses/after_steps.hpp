@@ -66,9 +66,10 @@ class after_steps {
         options_(options),
         starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
     if (options.steps < 1 || starts_.pairs.empty()) {
-      throw std::invalid_argument(fmt::format(
-          "a loss over {} steps needs trajectories of at least as many: take a longer horizon, or fewer steps",
-          options.steps));
+      throw std::invalid_argument(
+          fmt::format("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
+                      "or fewer steps",
+                      options.steps));
     }
     share_ = 1.0 / static_cast<double>(starts_.pairs.size());
     parts_ = gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data));
@@ -84,9 +85,10 @@ class after_steps {
   /// Force evaluations of all passes so far, as `counted` counts them for one stretch after the other.
   std::int64_t evaluations() const { return evaluations_; }
 
-  /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of the
-  /// residuals, added in the order of time. `zero` says how many terms there are. Throws nothing: inadmissible
-  /// theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each stretch and two parameters.
+  /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
+  /// the residuals, added in the order of time. `zero` says how many terms there are. Throws nothing:
+  /// inadmissible theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each stretch and
+  /// two parameters.
   template <class Sum>
   std::vector<Sum> sums(const Eigen::VectorXd& theta, bool with_slopes, const Sum& zero,
                         const auto& of_stretch) const {
@@ -149,7 +151,8 @@ class after_steps {
       result.emplace_back(c.begin(), c.end());
       if (!with_slopes) return result;
       for (std::size_t i = 0; i < c.size(); ++i) {
-        for (Eigen::Index k = 0; k < std::min<Eigen::Index>(directions_at_a_time, parameters() - first); ++k) {
+        for (Eigen::Index k = 0; k < std::min<Eigen::Index>(directions_at_a_time, parameters() - first);
+             ++k) {
           result.back()[i].derivative[static_cast<std::size_t>(k)] =
               R(slopes(static_cast<Eigen::Index>(i), first + k));
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Stretches of trajectories side by side in the lanes of a scalar, gathered once for many passes over the data.
+// Stretches of trajectories side by side in the lanes of a scalar, gathered once for many passes over the
+// data.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,8 @@ struct stretches_in_lanes {
   std::vector<entry> entries;
 };
 
-/// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the entries.
+/// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the
+/// entries.
 template <Scalar R, int N>
 struct noise_of_entries {
   static constexpr bool draws_freely = false;
