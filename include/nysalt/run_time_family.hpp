@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -23,7 +24,8 @@ struct named_parameters {
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
  public:
-  template <Family F>
+  template <class F>
+    requires(!std::same_as<F, run_time_family> && Family<F>)
   explicit run_time_family(const F& family)
       : name(F::name),
         parameter_names(F::parameter_names.begin(), F::parameter_names.end()),
@@ -133,5 +135,13 @@ class run_time_family {
   std::function<std::vector<double>(const Eigen::VectorXd&)> coefficients_;
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
 };
+
+/// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
+inline void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
+  for (std::size_t k = 0; k < family.ranges.size(); ++k) {
+    detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
+                             theta[static_cast<Eigen::Index>(k)]);
+  }
+}
 
 }  // namespace nysalt

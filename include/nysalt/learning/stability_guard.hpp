@@ -50,7 +50,7 @@ class stability_guard {
   /// Throws std::invalid_argument unless there is a coefficient for each slot.
   std::string objection(const run_time_word& word, const std::vector<double>& coefficients,
                         double step) const {
-    word.require_one_for_each_letter(coefficients);
+    word.require_one_for_each_slot(coefficients);
     for (const auto& band : bands_) {
       const auto square = [&](double omega) { return step * step * omega * omega; };
       const auto trace = half_trace(word, coefficients, 0.0, square(band.low), square(band.high));
