@@ -2,6 +2,8 @@
 // Magnification is the largest norm of the powers of a step's matrix.
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/SVD>
+
 #include <numbers>
 
 #include "../support/draws.hpp"
