@@ -222,6 +222,18 @@ BOOST_AUTO_TEST_CASE(what_was_learned_at_a_resonance_is_admitted_there) {
   BOOST_TEST(!guard.admits(word, impulses, 4.0 * resonance));
 }
 
+// What is learned without data has no states: then only bands tell.
+BOOST_AUTO_TEST_CASE(without_states_rotations_are_not_watched) {
+  const with_quadratic_part system(harmonic_oscillator(1.0), Eigen::MatrixXd::Identity(1, 1));
+  const std::vector<phase_point<double, 1>> no_states;
+  const stability_guard guard(system, no_states);
+  BOOST_TEST(guard.description() == "declared bands [0.98, 1.02]");
+  BOOST_TEST(guard.admits(impulse, halves, 3.0));
+  BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 3.0));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); }, {"no states"}));
+}
+
 // Steps of words without rotations are bounded by the stiff springs all the same.
 BOOST_AUTO_TEST_CASE(a_quadratic_part_does_not_free_other_words) {
   const auto guard = guard_of_rotations();
