@@ -11,7 +11,9 @@
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/mclachlan_atela.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -63,8 +65,9 @@ using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a
 using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;
 
 /// Of those for baths one, as what it is without: its conservative part.
-using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, pefrl,
-                           blanes_moan_s6, srkn6b, srkn11b, member<nystrom>, baoab>;
+using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, forest_ruth,
+                           pefrl, mclachlan_atela4, mclachlan5, blanes_moan_s6, srkn6b, srkn11b, srkn14a,
+                           member<nystrom>, baoab>;
 
 /// A theta well inside the ranges, where coefficients are of moderate size.
 template <Family F>
