@@ -310,7 +310,7 @@ class bundled_model final : public bundled_system {
   /// In which noise is wanted to learn with.
   int noise_parts(const auto& family) const {
     if (system_.bath().sigma() == 0.0) return 0;
-    return intervals_of_noise(family.letters().letters(), family.coefficients(family.start())).parts;
+    return intervals_of_noise(family.letters(), family.coefficients(family.start())).parts;
   }
 
   measure_type measure_named(const std::string& metric, const std::string& name) const {

@@ -12,8 +12,8 @@
 #include "catalogue.hpp"
 #include "learning.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
 #include "stability.hpp"
 
@@ -161,7 +161,7 @@ tabulated table_in(const json& document, const reader& read) {
     const run_time_word word(letters);
     const std::string name = document.contains("name") ? read.text("name") : "table";
     const tabulated bare(name, word, coefficients, {1, false, false});
-    if (word.stochastic_letters > 0) intervals_of_noise(letters, coefficients);  // they cover the step once
+    if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // they cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
       refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",

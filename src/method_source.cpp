@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "catalogue.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/noise_intervals.hpp"
 #include "refusal.hpp"
 #include "stability.hpp"
 
@@ -160,7 +160,7 @@ std::optional<placement> placement_in(const method_source& source, const bundled
 
 int noise_parts(const tabulated& method, const bundled_system& system) {
   if (system.its_bath().sigma() == 0.0) return 0;
-  return intervals_of_noise(method.letters().letters(), method.coefficients()).parts;
+  return intervals_of_noise(method.letters(), method.coefficients()).parts;
 }
 
 std::optional<placement> placement_asked(const std::string& text) {

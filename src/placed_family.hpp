@@ -40,7 +40,8 @@ class placed_family {
   std::vector<C> coefficients(const std::array<C, static_cast<std::size_t>(F::parameters)>& theta) const {
     const auto plain = F::coefficients(theta);
     if (!where_) return {plain.begin(), plain.end()};
-    return thermostatted_coefficients(*where_, plain, std::vector<C>(letters().length, C(0.0)));
+    return thermostatted_coefficients(run_time_word(typename F::word{}), *where_,
+                                      std::vector<C>(plain.begin(), plain.end()));
   }
 
  private:

@@ -39,13 +39,13 @@ struct letters_and_coefficients {
 template <TypeLevelWord W, placement P>
 letters_and_coefficients by_type(const std::array<double, W::length>& plain) {
   using T = thermostatted_word<W, P>;
-  const auto c = thermostatted_coefficients(P, plain, std::array<double, T::length>{});
+  const auto c = thermostatted_coefficients<T>(P, plain);
   return {T::letters(), numbers(c.begin(), c.end())};
 }
 
 letters_and_coefficients as_data(const std::string& plain_letters, placement where, const numbers& plain) {
   const auto word = thermostatted(run_time_word(plain_letters), where);
-  return {word.letters(), thermostatted_coefficients(where, plain, numbers(word.length))};
+  return {word.letters(), thermostatted_coefficients(run_time_word(plain_letters), where, plain)};
 }
 
 template <TypeLevelWord W, placement P>

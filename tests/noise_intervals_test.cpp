@@ -25,7 +25,7 @@ using intervals = std::vector<noise_interval>;
 
 template <Method M>
 noise_intervals of(const M& method) {
-  return intervals_of_noise(M::word::letters(), method.coefficients());
+  return intervals_of_noise(typename M::word{}, method.coefficients());
 }
 /// A word of letters O alone.
 noise_intervals of_letters(const std::vector<double>& coefficients) {
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(placements_need_one_part_or_two) {
   BOOST_TEST(equals(of(thermostat<placement::middle>(plain)), 1, {{0, 1}}));
   BOOST_TEST(equals(of(thermostat<placement::symmetric>(plain)), 2, {{0, 1}, {1, 2}}));
   using family = thermostatted_family<nystrom, placement::symmetric>;
-  const auto its = intervals_of_noise(family::word::letters(), family::coefficients(family::start()));
+  const auto its = intervals_of_noise(family::word{}, family::coefficients(family::start()));
   BOOST_TEST(equals(its, 2, {{0, 1}, {1, 2}}));
 }
 

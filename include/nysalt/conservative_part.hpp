@@ -51,23 +51,34 @@ inline run_time_word conservative_part(const run_time_word& w) {
   return run_time_word(letters);
 }
 
-template <TypeLevelWord W, class C>
-std::array<C, conservative_word<W>::length> conservative_part(const W&, const std::array<C, W::length>& all) {
-  const std::string letters = W::letters();
-  std::array<C, conservative_word<W>::length> result;
-  for (std::size_t i = 0, kept = 0; i < all.size(); ++i) {
-    if (letters[i] != ornstein_uhlenbeck::letter) result[kept++] = all[i];
+namespace detail {
+/// Appends the coefficients of all letters but O.
+inline void keep_conservative(const run_time_word& w, const auto& all, auto take) {
+  for (std::size_t i = 0; i < w.length; ++i) {
+    if (w.letters()[i] == ornstein_uhlenbeck::letter) continue;
+    for (std::size_t k = 0; k < w.slots_of(i); ++k) take(all[w.first_slot(i) + k]);
   }
-  return result;
 }
-/// Throws std::invalid_argument unless there is a coefficient for each letter.
+}  // namespace detail
+
+template <TypeLevelWord W, class C>
+typename conservative_word<W>::template coefficients<C> conservative_part(
+    const W& w, const std::array<C, W::slots>& all) {
+  if constexpr (W::stochastic_letters == 0) {
+    return all;
+  } else {
+    typename conservative_word<W>::template coefficients<C> result;
+    std::size_t kept = 0;
+    detail::keep_conservative(run_time_word(w), all, [&](const C& c) { result[kept++] = c; });
+    return result;
+  }
+}
+/// Throws std::invalid_argument unless there is a coefficient for each slot.
 template <class C>
 std::vector<C> conservative_part(const run_time_word& w, const std::vector<C>& all) {
-  w.require_one_for_each_letter(all);
+  w.require_one_for_each_slot(all);
   std::vector<C> result;
-  for (std::size_t i = 0; i < w.length; ++i) {
-    if (w.letters()[i] != ornstein_uhlenbeck::letter) result.push_back(all[i]);
-  }
+  detail::keep_conservative(w, all, [&](const C& c) { result.push_back(c); });
   return result;
 }
 

@@ -25,6 +25,26 @@ struct counted : S {
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 
+  template <class T>
+    requires HasSoftForce<S, T>
+  void soft_force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
+    ++evaluations;
+    S::soft_force(q, f);
+  }
+
+  /// One evaluation, however a black box comes by it.
+  template <class T>
+    requires(HasForceDerivative<S, T> || (BlackBoxForce<S> && std::is_same_v<T, double>))
+  void force_derivative(const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
+                        vector<T, S::dimension>& g) const {
+    ++evaluations;
+    if constexpr (HasForceDerivative<S, T>) {
+      S::force_derivative(q, v, g);
+    } else {
+      directional_derivative(static_cast<const S&>(*this), q, v, g);
+    }
+  }
+
   template <class T, class C>
     requires HasKick<S, T, C>
   void kick(const vector<T, S::dimension>& q, vector<T, S::dimension>& p, const C& c) const {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
@@ -28,6 +29,13 @@ struct parameter_range {
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
+/// A classical method that a family contains.
+template <int Parameters>
+struct classical_member {
+  std::string_view name;
+  std::array<double, static_cast<std::size_t>(Parameters)> theta;
+};
+
 /// Carries the derivatives by theta, which learning needs.
 template <class F>
 using theta_dual = dual<double, F::parameters>;
@@ -39,6 +47,7 @@ using theta_dual = dual<double, F::parameters>;
 ///   coefficients(theta)                            over any scalar
 ///   letters()                                      where the word is a run_time_word
 /// All but the last two are static; these may be, or depend on what the family is told when it is made.
+/// And, if wanted, classical_members(): further methods from which a search begins.
 template <class F>
 concept Family = std::copyable<F> && Word<typename F::word> &&
     requires(const F& family, const parameters_of<F>& theta,

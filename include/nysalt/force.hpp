@@ -83,6 +83,96 @@ void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimen
   }
 }
 
+/// Which force a kick reads: that of V, or of V without its quadratic part.
+enum class field { none, whole, soft };
+
+/// The force of a field can be evaluated over T.
+template <class S, class T, field F>
+concept ForceOver = (F == field::whole && SystemOver<S, T>) || (F == field::soft && HasSoftForce<S, T>);
+
+/// The force of a field. Cost: one evaluation.
+template <field F, class T, System S>
+  requires ForceOver<S, T, F>
+void force_of(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
+  if constexpr (F == field::soft) {
+    system.soft_force(q, f);
+  } else {
+    force<T>(system, q, f);
+  }
+}
+
+/// f'(q) v of a field can be had over T.
+template <class S, class T, field F>
+concept ForceDerivativeOver = ForceOver<S, dual<T, 1>, F> ||
+    (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>)));
+
+/// Room for a force over dual numbers.
+template <class T, int N>
+struct lifted_room {
+  lifted_room() = default;
+  explicit lifted_room(Eigen::Index size) : q(size), f(size) {}
+  vector<dual<T, 1>, N> q;
+  vector<dual<T, 1>, N> f;
+};
+
+namespace detail {
+
+/// Of a black box, over dual numbers: f'(q) v, and f''(q)[dq, v] + f'(q) dv by central differences. Where
+/// f'(q) v is one itself, the derivatives have an error of order eps^(1/3).
+template <class T, System S>
+void black_box_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
+                     vector<T, S::dimension>& g) {
+  const Eigen::Index n = q.size();
+  auto at = make_vector<double>(system);
+  auto along = at;
+  auto ahead = at;
+  auto behind = at;
+  const auto difference = [&](double s, std::size_t k, vector<double, S::dimension>& result) {
+    for (Eigen::Index i = 0; i < n; ++i) at[i] = q[i].value + s * q[i].derivative[k];
+    for (Eigen::Index i = 0; i < n; ++i) along[i] = v[i].value + s * v[i].derivative[k];
+    directional_derivative(system, at, along, result);
+  };
+  difference(0.0, 0, ahead);
+  for (Eigen::Index i = 0; i < n; ++i) g[i].value = ahead[i];
+  for (std::size_t k = 0; k < T::derivatives; ++k) {
+    double length = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      length = std::max({length, std::abs(q[i].derivative[k]), std::abs(v[i].derivative[k])});
+    }
+    const double s = std::cbrt(std::numeric_limits<double>::epsilon()) / std::max(length, 1.0);
+    difference(s, k, ahead);
+    difference(-s, k, behind);
+    for (Eigen::Index i = 0; i < n; ++i) g[i].derivative[k] = (ahead[i] - behind[i]) / (2.0 * s);
+  }
+}
+
+}  // namespace detail
+
+/// g = f'(q) v of a field over any scalar: the system's own, or exactly by a dual number, and of a black box
+/// by differences. Cost: one evaluation, as `counted` counts it; over dual<double, N> a black box takes 2 N
+/// more.
+template <field F, class T, System S>
+  requires ForceDerivativeOver<S, T, F>
+void force_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
+                 vector<T, S::dimension>& g, lifted_room<T, S::dimension>& room) {
+  if constexpr (F == field::whole && HasForceDerivative<S, T>) {
+    system.force_derivative(q, v, g);
+  } else if constexpr (F == field::whole && BlackBoxForce<S>) {
+    if constexpr (is_dual<T>) {
+      detail::black_box_along<T>(system, q, v, g);
+    } else {
+      directional_derivative(system, q, v, g);
+    }
+  } else {
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      room.q[i].value = q[i];
+      room.q[i].derivative[0] = v[i];
+    }
+    force_of<F, dual<T, 1>>(system, room.q, room.f);
+    for (Eigen::Index i = 0; i < q.size(); ++i) g[i] = room.f[i].derivative[0];
+  }
+}
+
 /// How derivatives of the force come about, for reports.
 template <SeparableSystem S>
 constexpr const char* derivative_source() {

@@ -10,9 +10,12 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/noise_intervals.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
@@ -72,28 +75,58 @@ struct thermostatted_type {
 template <TypeLevelWord W, placement P>
 using thermostatted_word = typename detail::thermostatted_type<W, P>::type;
 
-/// Coefficients with those of the letters O: a container of any size, filled from one that is shorter.
-template <class Result, class Coefficients>
-Result thermostatted_coefficients(placement where, const Coefficients& c, Result result) {
-  using C = typename Result::value_type;
-  const std::size_t n = c.size();
-  const std::size_t central = n / 2;
-  switch (where) {
-    case placement::end:
-      for (std::size_t i = 0; i < n; ++i) result[i] = c[i];
-      result[n] = C(1.0);
-      return result;
-    case placement::symmetric:
-      result[0] = result[n + 1] = C(0.5);
-      for (std::size_t i = 0; i < n; ++i) result[i + 1] = c[i];
-      return result;
-    case placement::middle:
-      for (std::size_t i = 0; i < n; ++i) result[i < central ? i : i + 2] = c[i];
-      result[central] = result[central + 2] = c[central] * 0.5;
-      result[central + 1] = C(1.0);
-      return result;
+namespace detail {
+/// The coefficients of a word with those of its letters O, in the order of the word: take(c) for each. The
+/// central letter has those from `first` to `end`.
+void with_those_of_bath(placement where, const auto& c, std::size_t first, std::size_t end, auto take) {
+  using C = std::remove_cvref_t<decltype(c[0])>;
+  if (where == placement::symmetric) take(C(0.5));
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const bool is_split = where == placement::middle && first <= i && i < end;
+    take(is_split ? C(c[i] * 0.5) : c[i]);
+    if (!is_split || i + 1 < end) continue;
+    take(C(1.0));
+    for (std::size_t k = first; k < end; ++k) take(C(c[k] * 0.5));
   }
-  throw std::logic_error("thermostatted_coefficients: no such placement");
+  if (where == placement::symmetric) take(C(0.5));
+  if (where == placement::end) take(C(1.0));
+}
+}  // namespace detail
+
+/// Coefficients with those of the letters O, for the word of type Result with its letters O.
+template <TypeLevelWord Result, class C, std::size_t Slots>
+typename Result::template coefficients<C> thermostatted_coefficients(placement where,
+                                                                     const std::array<C, Slots>& c) {
+  constexpr std::size_t central = (Result::length - 2) / 2;  // of the word that is split, with O two longer
+  typename Result::template coefficients<C> result;
+  std::size_t filled = 0;
+  detail::with_those_of_bath(where, c, Result::first_slot(central), Result::first_slot(central + 1),
+                             [&](const C& one) { result[filled++] = one; });
+  return result;
+}
+
+/// The same as data, for the word without its letters O.
+template <class C>
+std::vector<C> thermostatted_coefficients(const run_time_word& w, placement where, const std::vector<C>& c) {
+  const std::size_t central = w.length / 2;
+  std::vector<C> result;
+  detail::with_those_of_bath(where, c, w.first_slot(central), w.first_slot(central) + w.slots_of(central),
+                             [&](const C& one) { result.push_back(one); });
+  return result;
+}
+
+/// Which part of a step each letter O of a word covers. Throws std::invalid_argument unless they share it as
+/// noise_intervals.hpp says.
+inline noise_intervals intervals_of_noise(const run_time_word& word, const auto& coefficients) {
+  std::vector<double> of_bath;
+  for (std::size_t i = 0; i < word.length; ++i) {
+    if (word.letters()[i] == bath_letter) of_bath.push_back(coefficients[word.first_slot(i)]);
+  }
+  return intervals_of_noise(word.letters(), of_bath);
+}
+template <TypeLevelWord W>
+noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
+  return intervals_of_noise(run_time_word(word), coefficients);
 }
 
 /// A word as data with its letters O. Throws std::invalid_argument if it has some already, or if it has no

@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/noise.hpp"
-
 namespace nysalt {
 
 /// From begin to end, in equal parts of a step.
@@ -37,18 +35,17 @@ struct noise_intervals {
   }
 };
 
-/// Throws std::invalid_argument unless the letters O cover the step once, forwards, in at most 60 equal
-/// parts.
-inline noise_intervals intervals_of_noise(std::string_view letters, const auto& coefficients) {
+/// Of a word whose letters O have these coefficients. Throws std::invalid_argument unless they cover the step
+/// once, forwards, in at most 60 equal parts.
+inline noise_intervals intervals_of_noise(std::string_view letters, const std::vector<double>& coefficients) {
   constexpr int most_parts = 60;
   std::vector<double> ends{0.0};
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (letters[i] != bath_letter) continue;
-    if (coefficients[i] < 0.0) {
-      throw std::invalid_argument(fmt::format(
-          "a letter O of {} has the coefficient {}: noise cannot go back in time", letters, coefficients[i]));
+  for (const double c : coefficients) {
+    if (c < 0.0) {
+      throw std::invalid_argument(
+          fmt::format("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
     }
-    ends.push_back(ends.back() + coefficients[i]);
+    ends.push_back(ends.back() + c);
   }
   if (ends.size() == 1) return {};
   constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more

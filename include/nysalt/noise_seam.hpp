@@ -10,15 +10,21 @@
 
 namespace nysalt {
 
-/// How far a run is in its noise while it is stepped, and room for the numbers of one letter.
-template <NoiseSource Noise, Scalar T, int N>
+/// Nothing: what letters that need no room take.
+struct no_room {};
+
+/// How far a run is in its noise while it is stepped, room for the numbers of one letter O, and for what
+/// other letters need.
+template <NoiseSource Noise, Scalar T, int N, class Room>
 struct noise_cursor {
+  static constexpr bool is_noisy = true;
   const Noise* source;
   std::uint64_t trajectory;
   std::int64_t step;
   int letters;        // O of a word
   bool bath_is_warm;  // false: sigma = 0, no number is drawn
   vector<T, N> xi;
+  Room room;
 
   const vector<T, N>& draw(std::int64_t of_step, int letter) {
     source->normals({trajectory, of_step, letter}, xi);
@@ -27,8 +33,11 @@ struct noise_cursor {
   void next() { ++step; }
 };
 
-/// The same where a word has no letter O: nothing.
-struct no_noise_cursor {
+/// The same where a word has no letter O.
+template <class Room>
+struct quiet_cursor {
+  static constexpr bool is_noisy = false;
+  Room room;
   void next() {}
 };
 

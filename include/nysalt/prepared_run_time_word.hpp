@@ -2,8 +2,11 @@
 // A word with its coefficients and the step folded in, letters as data.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "nysalt/prepared_word.hpp"
@@ -12,28 +15,37 @@
 namespace nysalt {
 
 /// One decision a letter, the same operations in the same order, hence the same bits.
-template <Scalar C>
-class prepared_word<run_time_word, C> {
+template <Scalar C, int N>
+class prepared_word<run_time_word, C, N> {
  public:
-  /// Throws std::invalid_argument unless there is a coefficient for each letter.
-  prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const bath* its)
-      : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.evaluations_to_open > 0) {
-    w.require_one_for_each_letter(c);
+  static constexpr bool needs_room = true;  // perhaps
+
+  /// Throws std::invalid_argument unless there is a coefficient for each slot.
+  prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& its)
+      : merges_(w.merges),
+        halves_meet_(w.halves_meet),
+        evaluates_to_open_(w.evaluations_to_open > 0),
+        reads_soft_(w.reads == field::soft) {
+    w.require_one_for_each_slot(c);
     int number = 0;
     for (std::size_t i = 0; i < w.length; ++i) {
-      plain_.push_back(prepare(w, i, c[i], h, its, w.plan().in_step[i]));
+      plain_.push_back(prepare(w, i, &c[w.first_slot(i)], h, its, w.plan().in_step[i]));
       if (w.letters()[i] == ornstein_uhlenbeck::letter) plain_.back().number = number++;
     }
     for (std::size_t i = w.first_in_loop(); i < w.length; ++i) {
       loop_.push_back(plain_[i]);
-      if (merges_ && i + 1 == w.length) loop_.back() = prepare(w, i, c[i] + c[0], h, its, evaluation::none);
+      if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
+        const C both = c.back() + c.front();
+        loop_.back() = prepare(w, i, &both, h, its, evaluation::none);
+      }
       last_.push_back(loop_.back());
       loop_.back().evaluates = w.plan().in_loop[i];
       last_.back().evaluates = w.plan().in_last[i];
     }
-    if (merges_) undo_ = prepare(w, 0, -c[0], h, its, evaluation::none);
+    const C back = -c.front();
+    if (merges_) undo_ = prepare(w, 0, &back, h, its, evaluation::none);
     if (!halves_meet_) return;
-    seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its->sigma() > 0.0);
+    seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its.its_bath->sigma() > 0.0);
     for (auto* letters : {&plain_, &loop_, &last_}) {
       letters->pop_back();
       letters->erase(letters->begin());
@@ -43,12 +55,12 @@ class prepared_word<run_time_word, C> {
   const prepared_word& in_loop() const { return *this; }
 
   template <class T, System S>
-  void open(const S& system, flow_state<T, S::dimension>& x) const {
-    if (evaluates_to_open_) force<T>(system, x.q, x.f);
-    no_noise_cursor nothing;  // what merges is not of the bath
+  void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if (evaluates_to_open_) evaluate<T>(system, x);
+    if (!merges_) return;
     prepared_letter first = plain_.front();
     first.evaluates = evaluation::none;
-    if (merges_) apply(system, first, x, nothing);
+    apply(system, first, x, cursor);
   }
   template <class T, System S>
   [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
@@ -74,67 +86,94 @@ class prepared_word<run_time_word, C> {
 
  private:
   struct prepared_letter {
-    char letter;
-    evaluation evaluates;  // the force, before it
-    C prepared;
-    ornstein_uhlenbeck::prepared<C> noise;
+    char letter = ' ';
+    evaluation evaluates = evaluation::none;  // of the force, before it
+    C prepared{0.0};
+    std::array<C, 2> gradient{C(0.0), C(0.0)};
+    ornstein_uhlenbeck::prepared<C> noise{};
     int number = 0;  // among the letters O
+    std::shared_ptr<const rotation::prepared<C, N>> turn{};
   };
 
-  static prepared_letter prepare(const run_time_word& w, std::size_t i, const C& c, double h, const bath* its,
-                                 evaluation evaluates) {
-    prepared_letter result{w.letters()[i], evaluates, c, {}};
+  static prepared_letter prepare(const run_time_word& w, std::size_t i, const C* c, double h,
+                                 const surroundings_of_word& its, evaluation evaluates) {
+    prepared_letter result{.letter = w.letters()[i], .evaluates = evaluates};
     detail::with_letter(result.letter, known_letters{}, [&](auto flow) {
-      if constexpr (StochasticFlow<decltype(flow)>) {
-        result.noise = flow.prepare(c, h, *its);
+      using letter = decltype(flow);
+      auto folded = detail::prepare_letter<letter, N>(c, h, its);
+      if constexpr (StochasticFlow<letter>) {
+        result.noise = folded;
+      } else if constexpr (QuadraticFlow<letter>) {
+        result.turn = std::make_shared<const rotation::prepared<C, N>>(std::move(folded));
+      } else if constexpr (letter::slots == 2) {
+        result.gradient = folded;
       } else {
-        result.prepared = flow.prepare(c, h);
+        result.prepared = folded;
       }
     });
     return result;
   }
 
   template <class T, System S>
-  [[gnu::always_inline]] static void apply(const S& system, const prepared_letter& l,
-                                           flow_state<T, S::dimension>& x, auto& cursor) {
-    const C prepared = l.prepared;
-    if (l.evaluates == evaluation::shared) force<T>(system, x.q, x.f);
+  void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
+    if constexpr (HasQuadraticPart<S>) {
+      if (reads_soft_) return force_of<field::soft, T>(system, x.q, x.f);
+    }
+    force<T>(system, x.q, x.f);
+  }
+
+  template <class T, System S>
+  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l, flow_state<T, S::dimension>& x,
+                                    auto& cursor) const {
+    if (l.evaluates == evaluation::shared) evaluate<T>(system, x);
     detail::with_letter(
         l.letter, known_letters{}, [&](auto flow) __attribute__((always_inline)) {
-          if constexpr (StochasticFlow<decltype(flow)>) {
-            if constexpr (has_noise<decltype(cursor)>) apply_noise(system, l.noise, l.number, cursor, x);
+          using letter = decltype(flow);
+          if constexpr (StochasticFlow<letter>) {
+            if constexpr (is_noisy<decltype(cursor)>) apply_noise(system, l.noise, l.number, cursor, x);
+          } else if constexpr (!letter::template serves<S, T>) {
+            // the stepper has refused it
+          } else if constexpr (QuadraticFlow<letter>) {
+            flow.apply(system, *l.turn, x, cursor.room);
+          } else if constexpr (letter::slots == 2) {
+            if (l.evaluates == evaluation::alone) evaluate<T>(system, x);
+            flow.apply(system, l.gradient, x, cursor.room);
           } else {
-            if constexpr (requires { flow.evaluate_and_apply(system, prepared, x); }) {
-              if (l.evaluates == evaluation::alone) return flow.evaluate_and_apply(system, prepared, x);
+            const C prepared = l.prepared;
+            if constexpr (requires { flow.evaluate_and_apply(system, prepared, x, cursor.room); }) {
+              if (l.evaluates == evaluation::alone) {
+                return flow.evaluate_and_apply(system, prepared, x, cursor.room);
+              }
             }
-            flow.apply(system, prepared, x);
+            flow.apply(system, prepared, x, cursor.room);
           }
         });
   }
 
   template <class Cursor>
-  static constexpr bool has_noise = !std::is_same_v<std::remove_cvref_t<Cursor>, no_noise_cursor>;
+  static constexpr bool is_noisy = std::remove_cvref_t<Cursor>::is_noisy;
 
   template <class T, System S>
   void cross(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (has_noise<decltype(cursor)>) seam_.cross(system, cursor, x);
+    if constexpr (is_noisy<decltype(cursor)>) seam_.cross(system, cursor, x);
   }
   template <class T, System S>
   void begin(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (has_noise<decltype(cursor)>) seam_.begin(system, cursor, x);
+    if constexpr (is_noisy<decltype(cursor)>) seam_.begin(system, cursor, x);
   }
   template <class T, System S>
   void end(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (has_noise<decltype(cursor)>) seam_.end(system, cursor, x);
+    if constexpr (is_noisy<decltype(cursor)>) seam_.end(system, cursor, x);
   }
 
   bool merges_;
   bool halves_meet_;
   bool evaluates_to_open_;
+  bool reads_soft_;
   std::vector<prepared_letter> plain_;
   std::vector<prepared_letter> loop_;
   std::vector<prepared_letter> last_;  // as loop_, and leaves the force where it is needed
-  prepared_letter undo_{};
+  prepared_letter undo_;
   noise_seam<C> seam_;
 };
 

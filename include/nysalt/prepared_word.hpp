@@ -5,14 +5,37 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <tuple>
 #include <utility>
 
-#include "nysalt/force.hpp"
 #include "nysalt/noise_seam.hpp"
+#include "nysalt/quadratic_part.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
+
+/// What letters are prepared with, beside coefficients and step: where their word needs it, else null.
+struct surroundings_of_word {
+  const bath* its_bath = nullptr;
+  std::shared_ptr<const quadratic_part> part;
+};
+
+namespace detail {
+/// One letter with its coefficients, c[0] and perhaps c[1], and the step folded in.
+template <Flow Letter, int N, Scalar C>
+auto prepare_letter(const C* c, double h, const surroundings_of_word& its) {
+  if constexpr (StochasticFlow<Letter>) {
+    return Letter::prepare(c[0], h, *its.its_bath);
+  } else if constexpr (QuadraticFlow<Letter>) {
+    return Letter::template prepare<N>(c[0], h, its.part);
+  } else if constexpr (Letter::slots == 2) {
+    return Letter::prepare(c[0], c[1], h);
+  } else {
+    return Letter::prepare(c[0], h);
+  }
+}
+}  // namespace detail
 
 // clang-format off
 /// open(system, x)                from a synchronous state to an open one: force and first letter where needed
@@ -24,23 +47,30 @@ namespace nysalt {
 // clang-format on
 ///
 /// An open run is ahead of the synchronous state by a first letter that merges with the last. Where both are
-/// of the bath it is behind instead: the letter O that meets the next step's is still to come.
-template <class W, Scalar C>
+/// of the bath it is behind instead: the letter O that meets the next step's is still to come. N is the
+/// dimension of the system.
+template <class W, Scalar C, int N>
 class prepared_word;
 
 /// Unrolled, nothing is decided while stepping.
-template <Scalar C, Flow... L>
-class prepared_word<word<L...>, C> {
+template <Scalar C, int N, Flow... L>
+class prepared_word<word<L...>, C, N> {
   using W = word<L...>;
 
  public:
-  prepared_word(const W&, const std::array<C, W::length>& c, double h, const bath* its)
+  using coefficients = typename W::template coefficients<C>;
+  static constexpr bool needs_room = W::force_derivatives > 0 || (QuadraticFlow<L> || ...);
+
+  prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& its)
       : letters_(prepare(c, h, its, std::make_index_sequence<W::length>{})) {
-    if constexpr (W::merges) {
-      seam_ = first::prepare(c[W::length - 1] + c[0], h);
-      undo_ = first::prepare(-c[0], h);
+    if constexpr (W::merges) {  // letters that merge have one coefficient
+      const C both = c[W::slots - 1] + c[0];
+      const C back = -c[0];
+      seam_ = detail::prepare_letter<first, N>(&both, h, its);
+      undo_ = detail::prepare_letter<first, N>(&back, h, its);
     } else if constexpr (W::halves_meet) {
-      seam_ = noise_seam<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_), its->sigma() > 0.0);
+      seam_ = noise_seam<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
+                            its.its_bath->sigma() > 0.0);
     }
   }
 
@@ -48,9 +78,9 @@ class prepared_word<word<L...>, C> {
   prepared_word in_loop() const { return *this; }
 
   template <class T, System S>
-  void open(const S& system, flow_state<T, S::dimension>& x) const {
-    if constexpr (W::evaluations_to_open > 0) force<T>(system, x.q, x.f);
-    if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x);
+  void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if constexpr (W::evaluations_to_open > 0) force_of<W::reads, T>(system, x.q, x.f);
+    if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x, cursor.room);
   }
   template <class T, System S>
   [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
@@ -69,7 +99,7 @@ class prepared_word<word<L...>, C> {
   }
   template <class T, System S>
   void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::merges) first::apply(system, undo_, x);
+    if constexpr (W::merges) first::apply(system, undo_, x, cursor.room);
     if constexpr (W::halves_meet) seam_.end(system, cursor, x);
   }
   template <class T, System S>
@@ -84,18 +114,11 @@ class prepared_word<word<L...>, C> {
   using first = typename W::template letter<0>;
   static constexpr std::size_t end = W::halves_meet ? W::length - 1 : W::length;  // of loop and plain step
 
-  template <Flow Letter>
-  static auto prepare_letter(const C& c, double h, const bath* its) {
-    if constexpr (StochasticFlow<Letter>) {
-      return Letter::prepare(c, h, *its);
-    } else {
-      return Letter::prepare(c, h);
-    }
-  }
   template <std::size_t... I>
-  static auto prepare(const std::array<C, W::length>& c, double h, const bath* its,
+  static auto prepare(const coefficients& c, double h, const surroundings_of_word& its,
                       std::index_sequence<I...>) {
-    return std::tuple(prepare_letter<typename W::template letter<I>>(c[I], h, its)...);
+    return std::tuple(
+        detail::prepare_letter<typename W::template letter<I>, N>(&c[W::first_slot(I)], h, its)...);
   }
 
   template <std::size_t I, evaluation E, class T, System S>
@@ -105,11 +128,11 @@ class prepared_word<word<L...>, C> {
     if constexpr (StochasticFlow<letter>) {
       apply_noise(system, prepared, W::stochastic_number(I), cursor, x);
     } else if constexpr (E == evaluation::alone &&
-                         requires { letter::evaluate_and_apply(system, prepared, x); }) {
-      letter::evaluate_and_apply(system, prepared, x);
+                         requires { letter::evaluate_and_apply(system, prepared, x, cursor.room); }) {
+      letter::evaluate_and_apply(system, prepared, x, cursor.room);
     } else {
-      if constexpr (E != evaluation::none) force<T>(system, x.q, x.f);
-      letter::apply(system, prepared, x);
+      if constexpr (E != evaluation::none) force_of<W::reads, T>(system, x.q, x.f);
+      letter::apply(system, prepared, x, cursor.room);
     }
   }
 
@@ -141,7 +164,7 @@ class prepared_word<word<L...>, C> {
     if constexpr (I + 1 < end) plain<I + 1>(system, x, cursor);
   }
 
-  using letters_type = decltype(prepare({}, 1.0, nullptr, std::make_index_sequence<W::length>{}));
+  using letters_type = decltype(prepare({}, 1.0, {}, std::make_index_sequence<W::length>{}));
   using first_type = std::tuple_element_t<0, letters_type>;
 
   letters_type letters_;

@@ -14,14 +14,17 @@
 #include <vector>
 
 #include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
 
 /// Every flow that a word can name by its letter at run time.
-using known_letters = std::tuple<drift, kick, ornstein_uhlenbeck>;
+using known_letters =
+    std::tuple<drift, kick, gradient_kick, rotation, soft_kick, soft_gradient_kick, ornstein_uhlenbeck>;
 
 namespace detail {
 /// f(flow) for the flow of that letter among the given ones; false if there is none.
@@ -39,15 +42,24 @@ class run_time_word {
   using coefficients = std::vector<C>;
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet.
-  /// Throws std::invalid_argument if there is none but O, or one that is not known.
+  /// Throws std::invalid_argument if there is none but O, or one that is not known, or if some letters kick
+  /// with the whole force and some with the soft part of it.
   explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
     if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
     std::vector<bool> reads;
     std::vector<bool> moves;
+    bool mixes = false;
     for (std::size_t i = 0; i < length; ++i) {
       const bool is_known = detail::with_letter(letters_[i], known_letters{}, [&](auto flow) {
-        reads.push_back(flow.reads_force);
+        first_slots_.push_back(slots);
+        slots += flow.slots;
+        force_derivatives += flow.force_derivatives;
+        if (flow.reads != field::none) {
+          mixes = mixes || (this->reads != field::none && this->reads != flow.reads);
+          this->reads = flow.reads;
+        }
+        reads.push_back(flow.reads != field::none);
         moves.push_back(flow.moves_q);
         if (i == 0) additive = flow.additive;
       });
@@ -55,6 +67,13 @@ class run_time_word {
         throw std::invalid_argument(fmt::format("the word {} holds the letter {}; known letters are {}",
                                                 letters_, letters_[i], all_known()));
       }
+    }
+    if (mixes) {
+      throw std::invalid_argument(
+          fmt::format("the word {} kicks with the whole force (B, G) and with the soft part of it (S, H); a "
+                      "word has but one "
+                      "of the two",
+                      letters_));
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
     halves_meet = length > 1 && letters_.front() == ornstein_uhlenbeck::letter &&
@@ -66,25 +85,36 @@ class run_time_word {
           fmt::format("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
-    evaluations_per_step = plan_.count(plan_.in_loop);
+    evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives;
     evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
-    evaluations_of_plain_step = plan_.count(plan_.in_step);
+    evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives;
   }
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
 
   /// Throws std::invalid_argument otherwise.
-  void require_one_for_each_letter(const auto& coefficients) const {
-    if (coefficients.size() == length) return;
-    throw std::invalid_argument(fmt::format("the word {} has {} letters, but {} coefficients are given",
-                                            letters_, length, coefficients.size()));
+  void require_one_for_each_slot(const auto& coefficients) const {
+    if (coefficients.size() == slots) return;
+    const std::string two = slots > length ? fmt::format(" and {} coefficients", slots) : "";
+    throw std::invalid_argument(fmt::format("the word {} has {} letters{}, but {} coefficients are given",
+                                            letters_, length, two, coefficients.size()));
   }
+
+  /// Where the coefficients of letter i begin.
+  std::size_t first_slot(std::size_t i) const { return first_slots_[i]; }
+  std::size_t slots_of(std::size_t i) const {
+    return (i + 1 < length ? first_slots_[i + 1] : slots) - first_slots_[i];
+  }
+  bool has(char letter) const { return letters_.find(letter) != std::string::npos; }
 
   const std::string& letters() const { return letters_; }
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
   std::size_t length;
+  std::size_t slots = 0;
+  field reads = field::none;  // what its letters kick with
+  int force_derivatives = 0;
   bool merges;
   bool halves_meet;
   int stochastic_letters;
@@ -101,6 +131,7 @@ class run_time_word {
   }
 
   std::string letters_;
+  std::vector<std::size_t> first_slots_;
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 

@@ -16,6 +16,7 @@
 #include "nysalt/conservative_part.hpp"
 #include "nysalt/noises/none.hpp"
 #include "nysalt/prepared_run_time_word.hpp"
+#include "nysalt/served_letters.hpp"
 
 namespace nysalt {
 
@@ -50,8 +51,8 @@ class stepper {
   using coefficients_type = typename W::template coefficients<C>;
 
   /// Throws std::invalid_argument if the step is zero or not finite; if a run-time word has another number
-  /// of letters than of coefficients; if a bath acts and the word has no letter O; or if it is noisy and
-  /// there is no noise. A negative step goes back in time.
+  /// of slots than of coefficients, or a letter that the system does not serve; if a bath acts and the word
+  /// has no letter O; or if it is noisy and there is no noise. A negative step goes back in time.
   stepper(const S& system, const W& word, const coefficients_type& coefficients, double step,
           const Noise& noise = {})
       : system_(&system),
@@ -59,8 +60,9 @@ class stepper {
         noise_(noise),
         acts_(acts_on(system)),
         stochastic_letters_(word.stochastic_letters),
+        takes_room_(word.force_derivatives > 0 || has_rotation(word)),
         letters_(letters_of(system, word, coefficients, step)),
-        quiet_(quiet_letters_of(word, coefficients, step)) {
+        quiet_(quiet_letters_of(system, word, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
       throw std::invalid_argument(fmt::format("the step must be finite and not zero, got {}", step));
     }
@@ -84,7 +86,8 @@ class stepper {
     open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);  // a checkpoint has no noise
-    with_letters([&](const auto& letters) { letters.open(*system_, run.state); });
+    auto cursor = cursor_at<T>(trajectory, 0);
+    with_letters([&](const auto& letters) { letters.open(*system_, run.state, cursor); });
     return run;
   }
 
@@ -161,30 +164,46 @@ class stepper {
 
  private:
   static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // while running, not compiling
-  using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C>;
-  using quiet_type = std::conditional_t<chooses, prepared_word<conservative_word<W>, C>, std::monostate>;
+  using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C, dimension>;
+  using quiet_type =
+      std::conditional_t<chooses, prepared_word<conservative_word<W>, C, dimension>, std::monostate>;
 
   static bool acts_on(const S& system) {
     if constexpr (HasBath<S>) return static_cast<const bath&>(system.bath()).acts();
     return false;
   }
   static letters_type letters_of(const S& system, const W& word, const coefficients_type& c, double step) {
+    const surroundings_of_word its = surroundings(system, word);
     if constexpr (may_be_noisy) {
-      const bath& its = system.bath();
-      if (its.acts() || TypeLevelWord<W>) return letters_type(word, c, step, &its);
+      if (system.bath().acts() || TypeLevelWord<W>) return letters_type(word, c, step, its);
     }
     if constexpr (!chooses) {
-      return letters_type(conservative_part(word), conservative_part(word, c), step, nullptr);
+      return letters_type(conservative_part(word), conservative_part(word, c), step, its);
     } else {
       throw std::logic_error("stepper: not reached");
     }
   }
-  static quiet_type quiet_letters_of(const W& word, const coefficients_type& c, double step) {
+  static quiet_type quiet_letters_of(const S& system, const W& word, const coefficients_type& c,
+                                     double step) {
     if constexpr (chooses) {
-      return quiet_type(conservative_part(word), conservative_part(word, c), step, nullptr);
+      return quiet_type(conservative_part(word), conservative_part(word, c), step,
+                        surroundings(system, word));
     } else {
       return {};
     }
+  }
+
+  /// Throws std::invalid_argument if the system does not serve a letter; of a type-level word that is told
+  /// when it is compiled.
+  static surroundings_of_word surroundings(const S& system, const W& word) {
+    using T = std::conditional_t<std::is_same_v<C, double>, double, C>;
+    surroundings_of_word result;
+    if constexpr (HasBath<S>) result.its_bath = &static_cast<const bath&>(system.bath());
+    require_served<S, T>(word, system);
+    if constexpr (HasQuadraticPart<S>) {
+      if (has_rotation(word)) result.part = quadratic_part::of(system);
+    }
+    return result;
   }
 
   /// f(letters that act)
@@ -197,13 +216,27 @@ class stepper {
 
   template <Scalar T>
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
+    using room = std::conditional_t<letters_type::needs_room, flow_room<T, dimension>, no_room>;
     if constexpr (may_be_noisy) {
       const bath& its = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
-      return noise_cursor<Noise, T, dimension>{
-          &noise_, trajectory, step, stochastic_letters_, its.sigma() > 0.0, vector<T, dimension>(numbers)};
+      return noise_cursor<Noise, T, dimension, room>{&noise_,
+                                                     trajectory,
+                                                     step,
+                                                     stochastic_letters_,
+                                                     its.sigma() > 0.0,
+                                                     vector<T, dimension>(numbers),
+                                                     make_room<room>()};
     } else {
-      return no_noise_cursor{};
+      return quiet_cursor<room>{make_room<room>()};
+    }
+  }
+  template <class Room>
+  Room make_room() const {
+    if constexpr (std::is_same_v<Room, no_room>) {
+      return {};
+    } else {
+      return Room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0);
     }
   }
 
@@ -235,6 +268,7 @@ class stepper {
   Noise noise_;
   bool acts_;  // the bath
   int stochastic_letters_;
+  bool takes_room_;
   letters_type letters_;
   [[no_unique_address]] quiet_type quiet_;  // in a bath that does not act
 };

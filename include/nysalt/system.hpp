@@ -6,7 +6,9 @@
 //   template <class T> void force(const vector<T, N>& q, vector<T, N>& f) const;      f = -grad V
 //   void force(const vector<double, N>& q, vector<double, N>& f) const;               a black box
 // and, if wanted,
-//   void force_derivative(q, v, g) const, all vector<double, N>;   g = f'(q) v, else central differences
+//   void force_derivative(q, v, g) const;                          g = f'(q) v, over double or any scalar;
+//   else
+//                                          by dual numbers, and of a black box by central differences
 //   template <class T, class C> void kick(const vector<T, N>& q, vector<T, N>& p, const C& c) const;
 //                                          p += c force(q) without storing the force, each p[i] += f[i] * c;
 //                                          written in the class of the force, or below
@@ -19,6 +21,8 @@
 // side: it calls functions unqualified (sin(x) after `using std::sin`), loops over elements, and writes
 // select(condition, a, b) where trajectories may differ; with lanes = 1 it is left in peace by packs.
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
+//   template <class T> void soft_force(const vector<T, N>& q, vector<T, N>& f) const;
+//                                          that of V less q K q/2, which modes() diagonalises
 //   std::string description() const;
 #pragma once
 
@@ -102,11 +106,14 @@ concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<
 
 template <class S, class T, class C = double>
 concept HasKick = detail::CanKick<S, T, C> && detail::KickOfTheForce<S, T, C>;
-template <class S>
-concept HasForceDerivative = requires(const S& s, const vector<double, S::dimension>& q,
-                                      const vector<double, S::dimension>& v,
-                                      vector<double, S::dimension>& g) {
+template <class S, class T = double>
+concept HasForceDerivative = requires(const S& s, const vector<T, S::dimension>& q,
+                                      const vector<T, S::dimension>& v, vector<T, S::dimension>& g) {
   s.force_derivative(q, v, g);
+};
+template <class S, class T = double>
+concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
+  s.soft_force(q, f);
 };
 template <class S>
 concept HasInverseMass = requires(const S& s, Eigen::Index i) {
@@ -160,6 +167,17 @@ concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>
 /// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
 template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
+
+/// The same of systems that need not be separable over double; order_probe, whose K is decided while running,
+/// says so.
+template <class S>
+concept HasQuadraticKinetic = System<S> &&((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
+                                           requires { requires S::may_have_quadratic_kinetic; });
+
+/// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes tell, and the rest by
+/// its force.
+template <class S>
+concept HasQuadraticPart = NystromSystem<S> && HasModes<S> && HasSoftForce<S>;
 
 // clang-format off
 /// H can be evaluated.

@@ -6,6 +6,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -29,6 +30,7 @@ struct evaluation_plan {
   bool is_known_when_open = false;  // the force, whenever a run may be looked at
 
   constexpr evaluation_plan() = default;
+  /// reads[i]: letter i reads the force; moves[i]: it is stale afterwards.
   constexpr evaluation_plan(const auto& reads, const auto& moves, std::size_t first, const Evaluations& none)
       : in_step(none), in_loop(none) {
     find_known(reads, moves, in_step, 0, false);
@@ -85,7 +87,21 @@ struct word {
   template <std::size_t I>
   using letter = std::tuple_element_t<I, std::tuple<L...>>;
   template <class C>
-  using coefficients = std::array<C, length>;
+  using coefficients = std::array<C, (0 + ... + L::slots)>;
+
+  /// Where the coefficients of letter i begin; those of all letters stand one after the other.
+  static constexpr std::size_t first_slot(std::size_t i) {
+    constexpr std::array<std::size_t, length> slots{L::slots...};
+    return std::accumulate(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(i), std::size_t{0});
+  }
+  static constexpr std::size_t slots = first_slot(length);
+
+  /// The force that its letters read.
+  static constexpr field reads = std::max({L::reads...});
+  static_assert(
+      ((L::reads == field::none || L::reads == reads) && ...),
+      "nysalt: the letters B, G kick with the whole force and S, H with the soft part of it: a word "
+      "has but one of the two");
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =
@@ -105,12 +121,14 @@ struct word {
 
   static constexpr std::size_t first_in_loop = merges ? 1 : 0;
   static constexpr detail::evaluation_plan<std::array<evaluation, length>> plan{
-      std::array{L::reads_force...}, std::array{L::moves_q...}, first_in_loop, {}};
+      std::array{(L::reads != field::none)...}, std::array{L::moves_q...}, first_in_loop, {}};
 
   /// Force evaluations of one step in the loop, of opening a run, and of a plain step.
-  static constexpr int evaluations_per_step = plan.count(plan.in_loop);
+  static constexpr int force_derivatives =
+      (0 + ... + L::force_derivatives);  // none is in a letter that merges
+  static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives;
   static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;
-  static constexpr int evaluations_of_plain_step = plan.count(plan.in_step);
+  static constexpr int evaluations_of_plain_step = plan.count(plan.in_step) + force_derivatives;
 };
 
 namespace detail {

@@ -83,8 +83,8 @@ double error_by_hand(const tabulated& method, const trajectory_options& options,
       for (const auto& one : xi) path.add(one);
       expected.push_back(x);
     }
-    const along_path<double, 1> noise(
-        path, intervals_of_noise(word_of(method).letters(), method.coefficients()), options.step);
+    const along_path<double, 1> noise(path, intervals_of_noise(word_of(method), method.coefficients()),
+                                      options.step);
     const auto stepper = make_stepper(warm, method, options.step, noise);
     for (std::int64_t n = 0; n < options.steps; ++n) {
       stepper.step(y, trajectory, n);
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(a_method_that_diverges_is_told_with_its_step) {
         reference.advance(warm, x, 1.2, path_place{3, trajectory, n}, std::span(xi));
         for (const auto& one : xi) path.add(one);
       }
-      const auto intervals = intervals_of_noise(word_of(method).letters(), method.coefficients());
+      const auto intervals = intervals_of_noise(word_of(method), method.coefficients());
       const along_path<double, 1> noise(path, intervals, 1.2);
       const auto stepper = make_stepper(warm, method, 1.2, noise);
       const auto alone = integrate(

@@ -30,7 +30,7 @@ flow_state<double, 2> after(const S& system, const ornstein_uhlenbeck::prepared<
 
 static_assert(Flow<ornstein_uhlenbeck> && StochasticFlow<ornstein_uhlenbeck>);
 static_assert(!ornstein_uhlenbeck::additive && !ornstein_uhlenbeck::moves_q &&
-              !ornstein_uhlenbeck::reads_force);
+              ornstein_uhlenbeck::reads == field::none);
 
 BOOST_AUTO_TEST_CASE(a_momentum_decays_and_is_kicked_at_random) {
   const auto noisy = bath::of_sigma(0.4, 0.9);

@@ -41,8 +41,9 @@ struct symmetric_stages {
   run_time_word letters() const { return thermostatted(run_time_word(nystrom::word{}), where); }
   template <Scalar C>
   std::vector<C> coefficients(const std::array<C, 1>& beta1) const {
-    return thermostatted_coefficients(where, nystrom::coefficients<C>({C(0.5), beta1[0]}),
-                                      std::vector<C>(letters().length));
+    const auto plain = nystrom::coefficients<C>({C(0.5), beta1[0]});
+    return thermostatted_coefficients(run_time_word(nystrom::word{}), where,
+                                      std::vector<C>(plain.begin(), plain.end()));
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A run along a recorded path sees that path's noise, each letter O that of its own part of the step.
 #include "nysalt/noises/along_path.hpp"
+#include "nysalt/langevin.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -47,7 +48,7 @@ recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
 }
 template <class T, Method M>
 along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const M& method, double h = step) {
-  return {path, intervals_of_noise(word_of(method).letters(), method.coefficients()), h};
+  return {path, intervals_of_noise(word_of(method), method.coefficients()), h};
 }
 template <class T, Method M>
 auto stepper_of(const recorded_path<T, 2>& path, const M& method, double h = step) {

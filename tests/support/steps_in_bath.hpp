@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/along_path.hpp"
 #include "nysalt/noises/counter_noise.hpp"
@@ -31,7 +32,7 @@ flow_map_data<S::dimension> made_by_steps(const S& system, const E& ensemble, co
   data.system = describe(system);
   data.seed = options.seed;
   data.first_of = {0};
-  const auto intervals = intervals_of_noise(word_of(method).letters(), method.coefficients());
+  const auto intervals = intervals_of_noise(word_of(method), method.coefficients());
   for (std::int64_t m = 0; m < options.trajectories; ++m) {
     const auto trajectory = static_cast<std::uint64_t>(m);
     recorded_path<double, S::dimension> path(options.step / options.parts, system.bath().friction(),

@@ -81,7 +81,7 @@ measured errors(const Method auto& method, std::int64_t steps, const auto& noise
 template <Method M>
 measured errors_on_the_path(const M& method, std::int64_t steps) {
   return errors(method, steps, [&](const auto& path) {
-    return along_path<T, 1>(path, intervals_of_noise(M::word::letters(), method.coefficients()),
+    return along_path<T, 1>(path, intervals_of_noise(typename M::word{}, method.coefficients()),
                             horizon / static_cast<double>(steps));
   });
 }
@@ -181,7 +181,8 @@ BOOST_AUTO_TEST_CASE(noise_gathered_the_wrong_way_is_noticed) {
       path.over(mirrored, mirrored + 1, xi);
       kept.back().add(xi);
     }
-    return along_path<T, 1>(kept.back(), intervals_of_noise("BAOAB", baoab::coefficients()), gap * fine);
+    return along_path<T, 1>(kept.back(), intervals_of_noise(baoab::word{}, baoab::coefficients()),
+                            gap * fine);
   });
   BOOST_TEST(off(reversed, expected_errors(baoab(), steps)) > 6.0);
 }

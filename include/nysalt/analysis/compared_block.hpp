@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/analysis/error_along.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/along_path.hpp"
@@ -112,7 +113,7 @@ class compared_block {
   noise_type noise_of(const M& method, const shared_noise& noise) const {
     if constexpr (PathReference<R, S>) {
       if (noise.parts == 0) return {path_, {}, step_};
-      return {path_, intervals_of_noise(word_of(method).letters(), method.coefficients()), step_};
+      return {path_, intervals_of_noise(word_of(method), method.coefficients()), step_};
     } else {
       return {};
     }

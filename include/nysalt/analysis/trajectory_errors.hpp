@@ -22,6 +22,7 @@
 #include "nysalt/analysis/method_error.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/langevin.hpp"
 
 namespace nysalt {
 
@@ -71,7 +72,7 @@ int parts_of_noise(const S& system, std::span<const M> methods) {
   if constexpr (HasBath<S>) {
     if (static_cast<const bath&>(system.bath()).sigma() == 0.0) return 0;
     for (const M& method : methods) {
-      const int its = intervals_of_noise(word_of(method).letters(), method.coefficients()).parts;
+      const int its = intervals_of_noise(word_of(method), method.coefficients()).parts;
       parts = parts == 0 ? its : std::lcm(parts, std::max(its, 1));
     }
   }

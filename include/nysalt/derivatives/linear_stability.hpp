@@ -31,7 +31,10 @@ template <Scalar T>
 struct stiffness_probe {
   static constexpr int dimension = 1;
   T stiffness;
-  void force(const vector<T, 1>& q, vector<T, 1>& f) const { f[0] = -(stiffness * q[0]); }
+  template <class U>
+  void force(const vector<U, 1>& q, vector<U, 1>& f) const {
+    f[0] = -(U(stiffness) * q[0]);
+  }
 };
 
 /// The 2 x 2 matrix of one step, in (q, z p).
@@ -57,16 +60,21 @@ oscillator_matrix<T> matrix_on_oscillator(const W& word, const typename W::templ
 template <class W>
 inline constexpr int stability_degree = 64;
 template <TypeLevelWord W>
-inline constexpr int stability_degree<W> = static_cast<int>(W::length);
+inline constexpr int stability_degree<W> = static_cast<int>(W::slots);
 
 }  // namespace detail
 
 /// All windows, from small z to large. Their ends are roots of trace/2 = +-1; windows that touch where the
 /// matrix is +-I are one. Cost: some thousand steps on an oscillator.
-/// Throws std::invalid_argument if a run-time word has more than 64 evaluations a step.
+/// Throws std::invalid_argument if a run-time word has more than 64 evaluations a step, or where it rotates.
 template <Word W>
 std::vector<stability_window> stability_windows(
     const W& word, const typename W::template coefficients<double>& coefficients) {
+  if (has_rotation(word)) {
+    throw std::invalid_argument(fmt::format(
+        "the word {} is exact on the oscillator at any step: only its soft part can make it unstable",
+        word.letters()));
+  }
   constexpr int degree = detail::stability_degree<W>;
   if (word.evaluations_of_plain_step > degree) {
     throw std::invalid_argument(fmt::format("stability is known for words of at most {} evaluations, not {}",
@@ -81,7 +89,7 @@ std::vector<stability_window> stability_windows(
   const auto polynomial = matrix(series<degree>::variable()).half_trace().coefficient;
   const auto bound =
       detail::matrix_on_oscillator(word, magnitudes, -series<degree>::variable()).half_trace().coefficient;
-  const double rounding = 8.0 * static_cast<double>(word.length) * std::numeric_limits<double>::epsilon();
+  const double rounding = 8.0 * static_cast<double>(word.slots) * std::numeric_limits<double>::epsilon();
   std::vector<double> slope;
   std::size_t terms = 0;
   for (std::size_t k = 1; k < polynomial.size(); ++k) {

@@ -68,6 +68,7 @@ class generic_gradient {
 class order_probe {
  public:
   static constexpr int dimension = 3;
+  static constexpr bool may_have_quadratic_kinetic = true;
 
   explicit order_probe(bool quadratic_kinetic) : quadratic_kinetic_(quadratic_kinetic) {
     for (double& q : start_.q) q = numbers_.next();

@@ -26,9 +26,9 @@ struct thermostatted_family {
   static auto start() { return F::start(); }
 
   template <Scalar C>
-  static std::array<C, word::length> coefficients(
+  static typename word::template coefficients<C> coefficients(
       const std::array<C, static_cast<std::size_t>(F::parameters)>& theta) {
-    return thermostatted_coefficients(P, F::coefficients(theta), std::array<C, word::length>{});
+    return thermostatted_coefficients<word>(P, F::coefficients(theta));
   }
 
  private:

@@ -9,9 +9,14 @@ namespace nysalt {
 /// A: the flow of K(p), q += c h grad K(p); with masses q_i += c h p_i / m_i.
 struct drift {
   static constexpr char letter = 'A';
-  static constexpr bool reads_force = false;
+  static constexpr std::size_t slots = 1;
+  static constexpr field reads = field::none;
+  static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = true;
   static constexpr bool additive = true;
+
+  template <System S, Scalar T>
+  static constexpr bool serves = true;
 
   template <Scalar C>
   static C prepare(const C& c, double h) {
@@ -19,7 +24,7 @@ struct drift {
   }
 
   template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x) {
+  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto&) {
     const Eigen::Index n = size(system);
     if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
       auto v = make_vector<T>(system);

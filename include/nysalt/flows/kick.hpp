@@ -2,16 +2,21 @@
 #pragma once
 
 #include "nysalt/flow.hpp"
-#include "nysalt/force.hpp"
 
 namespace nysalt {
 
-/// B: the flow of V(q), p += c h force(q).
-struct kick {
-  static constexpr char letter = 'B';
-  static constexpr bool reads_force = true;
+/// The flow of V(q) or of its soft part, p += c h force(q).
+template <field Field>
+struct kick_of {
+  static constexpr char letter = Field == field::soft ? 'S' : 'B';
+  static constexpr std::size_t slots = 1;
+  static constexpr field reads = Field;
+  static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = false;
   static constexpr bool additive = true;
+
+  template <System S, Scalar T>
+  static constexpr bool serves = Field == field::whole || HasQuadraticPart<S>;
 
   template <Scalar C>
   static C prepare(const C& c, double h) {
@@ -19,25 +24,30 @@ struct kick {
   }
 
   template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x) {
+  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto&) {
     const Eigen::Index n = size(system);
     for (Eigen::Index i = 0; i < n; ++i) x.p[i] += x.f[i] * c;
   }
 
   /// By the system's own kick, or with a force that is at home in registers if its dimension is fixed.
   template <System S, Scalar T, CoefficientOf<T> C>
-  static void evaluate_and_apply(const S& system, const C& c, flow_state<T, S::dimension>& x) {
-    if constexpr (HasKick<S, T, C>) {
+  static void evaluate_and_apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto& room) {
+    if constexpr (Field == field::whole && HasKick<S, T, C>) {
       system.kick(x.q, x.p, c);
     } else if constexpr (S::dimension != Eigen::Dynamic) {
       vector<T, S::dimension> f;
-      force<T>(system, x.q, f);
+      force_of<Field, T>(system, x.q, f);
       for (Eigen::Index i = 0; i < S::dimension; ++i) x.p[i] += f[i] * c;
     } else {
-      force<T>(system, x.q, x.f);
-      apply(system, c, x);
+      force_of<Field, T>(system, x.q, x.f);
+      apply(system, c, x, room);
     }
   }
 };
+
+/// B: the flow of V(q).
+using kick = kick_of<field::whole>;
+/// S: that of V without its quadratic part, whose flow is a rotation.
+using soft_kick = kick_of<field::soft>;
 
 }  // namespace nysalt

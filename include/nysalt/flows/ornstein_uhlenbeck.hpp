@@ -18,10 +18,15 @@ namespace nysalt {
 /// letters O of a word share the step in their order.
 struct ornstein_uhlenbeck {
   static constexpr char letter = bath_letter;
-  static constexpr bool reads_force = false;
+  static constexpr std::size_t slots = 1;
+  static constexpr field reads = field::none;
+  static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = false;
   static constexpr bool additive = false;  // the noise of two is not that of one
   static constexpr bool stochastic = true;
+
+  template <System S, Scalar T>
+  static constexpr bool serves = true;
 
   /// e^{-gamma c h} and s. What damps alone (sigma = 0) may go back in time; noise cannot.
   template <Scalar C>

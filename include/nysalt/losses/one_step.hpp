@@ -13,6 +13,7 @@
 #include "nysalt/counted.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/family.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/pairs_in_lanes.hpp"
 #include "nysalt/stepper.hpp"
@@ -106,7 +107,7 @@ class one_step {
       const bath& its = system_->bath();
       const auto word = word_of(family_);
       if (its.sigma() == 0.0 || word.stochastic_letters == 0) return {};
-      const auto needed = intervals_of_noise(word.letters(), family_.coefficients(F::start()));
+      const auto needed = intervals_of_noise(word, family_.coefficients(F::start()));
       if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
         throw std::invalid_argument(
             fmt::format("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "

@@ -27,16 +27,17 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// Throws std::invalid_argument unless there is a finite coefficient for each letter.
+  /// Throws std::invalid_argument unless there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),
         name_(std::move(name)),
         letters_(std::move(letters)),
         coefficients_(std::move(coefficients)) {
-    if (coefficients_.size() != letters_.length) {
-      throw std::invalid_argument(fmt::format("{}: {} coefficients for the {} letters {}", name_,
-                                              coefficients_.size(), letters_.length, letters_.letters()));
+    if (coefficients_.size() != letters_.slots) {
+      throw std::invalid_argument(fmt::format("{}: {} coefficients for the {} letters {}{}", name_,
+                                              coefficients_.size(), letters_.length, letters_.letters(),
+                                              letters_.slots > letters_.length ? " (G and H take two)" : ""));
     }
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;

@@ -23,8 +23,8 @@ class thermostatted_method {
 
   explicit thermostatted_method(const M& plain) : plain_(plain) {}
 
-  std::array<double, word::length> coefficients() const {
-    return thermostatted_coefficients(P, plain_.coefficients(), std::array<double, word::length>{});
+  typename word::template coefficients<double> coefficients() const {
+    return thermostatted_coefficients<word>(P, plain_.coefficients());
   }
   std::string name() const { return fmt::format("{}_{}", plain_.name(), to_string(P)); }
 
@@ -43,11 +43,10 @@ template <placement P, Method M>
 /// The same as data. Throws std::invalid_argument if the method has letters O already, or no central letter.
 inline tabulated thermostat(const tabulated& method, placement where) {
   const run_time_word letters = thermostatted(method.letters(), where);
-  return tabulated(
-      method.name(), letters,
-      thermostatted_coefficients(where, method.coefficients(), std::vector<double>(letters.length)),
-      {thermostatted_order(where, method.order, method.symmetric),
-       where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
+  return tabulated(method.name(), letters,
+                   thermostatted_coefficients(method.letters(), where, method.coefficients()),
+                   {thermostatted_order(where, method.order, method.symmetric),
+                    where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
 }
 
 }  // namespace nysalt

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/system.hpp"
+#include "nysalt/stiffness_modes.hpp"
 
 namespace nysalt {
 
@@ -29,21 +29,13 @@ class linear_chain {
   explicit linear_chain(Eigen::MatrixXd stiffness, Eigen::VectorXd masses = {})
       : stiffness_(std::move(stiffness)), inverse_masses_(std::move(masses)) {
     const auto n = stiffness_.rows();
-    if (n == 0 || n != stiffness_.cols()) {
-      throw std::invalid_argument(fmt::format(
-          "linear_chain: the stiffness matrix must be square, got {} x {}", n, stiffness_.cols()));
-    }
-    if (!stiffness_.allFinite())
-      throw std::invalid_argument("linear_chain: the stiffness matrix is not finite");
-    if (stiffness_ != stiffness_.transpose()) {
-      throw std::invalid_argument("linear_chain: the stiffness matrix must be symmetric; use (K + K^T)/2");
-    }
     if (inverse_masses_.size() == 0) inverse_masses_ = Eigen::VectorXd::Ones(n);
-    if (inverse_masses_.size() != n || !(inverse_masses_.minCoeff() > 0.0) || !inverse_masses_.allFinite()) {
+    if (n > 0 && (inverse_masses_.size() != n || !(inverse_masses_.minCoeff() > 0.0) ||
+                  !inverse_masses_.allFinite())) {
       throw std::invalid_argument(fmt::format("linear_chain: {} positive, finite masses are needed", n));
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
-    modes_ = decompose();
+    modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
     description_ = fmt::format("linear_chain(masses={}, omega_max={}, fingerprint={:016x})", n,
                                modes_.frequencies.maxCoeff(), fingerprint());
   }
@@ -85,6 +77,12 @@ class linear_chain {
     }
   }
 
+  /// All of it is quadratic.
+  template <class T>
+  void soft_force(const vector<T, dimension>&, vector<T, dimension>& f) const {
+    for (Eigen::Index i = 0; i < size(); ++i) f[i] = T(0.0);
+  }
+
   normal_modes modes() const { return modes_; }
   std::vector<frequency_band> frequency_bands() const {
     return {{modes_.frequencies.minCoeff(), modes_.frequencies.maxCoeff()}};
@@ -104,23 +102,6 @@ class linear_chain {
     for (const double x : stiffness_.reshaped()) add(x);
     for (const double x : inverse_masses_) add(x);
     return hash;
-  }
-
-  normal_modes decompose() const {
-    const Eigen::VectorXd root = inverse_masses_.cwiseSqrt();
-    const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness_ * root.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
-    const double largest = std::max(0.0, solver.eigenvalues().maxCoeff());
-    // The solver's eigenvalues are off by up to about n eps |K|: below that, a frequency is zero.
-    const double rounding = 8.0 * static_cast<double>(size()) * 2.2e-16 * std::max(largest, weighted.norm());
-    Eigen::VectorXd squares = solver.eigenvalues();
-    if (squares.minCoeff() < -rounding) {
-      throw std::invalid_argument(fmt::format(
-          "linear_chain: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded",
-          squares.minCoeff()));
-    }
-    for (auto& square : squares) square = square <= rounding ? 0.0 : square;
-    return {solver.eigenvectors(), squares.cwiseSqrt()};
   }
 
   Eigen::MatrixXd stiffness_;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "nysalt/families/symmetric_composition.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/kick.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/pefrl.hpp"
+
+namespace nysalt {
+
+/// A B A ... B A with s kicks: s evaluations.
+template <int Kicks>
+  requires(Kicks >= 2 && Kicks < 10)
+struct aba : symmetric_composition<drift, kick, 2 * Kicks + 1> {
+ private:
+  using base = symmetric_composition<drift, kick, 2 * Kicks + 1>;
+  static constexpr detail::numbered_name<4> text{"aba", Kicks};
+
+ public:
+  static constexpr std::string_view name{text.text.data(), text.text.size()};
+
+  static std::vector<classical_member<base::parameters>> classical_members() {
+    if constexpr (Kicks == 2) return {{"mclachlan2", base::of(mclachlan2())}};
+    if constexpr (Kicks == 4) return {{"pefrl", base::of(pefrl())}};
+    return {};
+  }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "nysalt/families/composition.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/kick.hpp"
+#include "nysalt/palindrome.hpp"
+
+namespace nysalt {
+
+/// A(a1) B(b1) A(a2) B(b2) ... with s kicks, not symmetric: all but the last coefficient of each letter,
+/// which follow from the sums, are parameters. s evaluations. What is learned has the order 1 in truth, with
+/// a tiny constant: never take it to a smaller step.
+template <int Kicks>
+  requires(Kicks == 3 || Kicks == 4)
+struct aba_free : composition<2 * Kicks - 1> {
+  using word = alternating_word<drift, kick, 2 * Kicks + 1>;
+  static constexpr std::size_t free = 2 * Kicks - 1;
+  static constexpr std::string_view name = Kicks == 3 ? "aba3_free" : "aba4_free";
+  static constexpr auto parameter_names = names_in_turn<free>(false);
+
+  /// Equal steps of drift-kick-drift.
+  static std::array<double, free> start() {
+    std::array<double, free> all;
+    all.fill(1.0 / Kicks);
+    all[0] = 0.5 / Kicks;
+    return all;
+  }
+
+  template <Scalar C>
+  static std::array<C, free + 2> coefficients(const std::array<C, free>& theta) {
+    std::array<C, free + 2> all;
+    C a(1.0);
+    C b(1.0);
+    for (std::size_t k = 0; k < free; ++k) {
+      all[k] = theta[k];
+      (k % 2 == 0 ? a : b) -= theta[k];
+    }
+    all[free] = b;
+    all[free + 1] = a;
+    return all;
+  }
+};
+
+using aba3_free = aba_free<3>;
+using aba4_free = aba_free<4>;
+
+}  // namespace nysalt

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "nysalt/families/symmetric_composition.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/kick.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+
+namespace nysalt {
+
+/// B A B ... A B with s drifts: s evaluations.
+template <int Drifts>
+  requires(Drifts >= 2 && Drifts < 10)
+struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
+ private:
+  using base = symmetric_composition<kick, drift, 2 * Drifts + 1>;
+  static constexpr detail::numbered_name<4> text{"bab", Drifts};
+
+ public:
+  static constexpr std::string_view name{text.text.data(), text.text.size()};
+
+  static std::vector<classical_member<base::parameters>> classical_members() {
+    if constexpr (Drifts == 6) return {{"srkn6b", base::of(srkn6b())}};
+    return {};
+  }
+};
+
+}  // namespace nysalt

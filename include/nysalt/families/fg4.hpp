@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "nysalt/families/composition.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/gradient_kick.hpp"
+#include "nysalt/flows/rotation.hpp"
+
+namespace nysalt {
+
+/// X(a) Y(b) X(1/2 - a) Z(1 - 2 b, c) X(1/2 - a) Y(b) X(a) with a gradient kick Z: four evaluations.
+template <Flow X, Flow Y, Flow Z>
+struct gradient_composition : composition<3> {
+  using word = nysalt::word<X, Y, X, Z, X, Y, X>;
+  static constexpr std::array<std::string_view, 3> parameter_names{"a", "b", "c"};
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = true;
+
+  /// Chin's method 4A, where a = 0.
+  static std::array<double, 3> start() { return {0.0, 1.0 / 6.0, 1.0 / 72.0}; }
+
+  template <Scalar C>
+  static std::array<C, 8> coefficients(const std::array<C, 3>& theta) {
+    const auto& [a, b, c] = theta;
+    const C rest = C(0.5) - a;
+    return {a, b, rest, C(1.0) - b * 2.0, c, rest, b, a};
+  }
+};
+
+/// A(a) B(b) A(1/2 - a) G(1 - 2 b, c) A(1/2 - a) B(b) A(a); fg_chin where a = 0.
+struct fg4 : gradient_composition<drift, kick, gradient_kick> {
+  static constexpr std::string_view name = "fg4";
+};
+
+/// R(a) S(b) R(1/2 - a) H(1 - 2 b, c) R(1/2 - a) S(b) R(a), for systems that declare a quadratic part.
+struct r_fg4 : gradient_composition<rotation, soft_kick, soft_gradient_kick> {
+  static constexpr std::string_view name = "r_fg4";
+};
+
+}  // namespace nysalt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <memory>
+
+#include "nysalt/flow.hpp"
+#include "nysalt/quadratic_part.hpp"
+
+namespace nysalt {
+
+/// R: the flow of H_0 = p M^-1 p/2 + q K q/2 over t = c h, exactly. In the coordinates of each mode
+///   x <- cos(omega t) x + sin(omega t)/omega y,   y <- cos(omega t) y - omega sin(omega t) x,
+/// and x <- x + t y where omega = 0. Cost: no evaluation, and four products for each entry of the basis that
+/// is not zero, up to 4 N^2.
+struct rotation {
+  static constexpr char letter = 'R';
+  static constexpr std::size_t slots = 1;
+  static constexpr field reads = field::none;
+  static constexpr int force_derivatives = 0;
+  static constexpr bool moves_q = true;
+  static constexpr bool additive = true;
+  static constexpr bool reads_modes = true;
+
+  template <System S, Scalar T>
+  static constexpr bool serves = HasQuadraticPart<S>;
+
+  template <Scalar C, int N>
+  struct prepared {
+    std::shared_ptr<const quadratic_part> part;
+    vector<C, N> cosine;
+    vector<C, N> of_y_in_x;
+    vector<C, N> of_x_in_y;
+  };
+
+  template <int N, Scalar C>
+  static prepared<C, N> prepare(const C& c, double h, const std::shared_ptr<const quadratic_part>& part) {
+    using std::cos;
+    using std::sin;
+    const auto n = static_cast<Eigen::Index>(part->frequencies().size());
+    prepared<C, N> result{part, vector<C, N>(n), vector<C, N>(n), vector<C, N>(n)};
+    const C t = c * h;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double omega = part->frequencies()[static_cast<std::size_t>(k)];
+      const C angle = t * omega;
+      result.cosine[k] = cos(angle);
+      result.of_y_in_x[k] = omega > 0.0 ? C(sin(angle) / omega) : t;
+      result.of_x_in_y[k] = -(sin(angle) * omega);
+    }
+    return result;
+  }
+
+  template <System S, Scalar T, CoefficientOf<T> C>
+  static void apply(const S&, const prepared<C, S::dimension>& turn, flow_state<T, S::dimension>& z,
+                    flow_room<T, S::dimension>& room) {
+    auto& [q, p] = static_cast<phase_point<T, S::dimension>&>(z);
+    auto& x = room.x;
+    auto& y = room.y;
+    const Eigen::Index n = z.size();
+    for (Eigen::Index k = 0; k < n; ++k) x[k] = y[k] = T(0.0);
+    for (const auto& [i, k, heavy, light] : turn.part->entries()) {
+      x[k] += q[i] * heavy;
+      y[k] += p[i] * light;
+    }
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const T turned = x[k] * turn.cosine[k] + y[k] * turn.of_y_in_x[k];
+      y[k] = y[k] * turn.cosine[k] + x[k] * turn.of_x_in_y[k];
+      x[k] = turned;
+      q[k] = p[k] = T(0.0);
+    }
+    for (const auto& [i, k, heavy, light] : turn.part->entries()) {
+      q[i] += x[k] * light;
+      p[i] += y[k] * heavy;
+    }
+  }
+};
+
+}  // namespace nysalt
