@@ -75,16 +75,22 @@ typename F::word word_of(const F& family) {
   }
 }
 
+namespace detail {
+inline void require_in_range(std::string_view family, std::string_view parameter,
+                             const parameter_range& range, double theta) {
+  if (range.contains(theta)) return;
+  const auto [low, high, open] = range;
+  throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", family,
+                                          parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
+}
+}  // namespace detail
+
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 template <Family F>
 void require_in_range(const parameters_of<F>& theta) {
   const auto ranges = F::ranges();
   for (std::size_t k = 0; k < theta.size(); ++k) {
-    if (ranges[k].contains(theta[k])) continue;
-    const auto [low, high, open] = ranges[k];
-    throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", F::name,
-                                            F::parameter_names[k], open ? '(' : '[', low, high,
-                                            open ? ')' : ']', theta[k]));
+    detail::require_in_range(F::name, F::parameter_names[k], ranges[k], theta[k]);
   }
 }
 

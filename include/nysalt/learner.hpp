@@ -5,27 +5,58 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/objection.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/learning/search.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/losses/stationary_covariance.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
+/// How to search. What is empty is the family's own.
+struct fit_options {
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;
+  loss_choice loss{};
+  std::optional<Eigen::VectorXd> start{};          // instead of the family's own starts
+  std::vector<named_parameters> further_starts{};  // beside them, such as the optimum at a smaller step
+  int random_starts = 0;                           // beside all these
+  std::vector<std::optional<double>> fixed{};      // a value for each parameter that is not to be learned
+  bool guarded = true;  // false: an unstable optimum is found, and said not to be usable
+  std::uint64_t seed = 1;
+  int max_iterations = 200;
+  int threads = 1;  // changes no bit of what is learned
+};
+
+struct fit {
+  Eigen::VectorXd theta;
+  fit_summary summary;
+};
+
+/// The same options with parameters as the family holds them.
 template <Family F>
 struct learn_options {
   nysalt::coordinates coordinates = nysalt::coordinates::qp;
   parameters_of<F> start = F::start();
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
   int max_iterations = 200;
-  int threads = 1;  // changes no bit of what is learned
+  int threads = 1;
+  loss_choice loss{};
+  bool classical_starts = true;
+  int random_starts = 0;
+  bool guarded = true;
+  std::uint64_t seed = 1;
 };
 
 template <Family F>
@@ -36,29 +67,21 @@ struct learned {
 
 namespace detail {
 
-/// Within the open ranges: beyond them the coefficients are not defined.
-template <Family F>
-bool is_defined(const Eigen::VectorXd& theta) {
-  const auto ranges = F::ranges();
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
-  }
-  return true;
-}
-
 /// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
 /// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
 /// counts less by that part. Without this the standard errors are two to three times too small.
 template <class Loss, int N>
-std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, const theta_of<Loss>& theta) {
-  const auto by_trajectory = coordinate_gradients(loss, theta);
+std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure,
+                                    const Eigen::VectorXd& theta) {
+  const auto by_trajectory = residual_gradients(loss, theta);
   const Eigen::MatrixXd sum = tree_sum(by_trajectory);
+  const bool is_weighted = sum.cols() == measure.residuals();  // an energy is not
   std::vector<Eigen::VectorXd> result;
   for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
     result.push_back(Eigen::VectorXd::Zero(sum.rows()));
     for (Eigen::Index k = 0; k < sum.cols(); ++k) {
       result[m] += by_trajectory[m].col(k);
-      result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
+      if (is_weighted) result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
     }
   }
   return result;
@@ -85,106 +108,223 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
   return std::sqrt(tree_sum(squares) / static_cast<double>(data.finer.size()));
 }
 
+/// The number of steps of the shortest trajectory.
+template <int N>
+int shortest_of(const flow_map_data<N>& data) {
+  std::size_t least = data.pairs();
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    least = std::min(least, data.first_of[m + 1] - data.first_of[m]);
+  }
+  return static_cast<int>(std::max<std::size_t>(least, 1));
+}
+
+/// Some hundred states of the data, for what is asked along them.
+template <int N>
+std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data) {
+  constexpr std::size_t most = 128;
+  std::vector<phase_point<double, N>> result;
+  for (std::size_t n = 0; n < data.pairs(); n += data.pairs() / most + 1) result.push_back(data.start[n]);
+  return result;
+}
+
+/// Of the law that a thermostatted word keeps on the quadratic part.
+template <System S>
+objective covariance_objective(const run_time_family& family, const S& system, double step) {
+  if constexpr (HasBath<S> && HasModes<S>) {
+    const stationary_covariance loss(system, family.letters, step);
+    return [family, loss](const Eigen::VectorXd& theta) {
+      return loss.at(family.coefficients(theta), family.jacobian(theta));
+    };
+  } else {
+    throw std::invalid_argument(
+        fmt::format("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
+                    describe(system)));
+  }
+}
+
+inline std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+                                               const std::vector<Eigen::Index>& free) {
+  std::vector<named_parameters> starts = family.starts;
+  if (options.start) starts = {{"start", *options.start}};
+  starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
+  for (auto& start : starts) {
+    for (std::size_t k = 0; k < options.fixed.size(); ++k) {
+      if (options.fixed[k]) start.theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
+    }
+  }
+  for (int n = 0; n < options.random_starts; ++n) {
+    const auto number = static_cast<std::uint64_t>(n);
+    starts.push_back({fmt::format("random {}", n + 1),
+                      random_start(family, starts.front().theta, free, options.seed, number)});
+  }
+  return starts;
+}
+
+inline void require_sound(const run_time_family& family, const fit_options& options) {
+  if (options.max_iterations < 0 || options.random_starts < 0) {
+    throw std::invalid_argument(
+        fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
+                    options.max_iterations, options.random_starts));
+  }
+  const auto count = static_cast<std::size_t>(family.parameters());
+  if ((options.start && options.start->size() != family.parameters()) ||
+      (!options.fixed.empty() && options.fixed.size() != count)) {
+    throw std::invalid_argument(fmt::format(
+        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
+  }
+  require_in_range(family, starts_of(family, options, {}).front().theta);
+}
+
 }  // namespace detail
 
-/// theta that minimises the one-step loss over `data` [li_lu_tao_ye_2023, section 3.1], judged on
-/// `held_out`, which should come from another seed. Bounds that may be attained are left aside by the
-/// search; where it ends beyond one, that parameter is held there and the others are fitted again.
+/// theta that minimises a loss over `data`, by default the one-step loss [li_lu_tao_ye_2023, section 3.1]. Of
+/// several starts (the family's own, its classical members, and what the options add) it is the minimum with
+/// the least mean square error at the end of the held-out trajectories, which should come from another seed,
+/// among those that the stability_guard admits; see learning/search.hpp for where it admits none.
 ///
-/// Throws std::invalid_argument if the data are of another system, of two steps or not finite, or if the
-/// coordinates, the start, a fixed value, max_iterations or threads cannot be. A fit that cannot be trusted
-/// is returned with usable = false. Cost: some 20 to 80 passes over the data, each a plain step with
-/// derivatives a pair; R carries the pairs, and changes no bit. Memory: another copy of the data.
-template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<F, S>>
-learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimension>& data,
-                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
+/// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if the system
+/// does not serve the family's letters, or if the coordinates, the loss, a start, a fixed value,
+/// max_iterations or threads cannot be. A fit that cannot be trusted is returned with usable = false. Cost:
+/// some 20 to 80 passes over the data for each start, each a plain step with derivatives a pair; R carries
+/// the pairs, and changes no bit. Memory: two or three copies of the data.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+fit learn(const run_time_family& family, const S& system, const flow_map_data<S::dimension>& data,
+          const flow_map_data<S::dimension>& held_out, const fit_options& options = {}) {
   const auto began = std::chrono::steady_clock::now();
-  require_suited<F, S>();
   require_valid(data, system);
   require_valid(held_out, system);
-  if (options.max_iterations < 0) {
-    throw std::invalid_argument(
-        fmt::format("learn: max_iterations must not be negative, got {}", options.max_iterations));
-  }
+  require_served<S, double>(family.letters, system);
+  detail::require_sound(family, options);
   if (held_out.step != data.step) {
     throw std::invalid_argument(
         fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
   }
-  auto theta = options.start;
-  for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = options.fixed[k].value_or(theta[k]);
-  require_in_range<F>(theta);
-
+  using loss_type = after_steps<S, R>;
+  const bool has_data = options.loss.of != loss_choice::kind::covariance;
   const metric<S::dimension> measure(system, data, options.coordinates);
-  const one_step<F, S, R> loss(system, data, measure, options.threads, family);
-  const one_step<F, S, R> held_out_loss(system, held_out, measure, options.threads, family);
-  const auto held_out_at_start = trajectory_losses(held_out_loss, theta);
+  const after_steps_options of_loss{.steps = options.loss.steps,
+                                    .energy = options.loss.of == loss_choice::kind::energy,
+                                    .overlap = true,
+                                    .threads = options.threads};
+  const loss_type loss(family, system, data, measure, of_loss);
+  const loss_type held_out_loss(family, system, held_out, measure, of_loss);
+  const loss_type judge(
+      family, system, held_out, measure,
+      {.steps = detail::shortest_of(held_out), .overlap = false, .threads = options.threads});
+  const stability_guard guard(system, detail::some_states(data));
 
   std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < theta.size(); ++k) {
-    if (!options.fixed[k]) free.push_back(static_cast<Eigen::Index>(k));
+  for (Eigen::Index k = 0; k < family.parameters(); ++k) {
+    if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  fit_summary fit;
-  bool converged = false;
-  Eigen::MatrixXd hessian;
-  for (bool inside = false; !inside;) {
-    const auto found =
-        minimise(objective_of(loss), detail::is_defined<F>, column_of(theta), free, options.max_iterations);
-    theta = array_of<parameters_of<F>{}.size()>(found.theta);
-    converged = found.converged;
-    fit.loss = found.loss;
-    hessian = found.hessian;
-    fit.iterations += found.iterations;
-    inside = 0 == std::erase_if(free, [&](Eigen::Index index) {
-               constexpr double met =
-                   1e-12;  // a bound that is met to rounding is met: exact recovery of Verlet
-               const auto k = static_cast<std::size_t>(index);
-               const auto range = F::ranges()[k];
-               if (range.open || (range.low + met < theta[k] && theta[k] < range.high - met)) return false;
-               theta[k] = theta[k] - range.low < range.high - theta[k] ? range.low : range.high;
-               return true;
-             });
+  const auto starts = detail::starts_of(family, options, free);
+  search_task task{
+      .family = &family,
+      .loss = has_data ? objective_of(loss) : detail::covariance_objective(family, system, data.step),
+      .judge = [&](const Eigen::VectorXd& theta) { return loss_value(judge, theta); },
+      .admits =
+          [&](const Eigen::VectorXd& theta) {
+            return !options.guarded || guard.admits(family.letters, family.coefficients(theta), data.step);
+          },
+      .free = free,
+      .max_iterations = options.max_iterations};
+  if (!has_data) {  // it is its own judge
+    task.judge = [objective = task.loss](const Eigen::VectorXd& theta) { return objective(theta).value; };
   }
+  const search_result found = search(task, starts);
+  const auto& [from, theta, hessian, still_free, loss_at_end, judged, iterations, converged, admitted,
+               is_held] = found.best;
 
-  const curvature bend(hessian, free);
-  const Eigen::VectorXd errors = bend.standard_errors(detail::scores(loss, measure, theta));
-  fit.family = F::name;
-  fit.system = data.system;
-  fit.reference = data.reference;
-  fit.ensemble = data.ensemble;
-  fit.coordinates = to_string(options.coordinates);
-  fit.derivatives = derivative_source<S>();
-  fit.step = data.step;
-  fit.seed = data.seed;
-  fit.held_out_seed = held_out.seed;
-  fit.held_out_is_new = !detail::begin_alike(data, held_out);
-  fit.stability_checked = HasFrequencyBands<S>;
-  fit.coordinates_used = measure.residuals();
-  for (std::size_t k = 0; k < theta.size(); ++k) {
-    const auto index = static_cast<Eigen::Index>(k);
-    const bool is_free = std::find(free.begin(), free.end(), index) != free.end();
-    fit.parameters.push_back(
-        {std::string(F::parameter_names[k]), theta[k], is_free ? errors[index] : 0.0, is_free});
+  fit_summary summary;
+  const curvature bend(hessian, still_free);
+  const Eigen::VectorXd errors = has_data && !is_held
+                                     ? bend.standard_errors(detail::scores(loss, measure, theta))
+                                     : Eigen::VectorXd(Eigen::VectorXd::Zero(theta.size()));
+  const auto at_start = trajectory_losses(held_out_loss, starts.front().theta);
+  const auto at_end = trajectory_losses(held_out_loss, theta);
+  summary.family = family.name;
+  summary.system = data.system;
+  summary.reference = data.reference;
+  summary.ensemble = data.ensemble;
+  summary.coordinates = to_string(options.coordinates);
+  summary.loss_name = options.loss.description();
+  summary.is_of_data = has_data;
+  summary.derivatives = derivative_source<S>();
+  summary.step = data.step;
+  summary.seed = data.seed;
+  summary.held_out_seed = held_out.seed;
+  summary.held_out_is_new = !detail::begin_alike(data, held_out);
+  summary.guard = guard.description();
+  summary.coordinates_used = measure.residuals();
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    const bool is_free = !is_held && std::find(still_free.begin(), still_free.end(), k) != still_free.end();
+    summary.parameters.push_back(
+        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
   }
-  const auto held_out_at_end = trajectory_losses(held_out_loss, theta);
-  fit.held_out_loss = tree_sum(held_out_at_end);
-  fit.held_out_start_loss = tree_sum(held_out_at_start);
-  fit.held_out_noise = detail::noise_of_difference(held_out_at_end, held_out_at_start);
-  fit.samples = data.pairs();
-  fit.trajectories = data.trajectories();
-  fit.held_out_samples = held_out.pairs();
-  fit.condition = bend.condition();
-  for (const auto& flat : bend.flat_directions()) fit.flat_directions.emplace_back(flat.begin(), flat.end());
-  fit.dropped = measure.dropped();
-  fit.one_step_error = std::sqrt(fit.loss);
-  fit.reference_checked = !data.finer.empty();
-  if (fit.reference_checked) fit.reference_error = detail::error_of_reference(data, measure);
-  fit.data_seconds = data.seconds + held_out.seconds;
-  fit.learning_evaluations =
-      data.evaluations + held_out.evaluations + loss.evaluations() + held_out_loss.evaluations();
-  fit.reason = detail::objection(system, fit, member<F>(theta, family), converged);
-  fit.usable = fit.reason.empty();
-  fit.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return {tuned_method<F>(member<F>(theta, family), data.step, data.system), fit};
+  summary.loss = loss_at_end;
+  summary.held_out_loss = tree_sum(at_end);
+  summary.held_out_start_loss = tree_sum(at_start);
+  summary.held_out_noise = detail::noise_of_difference(at_end, at_start);
+  const loss_type one_step(family, system, held_out, measure, {.threads = options.threads});
+  summary.one_step_error = std::sqrt(loss_value(one_step, theta));
+  summary.trajectory_error = std::sqrt(loss_value(judge, theta));
+  summary.samples = data.pairs();
+  summary.trajectories = data.trajectories();
+  summary.held_out_samples = held_out.pairs();
+  if (!is_held) {  // where it is, no minimum is near
+    summary.condition = bend.condition();
+    for (const auto& flat : bend.flat_directions()) {
+      summary.flat_directions.emplace_back(flat.begin(), flat.end());
+    }
+  }
+  summary.dropped = measure.dropped();
+  summary.starts_tried = found.tried;
+  summary.from = from;
+  summary.is_held_by_guard = is_held;
+  if (found.unguarded) {
+    summary.unguarded =
+        guard.objection(family.letters, family.coefficients(found.unguarded->theta), data.step);
+  }
+  summary.reference_checked = !data.finer.empty();
+  if (summary.reference_checked) summary.reference_error = detail::error_of_reference(data, measure);
+  summary.iterations = iterations;
+  summary.data_seconds = data.seconds + held_out.seconds;
+  summary.learning_evaluations = data.evaluations + held_out.evaluations + loss.evaluations() +
+                                 held_out_loss.evaluations() + one_step.evaluations() + judge.evaluations();
+  const auto coefficients = family.coefficients(theta);
+  const std::string instability = guard.objection(family.letters, coefficients, data.step);
+  if (instability.empty()) {
+    for (const auto& [low, high] : guard.gaps(family.letters, coefficients, data.step)) {
+      summary.gaps.push_back({low, high});
+    }
+  }
+  summary.reason = detail::objection(summary, converged || is_held, instability);
+  summary.usable = summary.reason.empty();
+  summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return {theta, summary};
+}
+
+/// The same for a family as a type, whose method is one too.
+template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>>
+learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimension>& data,
+                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
+  require_suited<F, S>();
+  fit_options its{.coordinates = options.coordinates,
+                  .loss = options.loss,
+                  .random_starts = options.random_starts,
+                  .fixed = {options.fixed.begin(), options.fixed.end()},
+                  .guarded = options.guarded,
+                  .seed = options.seed,
+                  .max_iterations = options.max_iterations,
+                  .threads = options.threads};
+  const run_time_family as_data(family);
+  its.start = column_of(options.start);
+  if (options.classical_starts) {
+    its.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());
+  }
+  const auto [theta, summary] = learn<S, R>(as_data, system, data, held_out, its);
+  const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
+  return {tuned_method<F>(found, data.step, data.system), summary};
 }
 
 }  // namespace nysalt

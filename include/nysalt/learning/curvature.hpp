@@ -33,9 +33,10 @@ inline Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& the
   return 0.5 * (result + result.transpose());
 }
 
-template <class Loss, std::size_t N>
-Eigen::MatrixXd hessian(const Loss& loss, const std::array<double, N>& theta) {
-  return hessian(objective_of(loss), column_of(theta));
+template <class Loss>
+  requires requires(const Loss& loss) { loss.residuals(); }
+Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
+  return hessian(objective_of(loss), theta);
 }
 
 /// A Hessian restricted to the free parameters, in its eigenvectors.

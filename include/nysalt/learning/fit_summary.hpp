@@ -27,11 +27,12 @@ struct fit_summary {
   double step = 0.0;
   std::uint64_t seed = 0;
   std::uint64_t held_out_seed = 0;
-  bool held_out_is_new = true;     // false: the held-out data are those that were learned from
-  bool stability_checked = false;  // on the system's frequency bands; it may declare none
+  bool held_out_is_new = true;  // false: the held-out data are those that were learned from
+  std::string loss_name;        // see loss_choice
+  bool is_of_data = true;       // false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;
-  double loss = 0.0;                 // mean over pairs of the sum over coordinates of r^2/Sigma
+  double loss = 0.0;                 // one-step: mean over pairs of the sum over coordinates of r^2/Sigma
   double held_out_loss = 0.0;        // the same on data that was not learned from
   double held_out_start_loss = 0.0;  // and with the parameters that the search began with
   double held_out_noise = 0.0;       // standard error of the difference of these two; 0 from one trajectory
@@ -43,8 +44,19 @@ struct fit_summary {
   std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
   std::int64_t coordinates_used = 0;                 // that the loss sums over
   std::vector<std::string> dropped;                  // coordinates that never move
+  int starts_tried = 1;
+  std::string from;  // the start that led here
   int iterations = 0;
-  double one_step_error = 0.0;     // root of the loss
+  std::string guard;              // on which frequencies stability was asked for
+  std::string unguarded;          // what the guard had against the optimum; empty: nothing
+  bool is_held_by_guard = false;  // no minimum was admitted: this is as far as the guard lets go
+  struct gap {
+    double low;
+    double high;
+  };
+  std::vector<gap> gaps;           // of z, between the bands, where it is unstable
+  double one_step_error = 0.0;     // root of the one-step loss on held-out data
+  double trajectory_error = 0.0;   // the same at the end of the held-out trajectories
   double reference_error = 0.0;    // the reference's own, in the same measure
   bool reference_checked = false;  // false: the data hold no finishes by a finer reference
 
@@ -77,15 +89,23 @@ struct fit_summary {
       text += fmt::format("  {:<22}{}\n", what, value);
     };
     line("usable", usable ? "yes" : "no: " + reason);
-    line("loss", fmt::format("{:.6e} on {} pairs of {} trajectories", loss, samples, trajectories));
+    line("loss", is_of_data ? fmt::format("{:.6e} ({}) on {} pairs of {} trajectories", loss, loss_name,
+                                          samples, trajectories)
+                            : fmt::format("{:.6e} ({})", loss, loss_name));
     line("held-out loss",
          fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
                      held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
-    line("stability", stability_checked ? "on the frequency bands of the system"
-                                        : "not checked: the system declares no frequency_bands()");
+    line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
+                               is_held_by_guard ? ", held by the guard" : ""));
+    line("stability", guard);
+    if (!unguarded.empty()) line("without the guard", unguarded);
+    for (const auto& [low, high] : gaps) {
+      line("gap", fmt::format("unstable for z = {:.4g} to {:.4g}, which the system has not", low, high));
+    }
     line("one-step error",
          fmt::format("{:.3e}, the reference's own {}", one_step_error,
                      reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));
+    line("trajectory error", fmt::format("{:.3e} at the end of held-out trajectories", trajectory_error));
     line("coordinates", coordinates);
     for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
     line("condition", fmt::format("{:.3g}", condition));

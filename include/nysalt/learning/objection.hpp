@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/family.hpp"
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/tree_sum.hpp"
 
 namespace nysalt::detail {
@@ -28,15 +25,17 @@ inline double noise_of_difference(const std::vector<double>& a, const std::vecto
   return std::sqrt(tree_sum(terms) * count / (count - 1.0));
 }
 
-/// Why a fit should not be used; empty if it may be.
-template <Family F, System S>
-std::string objection(const S& system, const fit_summary& fit, const member<F>& found, bool converged) {
-  if (!converged) return "the search did not converge";
+/// Why a fit should not be used; empty if it may be. Settled: it converged, or is held by the guard.
+inline std::string objection(const fit_summary& fit, bool settled, const std::string& instability) {
+  if (!settled) return "the search did not converge";
   // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
-  if (!(fit.held_out_loss < static_cast<double>(fit.coordinates_used))) {
-    return fmt::format("its held-out loss {:.2e} is no better than that of not moving at all",
-                       fit.held_out_loss);
+  const double one_step_loss = fit.one_step_error * fit.one_step_error;
+  if (!(one_step_loss < static_cast<double>(fit.coordinates_used))) {
+    return fmt::format("its held-out one-step loss {:.2e} is no better than that of not moving at all",
+                       one_step_loss);
   }
+  if (!instability.empty()) return instability;
+  if (!fit.is_of_data) return {};
   // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
   // that other data prefer now the one and now the other. Half as much again is more than chance, whatever a
   // few trajectories say of their noise. Equal to rounding is no objection either.
@@ -50,14 +49,6 @@ std::string objection(const S& system, const fit_summary& fit, const member<F>& 
   if (fit.reference_checked && !(fit.reference_error <= 0.01 * fit.one_step_error)) {
     return fmt::format("the reference's own error {:.2e} is not small against the one-step error {:.2e}",
                        fit.reference_error, fit.one_step_error);
-  }
-  if constexpr (HasFrequencyBands<S>) {
-    const auto windows = stability_windows(found);
-    for (const auto& band : system.frequency_bands()) {
-      if (is_stable(windows, fit.step * band.low, fit.step * band.high)) continue;
-      return fmt::format("it is not linearly stable for the frequencies {:g} to {:g} of the system", band.low,
-                         band.high);
-    }
   }
   return {};
 }

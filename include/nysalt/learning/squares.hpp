@@ -4,21 +4,16 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
-#include "nysalt/scalars/dual.hpp"
 #include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
-
-template <class Loss>
-inline constexpr int parameters_v = Loss::family::parameters;
-template <class Loss>
-using theta_of = std::array<double, static_cast<std::size_t>(parameters_v<Loss>)>;
 
 /// Of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J, which is
 /// half of Gauss-Newton's Hessian.
@@ -51,15 +46,11 @@ using objective = std::function<squares(const Eigen::VectorXd& theta)>;
 namespace detail {
 
 /// Column of a trajectory: r^T r, J^T r and the upper triangle of J^T J.
-template <int P>
-using column_of_squares = Eigen::Matrix<double, 1 + P + P*(P + 1) / 2, 1>;
-
-template <int P>
-squares from_column(const column_of_squares<P>& column) {
-  squares result{column[0], column.template segment<P>(1), Eigen::MatrixXd(P, P)};
-  Eigen::Index term = 1 + P;
-  for (Eigen::Index i = 0; i < P; ++i) {
-    for (Eigen::Index j = i; j < P; ++j, ++term) {
+inline squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters) {
+  squares result{column[0], column.segment(1, parameters), Eigen::MatrixXd(parameters, parameters)};
+  Eigen::Index term = 1 + parameters;
+  for (Eigen::Index i = 0; i < parameters; ++i) {
+    for (Eigen::Index j = i; j < parameters; ++j, ++term) {
       result.normal_matrix(i, j) = column[term];
       result.normal_matrix(j, i) = column[term];
     }
@@ -67,92 +58,79 @@ squares from_column(const column_of_squares<P>& column) {
   return result;
 }
 
-/// theta with derivatives by itself, in all lanes.
 template <class Loss>
-auto with_derivatives(const theta_of<Loss>& theta) {
-  using D = dual<typename Loss::scalar, parameters_v<Loss>>;
-  std::array<D, theta_of<Loss>{}.size()> result;
-  for (std::size_t k = 0; k < theta.size(); ++k) result[k] = D::variable(theta[k], static_cast<int>(k));
-  return result;
-}
-
-template <class Loss>
-auto squares_by_trajectory(const Loss& loss, const theta_of<Loss>& theta) {
-  using column = column_of_squares<parameters_v<Loss>>;
+std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  constexpr std::size_t count = theta_of<Loss>{}.size();
-  const auto of_pair = [](const auto& residuals, std::vector<R>& terms) {
-    std::array<R, static_cast<std::size_t>(column::SizeAtCompileTime)> sums;
-    sums.fill(R(0.0));
-    for (const auto& r : residuals) {
+  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
+    const std::size_t count = r.parameters;
+    std::fill(terms.begin(), terms.end(), R(0.0));
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
       std::size_t term = 0;
-      sums[term++] += r.value * r.value;
-      for (std::size_t i = 0; i < count; ++i) sums[term++] += r.derivative[i] * r.value;
+      terms[term++] += r.values[k] * r.values[k];
+      for (std::size_t i = 0; i < count; ++i) terms[term++] += r.slope(k, i) * r.values[k];
       for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = i; j < count; ++j) sums[term++] += r.derivative[i] * r.derivative[j];
+        for (std::size_t j = i; j < count; ++j) terms[term++] += r.slope(k, i) * r.slope(k, j);
       }
     }
-    for (std::size_t term = 0; term < sums.size(); ++term) terms[term] = sums[term];
   };
-  return loss.sums(with_derivatives<Loss>(theta), column(column::Zero()), of_pair);
+  const Eigen::Index p = loss.parameters();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1 + p + p * (p + 1) / 2);
+  return loss.sums(theta, true, zero, of_stretch);
 }
 
 }  // namespace detail
 
 /// What each trajectory adds to the loss. Cost: one pass over the data.
 template <class Loss>
-std::vector<double> trajectory_losses(const Loss& loss, const theta_of<Loss>& theta) {
+std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  using column = Eigen::Matrix<double, 1, 1>;
-  std::array<R, theta_of<Loss>{}.size()> constant;
-  for (std::size_t k = 0; k < theta.size(); ++k) constant[k] = R(theta[k]);
-  const auto of_pair = [](const auto& residuals, std::vector<R>& terms) {
+  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
     R sum(0.0);
-    for (const R& r : residuals) sum += r * r;
+    for (const R& x : r.values) sum += x * x;
     terms[0] = sum;
   };
   std::vector<double> result;
-  for (const auto& sum : loss.sums(constant, column(column::Zero()), of_pair)) result.push_back(sum[0]);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
+  for (const auto& sum : loss.sums(theta, false, zero, of_stretch)) result.push_back(sum[0]);
   return result;
 }
 template <class Loss>
-double loss_value(const Loss& loss, const theta_of<Loss>& theta) {
+double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
   return tree_sum(trajectory_losses(loss, theta));
 }
 
-/// What each trajectory adds to the gradient of the loss. Cost: one pass with derivatives, as for all below.
+/// What each trajectory adds to the gradient of the loss. Cost: a pass with derivatives, as for all below.
 template <class Loss>
-std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const theta_of<Loss>& theta) {
+std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   std::vector<Eigen::VectorXd> result;
   for (const auto& column : detail::squares_by_trajectory(loss, theta)) {
-    result.push_back(2.0 * column.template segment<parameters_v<Loss>>(1));
+    result.push_back(2.0 * column.segment(1, loss.parameters()));
   }
   return result;
 }
 template <class Loss>
-squares squares_at(const Loss& loss, const theta_of<Loss>& theta) {
-  return detail::from_column<parameters_v<Loss>>(tree_sum(detail::squares_by_trajectory(loss, theta)));
+squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
+  return detail::from_column(tree_sum(detail::squares_by_trajectory(loss, theta)), loss.parameters());
 }
 /// Refers to the loss.
 template <class Loss>
 objective objective_of(const Loss& loss) {
-  constexpr std::size_t count = theta_of<Loss>{}.size();
-  return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, array_of<count>(theta)); };
+  return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };
 }
 
-/// What each trajectory adds to the gradient of the loss, by coordinate of the metric: a column each.
+/// What each trajectory adds to the gradient of the loss, by residual: a column each.
 template <class Loss>
-std::vector<Eigen::MatrixXd> coordinate_gradients(const Loss& loss, const theta_of<Loss>& theta) {
+std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_pair = [](const auto& residuals, std::vector<R>& terms) {
+  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
     std::size_t term = 0;
-    for (const auto& r : residuals) {
-      for (const R& slope : r.derivative) terms[term++] = r.value * slope * 2.0;
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
+      for (std::size_t i = 0; i < r.parameters; ++i) terms[term++] = r.values[k] * r.slope(k, i) * 2.0;
     }
   };
   const Eigen::MatrixXd zero =
-      Eigen::MatrixXd::Zero(parameters_v<Loss>, static_cast<Eigen::Index>(loss.residuals()));
-  return loss.sums(detail::with_derivatives<Loss>(theta), zero, of_pair);
+      Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
+  return loss.sums(theta, true, zero, of_stretch);
 }
 
 }  // namespace nysalt

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+// Polynomials on an interval by coefficients between which they lie.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace nysalt {
+
+/// sum_i c_i (n over i) t^i (1 - t)^{n - i} with x = low + t (high - low): its values on the interval lie
+/// between the least and the largest c_i, and c_0 and c_n are those at the ends. Sums, products with x and
+/// halves are convex combinations, so nothing cancels that does not cancel in the values.
+/// Cost: of all operations n, of halves n^2/2.
+class bernstein_polynomial {
+ public:
+  bernstein_polynomial(double low, double high, double constant) : low_(low), high_(high), c_{constant} {}
+
+  double low() const { return low_; }
+  double high() const { return high_; }
+  double at_low() const { return c_.front(); }
+  double at_high() const { return c_.back(); }
+  std::pair<double, double> bounds() const {
+    const auto [least, most] = std::minmax_element(c_.begin(), c_.end());
+    return {*least, *most};
+  }
+
+  bernstein_polynomial& operator+=(bernstein_polynomial b) {
+    while (c_.size() < b.c_.size()) elevate();
+    while (b.c_.size() < c_.size()) b.elevate();
+    for (std::size_t i = 0; i < c_.size(); ++i) c_[i] += b.c_[i];
+    return *this;
+  }
+  bernstein_polynomial& operator*=(double a) {
+    for (double& c : c_) c *= a;
+    return *this;
+  }
+  friend bernstein_polynomial operator*(double a, bernstein_polynomial b) { return b *= a; }
+
+  bernstein_polynomial times_x() const { return times_linear(low_, high_); }
+
+  /// On the lower and on the upper half of the interval [farouki_2012].
+  std::pair<bernstein_polynomial, bernstein_polynomial> halves() const {
+    auto lower = *this;
+    auto upper = *this;
+    lower.high_ = upper.low_ = std::midpoint(low_, high_);
+    for (std::size_t k = 0; k < c_.size(); ++k) {
+      lower.c_[k] = upper.c_[0];
+      for (std::size_t i = 0; i + k + 1 < c_.size(); ++i)
+        upper.c_[i] = std::midpoint(upper.c_[i], upper.c_[i + 1]);
+    }
+    return {lower, upper};
+  }
+
+ private:
+  /// Times the line from a to b.
+  bernstein_polynomial times_linear(double a, double b) const {
+    auto result = *this;
+    result.c_.push_back(0.0);
+    const auto n = static_cast<double>(c_.size());
+    for (std::size_t i = 0; i <= c_.size(); ++i) {
+      const double part = static_cast<double>(i) / n;
+      result.c_[i] = (i < c_.size() ? (1.0 - part) * a * c_[i] : 0.0) + (i > 0 ? part * b * c_[i - 1] : 0.0);
+    }
+    return result;
+  }
+  void elevate() { c_ = times_linear(1.0, 1.0).c_; }
+
+  double low_;
+  double high_;
+  std::vector<double> c_;
+};
+
+/// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are told by their
+/// coefficients; those that cannot be told after 40 halvings only touch the bound.
+/// A polynomial that is not a number exceeds every bound.
+inline std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40) {
+  const auto is_within = [&](double value) { return -bound <= value && value <= bound; };
+  if (!is_within(f.at_low())) return f.low();
+  if (!is_within(f.at_high())) return f.high();
+  const auto [least, most] = f.bounds();
+  if ((is_within(least) && is_within(most)) || halvings == 0) return std::nullopt;
+  const auto [lower, upper] = f.halves();
+  if (const auto x = where_larger(lower, bound, halvings - 1)) return x;
+  return where_larger(upper, bound, halvings - 1);
+}
+
+}  // namespace nysalt

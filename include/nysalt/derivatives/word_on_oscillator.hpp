@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a word does to the harmonic oscillator, letter by letter.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "nysalt/derivatives/bernstein.hpp"
+#include "nysalt/run_time_word.hpp"
+
+namespace nysalt {
+
+/// (q, p) after one step of size 1 of the word without its bath, on q'' = -(theta^2 + k) q. R rotates by
+/// theta, S and H know k alone, B and G all of it. times_k(x) is k x, so that k may be a number or the
+/// variable of a polynomial. With a step h: theta = h omega, k = h^2 kappa, and p counts in units of q/h.
+template <class P>
+void step_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+                        const auto& times_k, P& q, P& p) {
+  const auto times_all = [&](const P& x) {
+    P result = times_k(x);
+    result += theta * theta * x;
+    return result;
+  };
+  const auto kick = [&](const auto& times, double c) { p += -c * times(q); };
+  const auto gradient_kick = [&](const auto& times, double b, double c) {
+    P force = -1.0 * times(q);
+    p += b * force;
+    p += -2.0 * c * times(force);
+  };
+  const auto rotate = [&](double part) {
+    const double angle = part * theta;
+    P turned = std::cos(angle) * q;
+    turned += (theta > 0.0 ? std::sin(angle) / theta : part) * p;
+    p *= std::cos(angle);
+    p += -theta * std::sin(angle) * q;
+    q = turned;
+  };
+  std::size_t slot = 0;
+  for (const char letter : word.letters()) {
+    const double* c = &coefficients[slot];
+    if (letter == 'A') q += c[0] * p;
+    if (letter == 'B') kick(times_all, c[0]);
+    if (letter == 'G') gradient_kick(times_all, c[0], c[1]);
+    if (letter == 'R') rotate(c[0]);
+    if (letter == 'S') kick(times_k, c[0]);
+    if (letter == 'H') gradient_kick(times_k, c[0], c[1]);
+    slot += letter == 'G' || letter == 'H' ? 2 : 1;
+  }
+}
+
+/// trace/2 of that step as a polynomial in k, low <= k <= high. The step is stable where it is inside +-1.
+inline bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
+                                       double theta, double low, double high) {
+  const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };
+  const bernstein_polynomial one(low, high, 1.0);
+  const bernstein_polynomial zero(low, high, 0.0);
+  auto qq = one, pq = zero, qp = zero, pp = one;
+  step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
+  step_on_oscillator(word, coefficients, theta, times_k, qp, pp);
+  return 0.5 * (qq += pp);
+}
+
+}  // namespace nysalt

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSL-1.0
+// From several starts to the best minimum that may be used.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/learning/minimise.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/run_time_family.hpp"
+
+namespace nysalt {
+
+/// Where a search ended, and what the judge thinks of it.
+struct candidate {
+  std::string from;  // the start, by name
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd hessian;
+  std::vector<Eigen::Index> free;  // neither fixed nor held at a bound
+  double loss = std::numeric_limits<double>::infinity();
+  double judged = std::numeric_limits<double>::infinity();
+  int iterations = 0;
+  bool converged = false;
+  bool admitted = true;  // by the guard
+  bool is_held = false;  // by the guard, at the edge of what it admits
+};
+
+/// What a search is told.
+struct search_task {
+  const run_time_family* family;
+  objective loss;
+  std::function<double(const Eigen::VectorXd&)> judge;  // what is least for the best
+  std::function<bool(const Eigen::VectorXd&)> admits;   // the guard
+  std::vector<Eigen::Index> free;
+  int max_iterations;
+};
+
+/// Theta normal around a start, with the deviation .3 as coefficients are of order one: number n of a seed.
+inline Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
+                                    const std::vector<Eigen::Index>& free, std::uint64_t seed,
+                                    std::uint64_t n) {
+  Eigen::VectorXd normals(theta.size());
+  standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::search}, normals);
+  for (const Eigen::Index k : free) {
+    const auto& [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
+    const double inset = open ? 1e-3 * (high - low) : 0.0;
+    theta[k] = std::clamp(theta[k] + 0.3 * normals[k], low + inset, high - inset);
+  }
+  return theta;
+}
+
+namespace detail {
+
+/// Minimises where `defined`; bounds that may be attained are left aside, and where the search ends beyond
+/// one that parameter is held there and the others are fitted again.
+inline candidate descend(const search_task& task, const std::function<bool(const Eigen::VectorXd&)>& defined,
+                         const named_parameters& start) {
+  candidate found{.from = start.name, .theta = start.theta, .hessian = {}, .free = task.free};
+  for (bool inside = false; !inside;) {
+    const auto end = minimise(task.loss, defined, found.theta, found.free, task.max_iterations);
+    found.theta = end.theta;
+    found.hessian = end.hessian;
+    found.loss = end.loss;
+    found.converged = end.converged;
+    found.iterations += end.iterations;
+    inside = 0 == std::erase_if(found.free, [&](Eigen::Index k) {
+               constexpr double met = 1e-12;  // a bound is met to rounding: exact recovery of Verlet
+               const auto& [low, high, open] = task.family->ranges[static_cast<std::size_t>(k)];
+               double& theta = found.theta[k];
+               if (open || (low + met < theta && theta < high - met)) return false;
+               theta = theta - low < high - theta ? low : high;
+               return true;
+             });
+  }
+  found.judged =
+      std::isfinite(found.loss) ? task.judge(found.theta) : std::numeric_limits<double>::infinity();
+  found.admitted = task.admits(found.theta);
+  return found;
+}
+
+/// The one that the judge likes best, among those that may be used; the first of equals.
+inline const candidate* best_of(const std::vector<candidate>& all, auto may_be_used) {
+  const candidate* best = nullptr;
+  for (const auto& one : all) {
+    if (!may_be_used(one) || !std::isfinite(one.judged)) continue;
+    if (best == nullptr || one.judged < best->judged) best = &one;
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
+struct search_result {
+  candidate best;
+  std::optional<candidate> unguarded;
+  int tried = 0;
+};
+
+/// From each start to its minimum; the judge takes the best that converged and that the guard admits. Where
+/// it admits none, the starts that it admits are followed as far as it does: what is found then lies at the
+/// edge, or is such a start. A single start is what it was, whatever the judge thinks. Cost: a search for
+/// each start, twice where the guard acts.
+inline search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
+  const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
+  std::vector<candidate> all;
+  for (const auto& start : starts) all.push_back(detail::descend(task, is_defined, start));
+  search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(all.size())};
+
+  const auto sound = [](const candidate& c) { return c.converged; };
+  const auto sound_and_admitted = [](const candidate& c) { return c.converged && c.admitted; };
+  const candidate* of_all = detail::best_of(all, sound);
+  const candidate* of_admitted = detail::best_of(all, sound_and_admitted);
+  if (of_all != nullptr) result.best = *of_all;
+  if (of_all != nullptr && !of_all->admitted) result.unguarded = *of_all;
+  if (of_admitted != nullptr) {
+    result.best = *of_admitted;
+    return result;
+  }
+  if (!result.unguarded) return result;
+
+  std::vector<candidate> held;
+  const auto is_allowed = [&](const Eigen::VectorXd& theta) {
+    return is_defined(theta) && task.admits(theta);
+  };
+  for (const auto& start : starts) {
+    if (!is_allowed(start.theta)) continue;
+    held.push_back(detail::descend(task, is_allowed, start));
+    held.back().is_held = true;
+    ++result.tried;
+  }
+  const candidate* best = detail::best_of(held, [](const candidate& c) { return c.admitted; });
+  if (best != nullptr) result.best = *best;
+  return result;
+}
+
+}  // namespace nysalt

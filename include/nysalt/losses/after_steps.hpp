@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/counted.hpp"
+#include "nysalt/energy.hpp"
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/stretches_in_lanes.hpp"
+#include "nysalt/run_time_family.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+struct after_steps_options {
+  int steps = 1;
+  bool energy = false;  // that of the energy, instead of the state's
+  bool overlap = true;  // a stretch begins at each pair, else where the last one ended
+  int threads = 1;      // changes no bit
+};
+
+/// The residuals of one stretch, and their derivatives by theta.
+template <Scalar R>
+struct residuals_of_stretch {
+  std::size_t parameters;
+  std::vector<R> values;
+  std::vector<R> slopes;  // of residual k by parameter i at [k parameters + i]
+
+  const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
+};
+
+/// The mean over all stretches of K steps of the sum over residuals of r^2, with
+///   state    r = Sigma^{-1/2} (K steps from the start - the data there): for K = 1 the paper's loss
+///            [li_lu_tao_ye_2023, equation (3.5)]
+///   energy   r = (H after K steps - H at the start)/the root mean square of K(p) at the starts.
+///
+/// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
+/// stretches; neither its lanes nor the threads change a bit of a sum.
+/// What a loss over data offers the learner: scalar, parameters(), trajectories(), residuals(), and
+/// sums(theta, with_slopes, zero, of_stretch).
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+class after_steps {
+  using C = dual<R, directions_at_a_time>;
+  static constexpr int N = S::dimension;
+
+ public:
+  using scalar = R;
+
+  /// Refers to system and metric, and copies the data. Throws std::invalid_argument if no trajectory is so
+  /// long, if the energy is asked for and not known, or if the system is in a noisy bath and the data do not
+  /// hold the noise that the letters O of the word need.
+  after_steps(const run_time_family& family, const S& system, const flow_map_data<N>& data,
+              const metric<N>& measure, const after_steps_options& options = {})
+      : family_(family),
+        system_(&system),
+        metric_(&measure),
+        step_(data.step),
+        options_(options),
+        starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
+    if (options.steps < 1 || starts_.pairs.empty()) {
+      throw std::invalid_argument(
+          fmt::format("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
+                      "or fewer steps",
+                      options.steps));
+    }
+    share_ = 1.0 / static_cast<double>(starts_.pairs.size());
+    parts_ = gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data));
+    if (options.energy) energy_scale_ = scale_of_energy(data);
+  }
+
+  Eigen::Index parameters() const { return family_.parameters(); }
+  std::size_t trajectories() const { return starts_.first_of.size() - 1; }
+  /// Of each stretch.
+  std::size_t residuals() const {
+    return options_.energy ? 1 : static_cast<std::size_t>(metric_->residuals());
+  }
+  /// Force evaluations of all passes so far, as `counted` counts them for one stretch after the other.
+  std::int64_t evaluations() const { return evaluations_; }
+
+  /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
+  /// the residuals, added in the order of time. `zero` says how many terms there are. Throws nothing:
+  /// inadmissible theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each stretch and
+  /// two parameters.
+  template <class Sum>
+  std::vector<Sum> sums(const Eigen::VectorXd& theta, bool with_slopes, const Sum& zero,
+                        const auto& of_stretch) const {
+    std::vector<Sum> result(trajectories(), zero);
+    const auto coefficients = in_directions(theta, with_slopes);
+    const auto visit = [&](std::int64_t index) {
+      const auto& part = parts_[static_cast<std::size_t>(index)];
+      if (part.entries.empty()) return;  // trajectories that are too short
+      const counted<S> watched(*system_);
+      std::vector<stepper_type> steppers;
+      for (const auto& c : coefficients) {
+        steppers.emplace_back(watched, family_.letters, c, step_,
+                              noise_of_entries<R, N>{&part.entries, family_.letters.stochastic_letters});
+      }
+      auto x = make_state(watched);
+      residuals_of_stretch<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
+                                std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
+      std::vector<C> of_directions(residuals());
+      std::vector<R> terms(static_cast<std::size_t>(zero.size()));
+      std::size_t trajectory = part.first_trajectory;
+      std::size_t stretch = starts_.first_of[trajectory];
+      Sum sum = zero;  // of one trajectory: local, so that it may stay in registers
+      for (std::size_t entry = 0; entry < part.entries.size(); ++entry) {
+        for (std::size_t d = 0; d < steppers.size(); ++d) {
+          residuals_after(steppers[d], part.entries[entry], entry, x, of_directions);
+          take(of_directions, d, with_slopes, r);
+        }
+        of_stretch(r, terms);
+        for (int k = 0; k < lanes_in<R> && stretch < part.end; ++k, ++stretch) {
+          for (; stretch == starts_.first_of[trajectory + 1]; ++trajectory) {
+            result[trajectory] = sum * share_;
+            sum = zero;
+          }
+          for (Eigen::Index i = 0; i < sum.size(); ++i) {
+            sum.data()[i] += lane(terms[static_cast<std::size_t>(i)], k);
+          }
+        }
+      }
+      result[trajectory] = sum * share_;
+      const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
+      evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
+    };
+    for_each_trajectory(std::ssize(parts_), options_.threads, visit);
+    return result;
+  }
+
+ private:
+  using stepper_type = stepper<counted<S>, run_time_word, C, noise_of_entries<R, N>>;
+
+  static flow_state<C, N> make_state(const counted<S>& system) {
+    return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
+  }
+
+  /// The coefficients with their derivatives along two parameters at a time, in all lanes.
+  std::vector<std::vector<C>> in_directions(const Eigen::VectorXd& theta, bool with_slopes) const {
+    const auto c = family_.coefficients(theta);
+    const Eigen::MatrixXd slopes = family_.jacobian(theta);
+    std::vector<std::vector<C>> result;
+    for (Eigen::Index first = 0; first < parameters(); first += directions_at_a_time) {
+      result.emplace_back(c.begin(), c.end());
+      if (!with_slopes) return result;
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        for (Eigen::Index k = 0; k < std::min<Eigen::Index>(directions_at_a_time, parameters() - first);
+             ++k) {
+          result.back()[i].derivative[static_cast<std::size_t>(k)] =
+              R(slopes(static_cast<Eigen::Index>(i), first + k));
+        }
+      }
+    }
+    return result;
+  }
+
+  void residuals_after(const stepper_type& stepper, const auto& entry, std::size_t number,
+                       flow_state<C, N>& x, std::vector<C>& r) const {
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      x.q[i] = C(entry.start.q[i]);
+      x.p[i] = C(entry.start.p[i]);
+    }
+    const auto before = options_.energy ? energy_of(x) : C(0.0);
+    for (int n = 0; n < options_.steps; ++n) stepper.step(x, number, n);
+    if (options_.energy) {
+      r[0] = (energy_of(x) - before) * energy_scale_;
+    } else {
+      metric_->residual(x.q, x.p, entry.finish, r.data());
+    }
+  }
+
+  static void take(const std::vector<C>& of_directions, std::size_t d, bool with_slopes,
+                   residuals_of_stretch<R>& r) {
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
+      r.values[k] = of_directions[k].value;
+      if (!with_slopes) continue;
+      for (std::size_t i = 0; i < directions_at_a_time; ++i) {
+        const std::size_t parameter = d * directions_at_a_time + i;
+        if (parameter < r.parameters) r.slopes[k * r.parameters + parameter] = of_directions[k].derivative[i];
+      }
+    }
+  }
+
+  C energy_of(const phase_point<C, N>& x) const {
+    if constexpr (HasEnergy<S, C>) {
+      return energy<C>(*system_, x);
+    } else {
+      return C(0.0);
+    }
+  }
+
+  /// 1/the root mean square of K(p).
+  double scale_of_energy(const flow_map_data<N>& data) const {
+    if constexpr (HasEnergy<S, C> && HasEnergy<S>) {
+      std::vector<double> squares;
+      for (const auto& x : data.start) {
+        const double k = kinetic_energy<double>(*system_, x.p);
+        squares.push_back(k * k);
+      }
+      return 1.0 / std::sqrt(tree_sum(squares) / static_cast<double>(squares.size()));
+    } else {
+      throw std::invalid_argument(fmt::format(
+          "an energy loss needs the potential of {} as a template over any scalar", describe(*system_)));
+    }
+  }
+
+  wanted_noise noise_wanted(const flow_map_data<N>& data) const {
+    if constexpr (HasBath<S>) {
+      const bath& its = system_->bath();
+      const run_time_word& word = family_.letters;
+      if (its.sigma() == 0.0 || word.stochastic_letters == 0) return {};
+      const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
+      if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
+        throw std::invalid_argument(
+            fmt::format("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
+                        "multiple: make them with noise_parts = {}",
+                        data.noise_parts, word.letters(), needed.parts, needed.parts));
+      }
+      return {needed.in_parts(data.noise_parts), its.friction() * data.step / data.noise_parts};
+    }
+    return {};
+  }
+
+  run_time_family family_;
+  const S* system_;
+  const metric<N>* metric_;
+  double step_;
+  double share_ = 1.0;
+  double energy_scale_ = 1.0;
+  after_steps_options options_;
+  stretch_starts starts_;
+  std::vector<stretches_in_lanes<R, N>> parts_;
+  mutable std::atomic<std::int64_t> evaluations_ = 0;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSL-1.0
+// How far the law that a thermostatted word keeps is from the Gibbs law, mode by mode and without data.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/bath.hpp"
+#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/discrete_lyapunov.hpp"
+#include "nysalt/served_letters.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+namespace detail {
+/// A mode of unit mass by itself, all of which is quadratic.
+struct mode_alone {
+  static constexpr int dimension = 1;
+  double omega;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = q[0] * (-omega * omega);
+  }
+  template <class T>
+  void soft_force(const vector<T, 1>&, vector<T, 1>& f) const {
+    f[0] = T(0.0);
+  }
+  normal_modes modes() const {
+    return {Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Constant(1, omega)};
+  }
+};
+}  // namespace detail
+
+/// On a mode of frequency omega > 0, x = omega q/sqrt(kT) and y = p/sqrt(kT) have the covariance 1 in the
+/// Gibbs law. A word steps them by (x, y) <- M (x, y) + normal noise, and its law at the end of a step has
+/// the covariance 1 + D that solves a discrete Lyapunov equation. The loss is the sum of D_xx^2 + 2 D_xy^2 +
+/// D_yy^2 over the modes: each gives the residuals D_xx, sqrt(2) D_xy and D_yy. They have no units, and
+/// depend on h omega and gamma h alone.
+///
+/// Why these weights: but for third powers of D the loss is four times the Kullback-Leibler divergence of the
+/// word's law from the Gibbs law, and that adds up over modes. So a frequency that r modes share counts r
+/// times, and by Pinsker's inequality no observable of the modes errs by more than sqrt(loss/8) in total
+/// variation. Positions count as much as momenta, as they do in energies; for the law of positions alone
+/// BAOAB is exact at one evaluation. Where D vanishes no weight matters: for O/2 S O/2 and S O it does where
+/// S turns the circle x^2 + y^2 = 1, as O keeps it.
+///
+/// Modes of frequency zero are left out, as they have no stationary law of their own, and so is all that is
+/// not quadratic.
+class stationary_covariance {
+ public:
+  /// The word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
+  /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
+  /// step is not positive and finite.
+  template <System S>
+    requires(HasBath<S>&& HasModes<S>)
+  stationary_covariance(const S& system, const run_time_word& word, double step)
+      : word_(word), step_(step), bath_(system.bath()) {
+    if (!(step > 0.0) || !std::isfinite(step)) {
+      throw std::invalid_argument(fmt::format("the step must be positive and finite, got {}", step));
+    }
+    if (word.stochastic_letters == 0) {
+      throw std::invalid_argument(
+          fmt::format("the word {} has no letter O and keeps no law: thermostat it", word.letters()));
+    }
+    if (bath_.friction() == 0.0 || bath_.sigma() == 0.0) {
+      throw std::invalid_argument(fmt::format(
+          "in a {} there is no law to keep: give it friction and a temperature", bath_.description()));
+    }
+    const normal_modes modes = system.modes();
+    for (const double omega : modes.frequencies) {
+      if (omega > 0.0) ++multiplicity_of_[omega];
+    }
+    if (multiplicity_of_.empty()) {
+      throw std::invalid_argument(fmt::format(
+          "{} has no mode of a frequency above zero, hence none with a law of its own", describe(system)));
+    }
+    require_served<S, double>(word, system);
+    split_at_bath();
+  }
+
+  /// Three for each distinct frequency, from the lowest up, times the root of its multiplicity.
+  /// Infinite where the word keeps no law: its spectral radius is not below 1, or a letter O goes back in
+  /// time. T is double or a dual of it. Cost: each letter twice for each frequency, on one number. Throws
+  /// std::invalid_argument unless there is a coefficient for each slot.
+  template <Scalar T>
+  std::vector<T> residuals(const std::vector<T>& coefficients) const {
+    word_.require_one_for_each_slot(coefficients);
+    std::vector<T> result;
+    for (const auto& [omega, multiplicity] : multiplicity_of_) {
+      const double weight = std::sqrt(static_cast<double>(multiplicity));
+      const auto D = excess(omega, coefficients);
+      result.push_back(D.xx * weight);
+      result.push_back(D.xy * (weight * std::numbers::sqrt2));
+      result.push_back(D.yy * weight);
+    }
+    return result;
+  }
+
+  /// The loss and its derivatives by theta, from the coefficients at theta and their Jacobian: a row for
+  /// each coefficient, a column for each parameter.
+  squares at(const std::vector<double>& coefficients, const Eigen::MatrixXd& jacobian) const {
+    constexpr int width = 2;  // columns at a time, as their number is known while running only
+    const auto values = residuals(coefficients);
+    const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+    Eigen::MatrixXd J(r.size(), jacobian.cols());
+    for (Eigen::Index first = 0; first < J.cols(); first += width) {
+      const Eigen::Index end = std::min(first + width, J.cols());
+      std::vector<dual<double, width>> c(coefficients.begin(), coefficients.end());
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        for (Eigen::Index k = first; k < end; ++k) {
+          c[i].derivative[static_cast<std::size_t>(k - first)] = jacobian(static_cast<Eigen::Index>(i), k);
+        }
+      }
+      const auto moving = residuals(c);
+      for (std::size_t i = 0; i < moving.size(); ++i) {
+        for (Eigen::Index k = first; k < end; ++k) {
+          J(static_cast<Eigen::Index>(i), k) = moving[i].derivative[static_cast<std::size_t>(k - first)];
+        }
+      }
+    }
+    return {r.squaredNorm(), J.transpose() * r, J.transpose() * J};
+  }
+
+ private:
+  /// A letter O, or all letters between two of them.
+  struct piece {
+    std::size_t first;  // of its slots
+    std::optional<run_time_word> turn;
+  };
+
+  void split_at_bath() {
+    const std::string& letters = word_.letters();
+    for (std::size_t i = 0; i < letters.size();) {
+      pieces_.push_back({word_.first_slot(i), std::nullopt});
+      const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
+      if (length > 0) pieces_.back().turn = run_time_word(letters.substr(i, length));
+      i += std::max<std::size_t>(length, 1);
+    }
+  }
+
+  /// The map M of the word and the excess R that it makes of none: then D = M D M^T + R.
+  template <Scalar T>
+  plane_covariance<T> excess(double omega, const std::vector<T>& c) const {
+    plane_map<T> M;
+    plane_covariance<T> R;
+    for (const auto& [first, turn] : pieces_) {
+      if (turn) {
+        const auto S = map_of(*turn, &c[first], omega);
+        R = carried(S, R) + excess_of_turn(S);
+        M = then(M, S);
+      } else {  // O keeps the covariance 1: it makes no excess of its own
+        if (c[first] < T(0.0)) return no_covariance<T>();
+        plane_map<T> damping;
+        damping.yy = bath_.decay(c[first] * step_);
+        R = carried(damping, R);
+        M = then(M, damping);
+      }
+    }
+    return discrete_lyapunov(M, R);
+  }
+
+  /// What letters without O make of (x, y), as the stepper does it.
+  template <Scalar T>
+  plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
+    const detail::mode_alone mode{omega};
+    const stepper<detail::mode_alone, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
+    phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
+    phase_point<T, 1> from_y{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
+    one.step(from_x);
+    one.step(from_y);
+    return {from_x.q[0] * omega, from_y.q[0] * omega, from_x.p[0], from_y.p[0]};
+  }
+
+  run_time_word word_;
+  double step_;
+  bath bath_;
+  std::map<double, int> multiplicity_of_;  // of each frequency
+  std::vector<piece> pieces_;
+};
+
+}  // namespace nysalt

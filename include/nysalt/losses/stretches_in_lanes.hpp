@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSL-1.0
+// Stretches of trajectories side by side in the lanes of a scalar, gathered once for many passes over the
+// data.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "nysalt/flow_map_data.hpp"
+#include "nysalt/lanes.hpp"
+#include "nysalt/noise_intervals.hpp"
+#include "nysalt/noises/recorded_path.hpp"
+
+namespace nysalt {
+
+/// Parameters whose derivatives are carried at a time; more take further passes.
+inline constexpr int directions_at_a_time = 2;
+
+/// What passes over data compute with: packs where the system serves them and their derivatives, else double.
+template <System S>
+using scalar_of_passes =
+    std::conditional_t<SystemOver<S, dual<scalar_of_lanes<lanes_of<S>>, directions_at_a_time>>,
+                       scalar_of_lanes<lanes_of<S>>, double>;
+
+/// Stretches of some consecutive trajectories, as many in each entry as R has lanes; the last one fills what
+/// is left of the last entry.
+template <Scalar R, int N>
+struct stretches_in_lanes {
+  struct entry {
+    phase_point<R, N> start;
+    phase_point<R, N> finish;
+    std::vector<vector<R, N>> noise;  // that of each letter O of the word, step after step
+  };
+  std::size_t first_trajectory;
+  std::size_t begin;  // of the numbers of its stretches
+  std::size_t end;
+  std::vector<entry> entries;
+};
+
+/// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the
+/// entries.
+template <Scalar R, int N>
+struct noise_of_entries {
+  static constexpr bool draws_freely = false;
+  const std::vector<typename stretches_in_lanes<R, N>::entry>* entries = nullptr;
+  std::int64_t letters = 0;
+
+  template <class T>
+  void normals(const noise_place& at, vector<T, N>& xi) const {
+    const auto& all = (*entries)[static_cast<std::size_t>(at.trajectory)].noise;
+    const auto& its = all[static_cast<std::size_t>(at.step * letters + at.flow)];
+    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = T(its[i]);
+  }
+};
+
+/// What the letters O of a word need of the noise in data.
+struct wanted_noise {
+  noise_intervals intervals;   // in the parts of the data
+  double damping_of_part = 0;  // gamma times the length of a part
+};
+
+/// The pairs with which stretches of a number of steps begin, trajectory by trajectory: every pair, or each
+/// one where the last ended. first_of is as in flow_map_data.
+struct stretch_starts {
+  std::vector<std::size_t> pairs;
+  std::vector<std::size_t> first_of{0};
+
+  template <int N>
+  stretch_starts(const flow_map_data<N>& data, std::size_t steps, bool overlap) {
+    for (std::size_t m = 0; m < data.trajectories(); ++m) {
+      for (std::size_t pair = data.first_of[m]; pair + steps <= data.first_of[m + 1];
+           pair += overlap ? 1 : steps) {
+        pairs.push_back(pair);
+      }
+      first_of.push_back(pairs.size());
+    }
+  }
+};
+
+namespace detail {
+
+template <Scalar R, int N>
+stretches_in_lanes<R, N> gather_stretches(const flow_map_data<N>& data, const stretch_starts& starts,
+                                          std::size_t steps, const wanted_noise& wanted,
+                                          std::size_t first_trajectory, std::size_t end_trajectory) {
+  constexpr std::size_t width = lanes_in<R>;
+  stretches_in_lanes<R, N> result{
+      first_trajectory, starts.first_of[first_trajectory], starts.first_of[end_trajectory], {}};
+  const coarse_graining coarse(wanted.damping_of_part);
+  const auto parts = static_cast<std::size_t>(data.noise_parts);
+  for (std::size_t n = result.begin; n < result.end; n += width) {
+    const auto pair = [&](std::size_t k) { return starts.pairs[std::min(n + k, result.end - 1)]; };
+    const auto in_lanes = [&](const std::vector<phase_point<double, N>>& states, std::size_t later) {
+      return gather<R, N>(lanes_in<R>,
+                          [&](int k) { return states[pair(static_cast<std::size_t>(k)) + later]; });
+    };
+    result.entries.push_back({in_lanes(data.start, 0), in_lanes(data.finish, steps - 1), {}});
+    for (std::size_t step = 0; step < steps; ++step) {
+      for (const auto& [begin, end] : wanted.intervals.of_letters) {
+        vector<R, N> noise(data.start[0].size());
+        vector<double, N> of_one(noise.size());
+        for (std::size_t k = 0; k < width; ++k) {
+          const std::size_t first = (pair(k) + step) * parts + static_cast<std::size_t>(begin);
+          coarse.over(std::span(data.noise).subspan(first, static_cast<std::size_t>(end - begin)), of_one);
+          for (Eigen::Index i = 0; i < noise.size(); ++i) set_lane(noise[i], static_cast<int>(k), of_one[i]);
+        }
+        result.entries.back().noise.push_back(std::move(noise));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace detail
+
+/// All stretches, in parts of whole trajectories that a thread can take: of a thousand or more, so that lanes
+/// are left idle for one in a hundred at most.
+template <Scalar R, int N>
+std::vector<stretches_in_lanes<R, N>> gather_stretches(const flow_map_data<N>& data,
+                                                       const stretch_starts& starts, std::size_t steps,
+                                                       const wanted_noise& wanted) {
+  constexpr std::size_t enough = 1600;
+  std::vector<stretches_in_lanes<R, N>> result;
+  for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {
+    while (end < data.trajectories() && starts.first_of[end] - starts.first_of[first] < enough) ++end;
+    result.push_back(detail::gather_stretches<R>(data, starts, steps, wanted, first, end));
+  }
+  return result;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSL-1.0
+// A family as data: what a search must know of it, so that learning is compiled once a system.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/family.hpp"
+#include "nysalt/langevin.hpp"
+
+namespace nysalt {
+
+/// A method by its name and parameters.
+struct named_parameters {
+  std::string name;
+  Eigen::VectorXd theta;
+};
+
+/// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
+class run_time_family {
+ public:
+  template <class F>
+    requires(!std::same_as<F, run_time_family> && Family<F>)
+  explicit run_time_family(const F& family)
+      : name(F::name),
+        parameter_names(F::parameter_names.begin(), F::parameter_names.end()),
+        order(F::order),
+        symmetric(F::symmetric),
+        requires_quadratic_kinetic(F::requires_quadratic_kinetic),
+        letters(word_of(family)),
+        coefficients_([family](const Eigen::VectorXd& theta) {
+          const auto c = family.coefficients(array_from<F>(theta));
+          return std::vector<double>(c.begin(), c.end());
+        }),
+        jacobian_([family](const Eigen::VectorXd& theta) { return jacobian_of(family, theta); }) {
+    const auto its_ranges = F::ranges();
+    ranges.assign(its_ranges.begin(), its_ranges.end());
+    const auto first = F::start();
+    starts.push_back({"start", Eigen::Map<const Eigen::VectorXd>(first.data(), F::parameters)});
+    if constexpr (requires { F::classical_members(); }) {
+      for (const auto& known : F::classical_members()) {
+        starts.push_back(
+            {std::string(known.name), Eigen::Map<const Eigen::VectorXd>(known.theta.data(), F::parameters)});
+      }
+    }
+  }
+
+  std::string name;
+  std::vector<std::string> parameter_names;
+  std::vector<parameter_range> ranges;
+  std::vector<named_parameters> starts;  // the family's own, then its classical members
+  int order;
+  bool symmetric;
+  bool requires_quadratic_kinetic;
+  run_time_word letters;
+
+  Eigen::Index parameters() const { return static_cast<Eigen::Index>(parameter_names.size()); }
+  std::vector<double> coefficients(const Eigen::VectorXd& theta) const { return coefficients_(theta); }
+  /// d c_i / d theta_k in row i, column k.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& theta) const { return jacobian_(theta); }
+
+  /// Within the open ranges: beyond them the coefficients are not defined.
+  bool is_defined(const Eigen::VectorXd& theta) const {
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+      if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
+    }
+    return true;
+  }
+
+  /// The same with letters O at a placement. Throws std::invalid_argument if it has some already, or no
+  /// central letter to split.
+  friend run_time_family thermostatted(const run_time_family& plain, placement where) {
+    run_time_family result = plain;
+    result.letters = thermostatted(plain.letters, where);
+    result.order = thermostatted_order(where, plain.order, plain.symmetric);
+    result.symmetric = where != placement::end && plain.symmetric;
+    result.coefficients_ = [plain, where](const Eigen::VectorXd& theta) {
+      return thermostatted_coefficients(plain.letters, where, plain.coefficients(theta));
+    };
+    result.jacobian_ = [plain, where](const Eigen::VectorXd& theta) {
+      return thermostatted_jacobian(plain, where, theta);
+    };
+    return result;
+  }
+
+ private:
+  template <Family F>
+  static parameters_of<F> array_from(const Eigen::VectorXd& theta) {
+    parameters_of<F> result;
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
+    return result;
+  }
+
+  template <Family F>
+  static Eigen::MatrixXd jacobian_of(const F& family, const Eigen::VectorXd& theta) {
+    std::array<theta_dual<F>, parameters_of<F>{}.size()> lifted;
+    for (int k = 0; k < F::parameters; ++k) {
+      lifted[static_cast<std::size_t>(k)] = theta_dual<F>::variable(theta[k], k);
+    }
+    const auto c = family.coefficients(lifted);
+    Eigen::MatrixXd result(static_cast<Eigen::Index>(c.size()), F::parameters);
+    for (Eigen::Index i = 0; i < result.rows(); ++i) {
+      for (Eigen::Index k = 0; k < F::parameters; ++k) {
+        result(i, k) = c[static_cast<std::size_t>(i)].derivative[static_cast<std::size_t>(k)];
+      }
+    }
+    return result;
+  }
+
+  static Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement where,
+                                                const Eigen::VectorXd& theta) {
+    using D = dual<double, 1>;
+    const auto c = plain.coefficients(theta);
+    const Eigen::MatrixXd slopes = plain.jacobian(theta);
+    Eigen::MatrixXd result;
+    for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
+      std::vector<D> lifted(c.begin(), c.end());
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        lifted[i].derivative[0] = slopes(static_cast<Eigen::Index>(i), k);
+      }
+      const auto placed = thermostatted_coefficients(plain.letters, where, lifted);
+      result.conservativeResize(static_cast<Eigen::Index>(placed.size()), slopes.cols());
+      for (std::size_t i = 0; i < placed.size(); ++i) {
+        result(static_cast<Eigen::Index>(i), k) = placed[i].derivative[0];
+      }
+    }
+    return result;
+  }
+
+  std::function<std::vector<double>(const Eigen::VectorXd&)> coefficients_;
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
+};
+
+/// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
+inline void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
+  for (std::size_t k = 0; k < family.ranges.size(); ++k) {
+    detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
+                             theta[static_cast<Eigen::Index>(k)]);
+  }
+}
+
+}  // namespace nysalt

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSL-1.0
+// The law that a word keeps, against the Lyapunov equation of the tests' own matrices, which long runs sample
+// (verification/langevin_stationary_test).
+#include "nysalt/losses/stationary_covariance.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include "../support/langevin_methods.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+constexpr damped_oscillator oscillator{3.0, 1.5, 0.8};
+
+/// A method as data: what follows is compiled once.
+struct told {
+  std::string name;
+  run_time_word word;
+  std::vector<double> c;
+  std::vector<spelled> letters() const { return spell(word.letters(), c); }
+};
+told tell(const Method auto& method) {
+  const auto c = method.coefficients();
+  return {method.name(), run_time_word(word_of(method)), {c.begin(), c.end()}};
+}
+const std::vector<told> methods =
+    std::apply([](const auto&... method) { return std::vector{tell(method)...}; }, langevin_methods{});
+const told& baoab_told = methods.front();
+
+template <System S>
+Eigen::VectorXd residuals_of(const S& system, const told& method, double step) {
+  const auto r = stationary_covariance(system, method.word, step).residuals(method.c);
+  return Eigen::Map<const Eigen::VectorXd>(r.data(), std::ssize(r));
+}
+
+/// The same from the matrices of the tests.
+Eigen::Vector3d expected_residuals(const damped_oscillator& x, const told& method, double step) {
+  const square<2> law = stationary(word_step(x, method.letters(), step));
+  const double kT = x.sigma * x.sigma / (2.0 * x.gamma);
+  return {law(0, 0) * x.omega * x.omega / kT - 1.0, std::numbers::sqrt2 * law(0, 1) * x.omega / kT,
+          law(1, 1) / kT - 1.0};
+}
+/// Of either: some hundred roundings of numbers below 10, over the denominator of the Lyapunov equation.
+double rounding_of(const damped_oscillator& x, const told& method, double step) {
+  const square<2> M = word_step(x, method.letters(), step).map;
+  const double d = M.determinant();
+  return 2000.0 * eps / ((1.0 - d) * (1.0 + d - M.trace()) * (1.0 + d + M.trace()));
+}
+
+/// A system with modes that does not say what is soft.
+struct whole_spring {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = -q[0];
+  }
+  normal_modes modes() const { return {Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Ones(1)}; }
+};
+
+/// With respect to all coefficients, those of O too.
+Eigen::MatrixXd by_each(const std::vector<double>& c) {
+  return Eigen::MatrixXd::Identity(std::ssize(c), std::ssize(c));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(residuals_are_those_of_the_lyapunov_equation) {
+  for (const told& method : methods)
+    for (const double step : {0.05, 0.4, 0.6}) {
+      for (const double gamma : {0.01, 1.5, 40.0}) {
+        damped_oscillator x = oscillator;
+        x.gamma = gamma;
+        const auto expected = expected_residuals(x, method, step);
+        const double rounding = rounding_of(x, method, step);
+        BOOST_TEST_CONTEXT(method.name << ", step " << step << ", gamma " << gamma) {
+          BOOST_TEST((residuals_of(system_of(x), method, step) - expected).norm() <= rounding);
+          BOOST_TEST((residuals_of(system_of(x), method, 0.99 * step) - expected).norm() > rounding);
+        }
+      }
+    }
+}
+
+// BAOAB: the law of q is exact, and that of p too narrow by z^2/4 [leimkuhler_matthews_2015].
+BOOST_AUTO_TEST_CASE(baoab_errs_in_momenta_alone) {
+  const double z = 3.0 * 0.4;
+  const auto r = residuals_of(system_of(oscillator), baoab_told, 0.4);
+  const double rounding = rounding_of(oscillator, baoab_told, 0.4);
+  BOOST_TEST(std::abs(r[0]) <= rounding);
+  BOOST_TEST(std::abs(r[1]) <= rounding);
+  BOOST_TEST(std::abs(r[2] + z * z / 4.0) <= rounding);
+}
+
+// On an oscillator G(b, c) is B(b - 2 c z^2). R is exact, and S has nothing to do.
+BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
+  const double step = 0.4;
+  const double z = step * oscillator.omega;
+  const double b = 0.17;
+  const double c = 0.013;
+  const told gradient{"", run_time_word("OBAGABO"), {0.5, b, 0.5, 1.0 - 2.0 * b, c, 0.5, b, 0.5}};
+  const told kicks{"", run_time_word("OBABABO"), {0.5, b, 0.5, 1.0 - 2.0 * b - 2.0 * c * z * z, 0.5, b, 0.5}};
+  const auto expected = residuals_of(system_of(oscillator), kicks, step);
+  const double rounding = rounding_of(oscillator, kicks, step);
+  BOOST_TEST((residuals_of(system_of(oscillator), gradient, step) - expected).norm() <= rounding);
+  BOOST_TEST(expected.norm() > 1e-4);
+
+  const in_bath chain(linear_chain(Eigen::Vector2d(36.0, 8.0).asDiagonal()), bath::of_sigma(1.5, 0.8));
+  const told impulse{"", run_time_word("OSRSO"), {0.5, 0.5, 1.0, 0.5, 0.5}};
+  const told split{"", run_time_word("RSORSO"), {0.5, 0.5, 0.7, 0.5, 0.5, 0.3}};
+  for (const told& method : {impulse, split}) {
+    BOOST_TEST(residuals_of(chain, method, 0.2).norm() <= 100.0 * eps);  // of rotations, to rounding
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not_at_all) {
+  const told method = tell(two_stages<placement::symmetric>());
+  const bath its = bath::of_temperature(1.0, 0.125);
+  const auto alone = residuals_of(in_bath(harmonic_oscillator(50.0), its), method, 0.03);
+  const auto chain = residuals_of(in_bath(fpu_chain<3>(50.0), its), method, 0.03);
+  BOOST_TEST(chain.size() == 3);  // three modes of frequency zero, three of frequency 50
+  BOOST_TEST((chain - std::sqrt(3.0) * alone).norm() <= 4.0 * eps * chain.norm());  // a product each
+  BOOST_TEST(alone.norm() > 1e-3);
+
+  // Springs of different frequencies, with masses, from the lowest up.
+  const Eigen::Vector3d stiffness(36.0, 8.0, 0.0);
+  const Eigen::Vector3d masses(4.0, 2.0, 1.0);
+  const linear_chain springs(stiffness.asDiagonal(), masses);
+  const auto both = residuals_of(in_bath(springs, its), method, 0.3);
+  BOOST_TEST(both.size() == 6);
+  for (Eigen::Index k = 0; k < both.size() / 3; ++k) {
+    const double omega = k == 0 ? 2.0 : 3.0;
+    const auto mode = residuals_of(in_bath(harmonic_oscillator(omega), its), method, 0.3);
+    // Frequencies are known to some eps, and residuals change by less than 10 of that and their own rounding.
+    const double tolerance = 100.0 * eps + 2.0 * rounding_of({omega, 1.0, 0.5}, method, 0.3);
+    BOOST_TEST((both.segment<3>(3 * k) - mode).norm() <= tolerance);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(neither_units_nor_temperature_matter) {
+  const told method = tell(member<thermostatted_family<nystrom, placement::end>>({0.4, 0.41}));
+  const auto r = residuals_of(system_of({3.0, 1.5, 0.8}), method, 0.4);
+  const auto same = residuals_of(system_of({6.0, 3.0, 0.1}), method, 0.2);
+  const auto other = residuals_of(system_of({3.0, 1.6, 0.8}), method, 0.4);
+  BOOST_TEST((r - same).norm() <= rounding_of(oscillator, method, 0.4));
+  BOOST_TEST((r - other).norm() > 1e-4);
+}
+
+// A palindrome S has the same entry m twice on its diagonal, and so keeps a covariance diag(s, 1), as O does;
+// a palindrome with O in it, seen from there, likewise.
+BOOST_AUTO_TEST_CASE(of_palindromes_friction_does_not_matter) {
+  for (const told& method : methods) {
+    const auto strong = residuals_of(system_of(oscillator), method, 0.4);
+    const auto weak = residuals_of(system_of({3.0, 0.1, 0.8}), method, 0.4);
+    const double rounding = rounding_of({3.0, 0.1, 0.8}, method, 0.4);
+    BOOST_TEST_CONTEXT(method.name) {
+      BOOST_TEST((strong - weak).norm() <= 2.0 * rounding);
+      BOOST_TEST(strong.norm() > 1e-3);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
+  const Eigen::Vector2d stiffness(36.0, 8.0);
+  const in_bath springs(linear_chain(stiffness.asDiagonal()), bath::of_sigma(1.5, 0.8));
+  for (const told& method : methods) {
+    const stationary_covariance loss(springs, method.word, 0.2);
+    const auto& c = method.c;
+    const auto here = loss.at(c, by_each(c));
+    BOOST_TEST(here.value > 0.0);
+    BOOST_TEST(here.half_gradient.size() == std::ssize(c));
+    const auto r = loss.residuals(c);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const auto difference = [&](double s) {
+        auto ahead = c;
+        auto behind = c;
+        ahead[k] += s;
+        behind[k] -= s;
+        const auto at_ahead = loss.residuals(ahead);
+        const auto at_behind = loss.residuals(behind);
+        Eigen::VectorXd slope(std::ssize(r));
+        for (Eigen::Index i = 0; i < slope.size(); ++i) {
+          slope[i] = (at_ahead[std::size_t(i)] - at_behind[std::size_t(i)]) / (2.0 * s);
+        }
+        return slope;
+      };
+      // Truncation falls to a quarter with s, so it is a third of the change; residuals round as above.
+      const double s = 1e-4;
+      const Eigen::VectorXd slope = difference(s);
+      const double error = (slope - difference(2.0 * s)).norm() / 3.0;
+      const double rounding =
+          (rounding_of({6.0, 1.5, 0.8}, method, 0.2) + rounding_of({std::sqrt(8.0), 1.5, 0.8}, method, 0.2)) /
+          s;
+      const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(r.data(), std::ssize(r));
+      const auto column = static_cast<Eigen::Index>(k);
+      const double tolerance = 2.0 * error + rounding;
+      BOOST_TEST_CONTEXT(method.name << ", coefficient " << k << ", slope " << slope.norm()) {
+        BOOST_TEST(std::abs(here.half_gradient[column] - values.dot(slope)) <= tolerance * values.norm());
+        BOOST_TEST(std::abs(here.normal_matrix(column, column) - slope.squaredNorm()) <=
+                   (2.0 * slope.norm() + tolerance) * tolerance);
+        BOOST_TEST(tolerance <= 1e-4 * slope.norm() + 1e-7);  // which says something
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_value_is_the_sum_of_squares_whatever_is_asked_of_derivatives) {
+  const told method = tell(two_stages<placement::end>());
+  const auto& c = method.c;
+  const stationary_covariance loss(system_of(oscillator), method.word, 0.4);
+  double sum = 0.0;
+  for (const double r : loss.residuals(c)) sum += r * r;
+  const auto all = loss.at(c, by_each(c));
+  const auto one = loss.at(c, by_each(c).col(2));
+  const auto none = loss.at(c, Eigen::MatrixXd(std::ssize(c), 0));
+  for (const auto& s : {all, one, none}) BOOST_TEST(std::abs(s.value - sum) <= 4.0 * eps * sum);
+  BOOST_TEST(none.half_gradient.size() == 0);
+  BOOST_TEST(one.half_gradient[0] == all.half_gradient[2]);
+  BOOST_TEST(one.half_gradient[0] != all.half_gradient[1]);
+}
+
+// BAOAB is stable for z < 2, with friction to the same end.
+BOOST_AUTO_TEST_CASE(a_word_that_keeps_no_law_is_infinitely_far) {
+  const auto loss_of = [](double z) {
+    const auto& [name, word, c] = baoab_told;
+    return stationary_covariance(system_of(oscillator), word, z / oscillator.omega).at(c, by_each(c));
+  };
+  BOOST_TEST(loss_of(1.999).is_finite());
+  BOOST_TEST(!std::isfinite(loss_of(2.001).value));
+  BOOST_TEST(!loss_of(2.001).is_finite());
+  BOOST_TEST(!std::isfinite(loss_of(200.0).value));
+
+  const stationary_covariance symmetric(system_of(oscillator), run_time_word("OABAO"), 0.3);
+  BOOST_TEST(std::isfinite(symmetric.residuals(std::vector{0.25, 0.5, 1.0, 0.5, 0.75})[0]));
+  BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{-0.1, 0.5, 1.0, 0.5, 1.1})[0]));  // back in time
+  BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{0.0, 0.5, 1.0, 0.5, 0.0})[0]));   // no bath left
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
+  using wrong = std::invalid_argument;
+  const auto warm = system_of(oscillator);
+  const run_time_word word("OABAO");
+  const auto made = [](const auto& system, const run_time_word& w, double step) {
+    return [=] { stationary_covariance(system, w, step); };
+  };
+  BOOST_TEST(refuses<wrong>(made(warm, run_time_word("ABA"), 0.1), {"ABA", "thermostat"}));
+  BOOST_TEST(refuses<wrong>(made(warm, word, 0.0), {"step", "positive"}));
+  BOOST_TEST(refuses<wrong>(made(warm, word, std::nan("")), {"step", "nan"}));
+  const harmonic_oscillator alone(3.0);
+  BOOST_TEST(refuses<wrong>(made(in_bath(alone, bath::of_sigma(0.0, 1.0)), word, 0.1), {"friction"}));
+  BOOST_TEST(refuses<wrong>(made(in_bath(alone, bath::of_sigma(1.0, 0.0)), word, 0.1), {"temperature"}));
+  const in_bath free_mass(linear_chain(Eigen::MatrixXd::Zero(1, 1)), bath::of_sigma(1.0, 1.0));
+  BOOST_TEST(refuses<wrong>(made(free_mass, word, 0.1), {"linear_chain", "frequency"}));
+  BOOST_TEST(
+      refuses<wrong>(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), run_time_word("OSRSO"), 0.1),
+                     {"OSRSO", "soft_force"}));
+  const stationary_covariance loss(warm, word, 0.1);
+  BOOST_TEST(refuses<wrong>([&] { loss.residuals(std::vector{0.5, 0.5}); }, {"OABAO", "2 coefficients"}));
+  static_assert(!std::is_constructible_v<stationary_covariance, harmonic_oscillator, run_time_word, double>);
+  static_assert(!std::is_constructible_v<stationary_covariance, in_bath<pendulum>, run_time_word, double>);
+  static_assert(std::is_constructible_v<stationary_covariance, bathed_oscillator, run_time_word, double>);
+}
