@@ -6,7 +6,9 @@
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/mclachlan_atela.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/verlet.hpp"
 
@@ -40,10 +42,14 @@ const std::vector<classical_method>& classical_methods() {
       {tabulated(mclachlan2{}), "mclachlan_1995"},
       {tabulated(bcss2{}), "blanes_casas_sanz_serna_2014"},
       {tabulated(bcss3{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(forest_ruth{}), "forest_ruth_1990"},
       {tabulated(pefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(mclachlan_atela4{}), "mclachlan_atela_1992"},
+      {tabulated(mclachlan5{}), "mclachlan_1995"},
       {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
       {tabulated(srkn6b{}), "blanes_moan_2002"},
       {tabulated(srkn11b{}), "blanes_moan_2002"},
+      {tabulated(srkn14a{}), "blanes_moan_2002"},
       {tabulated(baoab{}), "leimkuhler_matthews_2013"},
       {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
       {tabulated(aboba{}), "leimkuhler_matthews_2013"},

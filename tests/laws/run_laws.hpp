@@ -47,7 +47,7 @@ double merging_broken(const S& system, const M& method, double step,
                       const phase_point<double, S::dimension>& x, std::int64_t steps,
                       const Noise& noise = {}) {
   const auto fixed = make_stepper(system, method, step, noise);
-  const auto letters = static_cast<double>(word_of(method).length);
+  const double letters = roundings(method, size(system));
   auto run = fixed.open(x);
   auto y = x;
   Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(2 * x.size(), 2 * x.size());

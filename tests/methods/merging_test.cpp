@@ -8,8 +8,8 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(merged_is_unmerged_to_rounding, M, methods) {
-  try_on<M, various_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+BOOST_AUTO_TEST_CASE(merged_is_unmerged_to_rounding) {
+  try_all_on<various_systems>([](const auto& system, const auto& method, double step, const auto& x) {
     BOOST_TEST(merging_broken(system, method, step, x, 30) <= 1.0);
   });
 }

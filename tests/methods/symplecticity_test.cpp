@@ -7,8 +7,10 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, M, methods) {
-  try_on_all<M>([](const auto& system, const auto& method, const auto& x) {
+using whole_and_split = joined<systems, split_systems>;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, Model, whole_and_split) {
+  try_all_methods<Model>([](const auto& system, const auto& method, const auto& x) {
     BOOST_TEST(symplecticity_broken(system, method, x) <= 1.0);
   });
 }

@@ -88,8 +88,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   BOOST_TEST(names("metrics") == "path state exchange energy distribution acf ");
   BOOST_TEST(
       names("methods") ==
-      "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 pefrl blanes_moan_s6 srkn6b srkn11b baoab baoab_2x "
-      "aboba obabo s_aia2 ");
+      "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 forest_ruth pefrl mclachlan_atela4 mclachlan5 "
+      "blanes_moan_s6 srkn6b srkn11b srkn14a baoab baoab_2x aboba obabo s_aia2 ");
 }
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
