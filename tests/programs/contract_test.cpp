@@ -83,7 +83,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
     for (const auto& one : all[what]) text += one["name"].get<std::string>() + ' ';
     return text;
   };
-  BOOST_TEST(names("systems") == "fpu oscillator linear_chain pendulum henon_heiles ");
+  BOOST_TEST(names("systems") ==
+             "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 ");
   BOOST_TEST(names("families") == "nystrom ");
   BOOST_TEST(names("metrics") == "path state exchange energy distribution acf ");
   BOOST_TEST(
