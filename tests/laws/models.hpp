@@ -64,6 +64,13 @@ inline around at_rest(const lennard_jones<>& system) {
   return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
 }
 
+/// A ring of wells, its springs split off: of a dynamic dimension, and one frequency is zero.
+inline auto split_ring() {
+  Eigen::Matrix3d springs;
+  springs << 2.0, -1.0, -1.0, -1.0, 2.0, -1.0, -1.0, -1.0, 2.0;
+  return with_quadratic_part(dynamic_potential(), springs);
+}
+
 // clang-format off
 // reach: random coordinates are drawn from -reach..reach, where motion stays bounded.
 struct within_one { static constexpr double reach = 1.0; };
@@ -100,6 +107,7 @@ struct two_weights : within_one { static auto make() { return two_masses(); } };
 struct a_split_pendulum : within_one { static auto make() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); } };
 struct a_split_galaxy : within_a_quarter { static auto make() { return with_quadratic_part(henon_heiles(), Eigen::MatrixXd::Identity(2, 2)); } };
 struct two_split_weights : within_one { static auto make() { return split_masses(); } };
+struct a_split_ring : within_one { static auto make() { return split_ring(); } };
 struct a_fast_one : within_one { static auto make() { return relativistic(); } };
 struct a_faster_one : within_one { static auto make() { return relativistic_with_velocity(); } };
 // clang-format on
