@@ -54,6 +54,12 @@ class bundled_model final : public bundled_system {
  public:
   bundled_model(const Alone& system, const surroundings& its, E law, model_facts facts)
       : system_(system, its.bath), start_(its.start), law_(std::move(law)), facts_(std::move(facts)) {
+    if (its.spread != 1.0) facts_.parameters["spread"] = its.spread;
+    if (start_ != start::law && !HasFrequencyBands<S>) {
+      refuse(
+          "{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
+          description());
+    }
     if (start_ == start::law) starts_.emplace(system_, law_);
   }
 
@@ -66,26 +72,31 @@ class bundled_model final : public bundled_system {
     return all;
   }
   const bath& its_bath() const override { return system_.bath(); }
-  std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
+  std::vector<frequency_band> frequency_bands() const override {
+    if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
+    return {};
+  }
   std::vector<std::string> observables() const override { return observable_names(system_); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {
     if (starts_) return;
-    const auto& alone = system_.alone();
-    try {
-      if (start_ == start::gibbs) {
-        if constexpr (has_exact_flow<Alone>) {
-          starts_.emplace(alone, gibbs_of_modes<S::dimension>(alone, system_.bath().temperature()));
-        } else {
-          starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+    if constexpr (HasFrequencyBands<S>) {
+      const auto& alone = system_.alone();
+      try {
+        if (start_ == start::gibbs) {
+          if constexpr (has_exact_flow<Alone>) {
+            starts_.emplace(alone, gibbs_of_modes<S::dimension>(alone, system_.bath().temperature()));
+          } else {
+            starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+          }
         }
+        if (start_ == start::trajectory) {
+          starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_, {.seed = seed}));
+        }
+      } catch (const std::runtime_error& problem) {
+        refuse("{}; take another temperature, or --start law", problem.what());
       }
-      if (start_ == start::trajectory) {
-        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_, {.seed = seed}));
-      }
-    } catch (const std::runtime_error& problem) {
-      refuse("{}; take another temperature, or --start law", problem.what());
     }
   }
   int lanes() const override { return width; }

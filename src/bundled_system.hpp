@@ -71,6 +71,7 @@ class bundled_system {
   virtual std::string description() const = 0;
   /// Name and parameters, as scheme files hold them.
   virtual nlohmann::ordered_json parameters() const = 0;
+  /// Empty if there is no bound.
   virtual std::vector<frequency_band> frequency_bands() const = 0;
   virtual std::vector<std::string> observables() const = 0;
   virtual std::string default_observable() const = 0;
@@ -127,8 +128,8 @@ class bundled_system {
   virtual std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const = 0;
 };
 
-/// Highest angular frequency that the system declares.
-double highest_frequency(const bundled_system& system);
+/// Highest angular frequency that the system declares; nothing if it declares none.
+std::optional<double> highest_frequency(const bundled_system& system);
 
 /// The system that the settings name. Throws refusal for what it does not have.
 std::unique_ptr<bundled_system> make_system(const system_settings& settings);

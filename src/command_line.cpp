@@ -103,8 +103,10 @@ void add_system(CLI::App& command, system_settings& system) {
   command.add_option("--system", system.name, "nysalt list shows all")->capture_default_str();
   add_number(command, "--pairs", system.pairs, "fpu: pairs of masses [3]");
   add_number(command, "--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
-  add_number(command, "--masses", system.masses, "linear_chain [8]");
+  add_number(command, "--masses", system.masses, "linear_chain [8], phi4 [16]");
   add_number(command, "--spring", system.spring, "linear_chain [1]");
+  add_number(command, "--atoms", system.atoms, "lennard_jones [7]");
+  add_number(command, "--space", system.space, "lennard_jones: 2 or 3 dimensions [2]");
 }
 
 /// What a system is in.
@@ -116,6 +118,8 @@ void add_bath(CLI::App& command, system_settings& system) {
 
 /// Where trajectories start in it, and how methods meet it.
 void add_starts_and_placement(CLI::App& command, system_settings& system, std::string& placement) {
+  add_number(command, "--eccentricity", system.eccentricity, "kepler: of the starts [0.6]");
+  add_number(command, "--spread", system.spread, "of the law of starts: multiplies its deviations [1]");
   command.add_option("--start", system.start, "law, gibbs or trajectory [gibbs in a bath, else law]");
   command.add_option("--placement", placement,
                      "of O in a word that has none: end, symmetric or middle [symmetric]");
@@ -258,8 +262,8 @@ int run_parsed(const CLI::App& command, typed& to) {
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--friction",
-                             "--sigma", "--temperature", "--step"}) {
+  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space",
+                             "--friction", "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);

@@ -92,8 +92,13 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
     return source.learned->method;
   }
   if (source.is_adaptive()) {
+    const auto fastest = highest_frequency(system);
+    if (!fastest) {
+      refuse("{} needs a highest frequency, and {} declares none: take another method", source.typed,
+             system.description());
+    }
     try {
-      return tabulated(s_aia2(step * highest_frequency(system)));
+      return tabulated(s_aia2(step * *fastest));
     } catch (const std::invalid_argument& problem) {
       refuse("{} at step {}: {}", source.typed, step, problem.what());
     }
@@ -127,6 +132,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
+  if (has_rotation(method.letters())) return;  // exact on oscillators
   const auto windows = stability_of(method);
   for (const auto& [low, high] : system.frequency_bands()) {
     if (is_stable(windows, step * low, step * high)) continue;

@@ -31,6 +31,10 @@ struct system_settings {
   std::optional<double> omega;
   std::optional<std::int64_t> masses;
   std::optional<double> spring;
+  std::optional<std::int64_t> atoms;
+  std::optional<std::int64_t> space;
+  std::optional<double> eccentricity;
+  std::optional<double> spread;
   bath_settings bath;
   std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
 };

@@ -131,10 +131,7 @@ std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data) {
 template <System S>
 objective covariance_objective(const run_time_family& family, const S& system, double step) {
   if constexpr (HasBath<S> && HasModes<S>) {
-    const stationary_covariance loss(system, family.letters, step);
-    return [family, loss](const Eigen::VectorXd& theta) {
-      return loss.at(family.coefficients(theta), family.jacobian(theta));
-    };
+    return objective_of(stationary_covariance(system, family.letters, step), family);
   } else {
     throw std::invalid_argument(
         fmt::format("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
@@ -232,11 +229,11 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
     task.judge = [objective = task.loss](const Eigen::VectorXd& theta) { return objective(theta).value; };
   }
   const search_result found = search(task, starts);
-  const auto& [from, theta, hessian, still_free, loss_at_end, judged, iterations, converged, admitted,
-               is_held] = found.best;
+  const Eigen::VectorXd& theta = found.best.theta;
+  const bool is_held = found.best.is_held;
 
   fit_summary summary;
-  const curvature bend(hessian, still_free);
+  const curvature bend(found.best.hessian, found.best.free);
   const Eigen::VectorXd errors = has_data && !is_held
                                      ? bend.standard_errors(detail::scores(loss, measure, theta))
                                      : Eigen::VectorXd(Eigen::VectorXd::Zero(theta.size()));
@@ -257,11 +254,12 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   summary.guard = guard.description();
   summary.coordinates_used = measure.residuals();
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const bool is_free = !is_held && std::find(still_free.begin(), still_free.end(), k) != still_free.end();
+    const bool is_free =
+        !is_held && std::find(found.best.free.begin(), found.best.free.end(), k) != found.best.free.end();
     summary.parameters.push_back(
         {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
   }
-  summary.loss = loss_at_end;
+  summary.loss = found.best.loss;
   summary.held_out_loss = tree_sum(at_end);
   summary.held_out_start_loss = tree_sum(at_start);
   summary.held_out_noise = detail::noise_of_difference(at_end, at_start);
@@ -279,7 +277,8 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   }
   summary.dropped = measure.dropped();
   summary.starts_tried = found.tried;
-  summary.from = from;
+  summary.from = found.best.from;
+  summary.is_in_valley = found.best.in_valley;
   summary.is_held_by_guard = is_held;
   if (found.unguarded) {
     summary.unguarded =
@@ -287,7 +286,7 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
   }
   summary.reference_checked = !data.finer.empty();
   if (summary.reference_checked) summary.reference_error = detail::error_of_reference(data, measure);
-  summary.iterations = iterations;
+  summary.iterations = found.best.iterations;
   summary.data_seconds = data.seconds + held_out.seconds;
   summary.learning_evaluations = data.evaluations + held_out.evaluations + loss.evaluations() +
                                  held_out_loss.evaluations() + one_step.evaluations() + judge.evaluations();
@@ -298,7 +297,8 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data<S:
       summary.gaps.push_back({low, high});
     }
   }
-  summary.reason = detail::objection(summary, converged || is_held, instability);
+  summary.reason =
+      detail::objection(summary, found.best.converged || found.best.in_valley || is_held, instability);
   summary.usable = summary.reason.empty();
   summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return {theta, summary};

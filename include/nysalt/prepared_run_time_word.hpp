@@ -35,15 +35,15 @@ class prepared_word<run_time_word, C, N> {
     for (std::size_t i = w.first_in_loop(); i < w.length; ++i) {
       loop_.push_back(plain_[i]);
       if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
-        const C both = c.back() + c.front();
-        loop_.back() = prepare(w, i, &both, h, its, evaluation::none);
+        const std::array both{C(c.back() + c.front()), C(0.0)};
+        loop_.back() = prepare(w, i, both.data(), h, its, evaluation::none);
       }
       last_.push_back(loop_.back());
       loop_.back().evaluates = w.plan().in_loop[i];
       last_.back().evaluates = w.plan().in_last[i];
     }
-    const C back = -c.front();
-    if (merges_) undo_ = prepare(w, 0, &back, h, its, evaluation::none);
+    const std::array back{C(-c.front()), C(0.0)};
+    if (merges_) undo_ = prepare(w, 0, back.data(), h, its, evaluation::none);
     if (!halves_meet_) return;
     seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its.its_bath->sigma() > 0.0);
     for (auto* letters : {&plain_, &loop_, &last_}) {

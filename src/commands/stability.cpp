@@ -47,6 +47,9 @@ int stability(const stability_command& command, const common_settings& common) {
     refuse("--system needs --step: together they say which frequencies must be stable");
   }
   const auto system = command.system ? make_system(*command.system) : nullptr;
+  if (system && system->frequency_bands().empty()) {
+    refuse("{} declares no frequencies to be stable for: ask without --system", system->description());
+  }
   std::vector<std::string> warnings;
   const auto [name, method] = subject_of(command, system.get(), common.force, warnings);
   const auto windows = stability_of(method);

@@ -35,9 +35,12 @@
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 namespace nysalt::test {
@@ -63,6 +66,11 @@ inline auto split_ring() {
   return with_quadratic_part(dynamic_potential(), springs);
 }
 
+/// Atoms that rest.
+inline around at_rest(const lennard_jones<>& system) {
+  return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
+}
+
 // clang-format off
 // reach: random coordinates are drawn from -reach..reach, where motion stays bounded.
 struct within_one { static constexpr double reach = 1.0; };
@@ -77,13 +85,26 @@ struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2
 struct a_long_fpu : within_a_half { static auto make() { return long_fpu_chain(2, 7.0); } };
 struct a_pendulum : within_one { static auto make() { return pendulum(); } };
 struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
+struct a_planet {
+  inline static const around reach{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0), 0.2};  // a circle
+  static auto make() { return kepler(); }
+};
+struct flat_atoms {
+  inline static const around reach = at_rest(lennard_jones<>(2, 3));
+  static auto make() { return lennard_jones<2, 3>(); }
+};
+struct atoms_in_space {
+  inline static const around reach = at_rest(lennard_jones<>(3, 5));
+  static auto make() { return lennard_jones<>(3, 5); }
+};
+struct a_ring : within_one { static auto make() { return phi4_chain<4>(); } };
+struct a_dynamic_ring : within_one { static auto make() { return phi4_chain<>(5); } };
 struct a_potential : within_one { static auto make() { return potential_only(); } };
 struct a_dynamic_one : within_one { static auto make() { return dynamic_potential(); } };
 struct a_black_box : within_one { static auto make() { return black_box(); } };
 struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
 struct two_weights : within_one { static auto make() { return two_masses(); } };
 struct a_split_pendulum : within_one { static auto make() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); } };
-struct a_split_galaxy : within_a_quarter { static auto make() { return with_quadratic_part(henon_heiles(), Eigen::MatrixXd::Identity(2, 2)); } };
 struct two_split_weights : within_one { static auto make() { return split_masses(); } };
 struct a_split_ring : within_one { static auto make() { return split_ring(); } };
 struct a_fast_one : within_one { static auto make() { return relativistic(); } };
@@ -91,16 +112,17 @@ struct a_faster_one : within_one { static auto make() { return relativistic_with
 // clang-format on
 
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
-using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu,
-                           a_pendulum, a_galaxy, a_potential, a_dynamic_one, a_differentiable_box,
-                           two_weights, a_fast_one, a_faster_one>;
+using systems =
+    std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu, a_pendulum,
+               a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_potential,
+               a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
 
-/// Whose quadratic part is split off.
-using split_systems = std::tuple<a_split_pendulum, a_split_galaxy, two_split_weights>;
-
-/// One of each kind, for laws about methods rather than systems.
+/// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a
+/// layout of its own, by potential and by force, with a quadratic part of its own or split off, and with
+/// another K.
 using various_systems =
-    std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_split_galaxy, two_split_weights, a_fast_one>;
+    std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
+               two_split_weights, a_split_ring, a_differentiable_box, a_fast_one, a_faster_one>;
 
 /// Of those for baths one, as what it is without: its conservative part.
 using classical_methods =
