@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "../laws/models.hpp"
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

@@ -2,6 +2,7 @@
 // The loss of a family in a bath: a step with the noise that the data hold.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/steps_in_bath.hpp"
@@ -9,7 +10,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/learning/squares.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -50,7 +51,7 @@ flow_map_data<2> in_parts(flow_map_data<2> data, int parts) {
   return data;
 }
 
-template <Family F, Scalar R = scalar_of_passes<F, galaxy>>
+template <Family F, Scalar R = scalar_of_passes<galaxy>>
 double loss_of(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, int threads = 1) {
   const metric<2> measure(warm, data, coordinates::qp);
   return loss_value(one_step<F, galaxy, R>(warm, data, measure, threads), theta);
