@@ -14,6 +14,7 @@
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 
