@@ -137,7 +137,8 @@ BOOST_AUTO_TEST_CASE(in_a_bath_it_is_the_thermostatted_type) {
 BOOST_AUTO_TEST_CASE(what_cannot_be_thermostatted_is_refused) {
   const auto once = thermostatted(run_time_family(nystrom()), placement::end);
   BOOST_TEST(refuses<wrong>([&] { thermostatted(once, placement::end); }, {"ABABAO", "already"}));
-  BOOST_TEST(refuses<wrong>([] { thermostatted(run_time_word("AB"), placement::middle); }, {"AB", "central"}));
+  BOOST_TEST(
+      refuses<wrong>([] { thermostatted(run_time_word("AB"), placement::middle); }, {"AB", "central"}));
 }
 
 BOOST_AUTO_TEST_CASE(it_is_defined_where_open_ranges_are) {

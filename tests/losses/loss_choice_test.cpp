@@ -25,8 +25,8 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {
   for (const char* name : {"", "State", "states", "state:", "state:0", "state:05", "state:-5", "state:+5",
-                           "state: 5", "state:5 ", "state:5.0", "state:five", "state:5:6", "energy:99999999999",
-                           "covariance:3", "covariance:", ":5"}) {
+                           "state: 5", "state:5 ", "state:5.0", "state:five", "state:5:6",
+                           "energy:99999999999", "covariance:3", "covariance:", ":5"}) {
     BOOST_TEST_CONTEXT(name) {
       BOOST_TEST(refuses<std::invalid_argument>([&] { loss_named(name); },
                                                 {name, "state:K", "energy:K", "covariance"}));

@@ -30,8 +30,8 @@ const henon_heiles galaxy;
 /// Trajectories of 4, 5, 0, 11, 12, 9 and 40 steps: some are too short.
 flow_map_data<2> uneven_data() {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  auto data =
-      make_flow_map_data(galaxy, starts, fine_steps<>(0.05), {.step = 0.4, .horizon = 16.2, .trajectories = 2});
+  auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
+                                 {.step = 0.4, .horizon = 16.2, .trajectories = 2});
   data.first_of = {0, 4, 9, 9, 20, 32, 41, 81};
   data.start.resize(81);
   data.finish.resize(81);
@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(bits_are_those_of_stretch_after_stretch) {
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_parameters_goes_two_at_a_time) {
-  check_bits<aba<2>>(five_steps, 57);   // one
-  check_bits<aba<4>>({}, 81);           // three
+  check_bits<aba<2>>(five_steps, 57);  // one
+  check_bits<aba<4>>({}, 81);          // three
   check_bits<aba<4>>(five_steps, 57);
   check_bits<aba<6>>(ten_of_energy, 36);  // five
 }
