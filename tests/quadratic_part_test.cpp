@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The quadratic part of a system: its modes laid out, what is zero left out, and modes that cannot be refused.
+// The quadratic part of a system: its modes laid out, what is zero left out, and modes that cannot be
+// refused.
 #include "nysalt/quadratic_part.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -36,7 +37,8 @@ BOOST_AUTO_TEST_CASE(it_holds_the_modes_with_masses) {
   const auto modes = chain.modes();
   BOOST_REQUIRE(part->frequencies().size() == 2U);
   BOOST_REQUIRE(part->entries().size() == 4U);
-  for (Eigen::Index k = 0; k < 2; ++k) BOOST_TEST(part->frequencies()[std::size_t(k)] == modes.frequencies[k]);
+  for (Eigen::Index k = 0; k < 2; ++k)
+    BOOST_TEST(part->frequencies()[std::size_t(k)] == modes.frequencies[k]);
   for (const auto& [i, k, heavy, light] : part->entries()) {
     const double root = i == 0 ? 2.0 : 3.0;  // of the mass, whose inverse and root round
     BOOST_TEST(std::abs(heavy - modes.basis(i, k) * root) <= 4.0 * eps * root);
@@ -52,8 +54,11 @@ BOOST_AUTO_TEST_CASE(entries_that_are_zero_are_left_out) {
 
 BOOST_AUTO_TEST_CASE(modes_that_cannot_be_are_refused) {
   const auto refused = [](const Eigen::MatrixXd& basis, const Eigen::VectorXd& frequencies) {
-    return refuses<std::invalid_argument>([&] { quadratic_part::of(told{{basis, frequencies}}); },
-                                          {"two springs", "2 x 2", "frequency >= 0"});
+    return refuses<std::invalid_argument>(
+        [&] {
+          quadratic_part::of(told{{basis, frequencies}});
+        },
+        {"two springs", "2 x 2", "frequency >= 0"});
   };
   const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
   BOOST_TEST(!refused(identity, Eigen::Vector2d(0.0, 1.0)));

@@ -45,8 +45,7 @@ void check_pendulum(const S& system, double tolerance, double tolerance_of_slope
     D lifted_v(v);
     lifted_q.derivative = {0.3, 0.0};
     lifted_v.derivative = {0.2, -1.1};
-    const auto lifted =
-        along<field::whole, D>(system, vector<D, 1>(lifted_q), vector<D, 1>(lifted_v))[0];
+    const auto lifted = along<field::whole, D>(system, vector<D, 1>(lifted_q), vector<D, 1>(lifted_v))[0];
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", q = " << q << ", v = " << v) {
       BOOST_TEST(std::abs(lifted.value + std::cos(q) * v) <= tolerance);
       const double first = -std::cos(q) * 0.2 + std::sin(q) * 0.3 * v;
