@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -73,6 +74,14 @@ struct evaluation_plan {
   }
 };
 
+}  // namespace detail
+
+namespace detail {
+/// A, B, G split H into K + V; R, S, H into (K + quadratic part of V) + rest.
+constexpr bool mixes_splittings(std::string_view letters) {
+  return letters.find_first_of("ABG") != std::string_view::npos &&
+         letters.find_first_of("RSH") != std::string_view::npos;
+}
 }  // namespace detail
 
 /// Letters act from left to right: word<kick, drift, kick> is velocity Verlet.
