@@ -62,16 +62,16 @@ inline auto split_masses() {
   return with_quadratic_part(two_masses(), spring);
 }
 
+/// Atoms that rest.
+inline around at_rest(const lennard_jones<>& system) {
+  return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
+}
+
 /// A ring of wells, its springs split off: of a dynamic dimension, and one frequency is zero.
 inline auto split_ring() {
   Eigen::Matrix3d springs;
   springs << 2.0, -1.0, -1.0, -1.0, 2.0, -1.0, -1.0, -1.0, 2.0;
   return with_quadratic_part(dynamic_potential(), springs);
-}
-
-/// Atoms that rest.
-inline around at_rest(const lennard_jones<>& system) {
-  return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
 }
 
 // clang-format off
