@@ -28,10 +28,9 @@
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
-#include "placed_family.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -54,6 +53,12 @@ class bundled_model final : public bundled_system {
  public:
   bundled_model(const Alone& system, const surroundings& its, E law, model_facts facts)
       : system_(system, its.bath), start_(its.start), law_(std::move(law)), facts_(std::move(facts)) {
+    if (its.spread != 1.0) facts_.parameters["spread"] = its.spread;
+    if (start_ != start::law && !HasFrequencyBands<S>) {
+      refuse(
+          "{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
+          description());
+    }
     if (start_ == start::law) starts_.emplace(system_, law_);
   }
 
@@ -66,35 +71,48 @@ class bundled_model final : public bundled_system {
     return all;
   }
   const bath& its_bath() const override { return system_.bath(); }
-  std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
+  std::vector<frequency_band> frequency_bands() const override {
+    if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
+    return {};
+  }
   std::vector<std::string> observables() const override { return observable_names(system_); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {
     if (starts_) return;
-    const auto& alone = system_.alone();
-    try {
-      if (start_ == start::gibbs) {
-        if constexpr (has_exact_flow<Alone>) {
-          starts_.emplace(alone, gibbs_of_modes<S::dimension>(alone, system_.bath().temperature()));
-        } else {
-          starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+    if constexpr (HasFrequencyBands<S>) {
+      const auto& alone = system_.alone();
+      try {
+        if (start_ == start::gibbs) {
+          if constexpr (has_exact_flow<Alone>) {
+            starts_.emplace(alone, gibbs_of_modes<S::dimension>(alone, system_.bath().temperature()));
+          } else {
+            starts_.emplace(alone, gibbs<Alone, E>(system_, law_));
+          }
         }
+        if (start_ == start::trajectory) {
+          starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_, {.seed = seed}));
+        }
+      } catch (const std::runtime_error& problem) {
+        refuse("{}; take another temperature, or --start law", problem.what());
       }
-      if (start_ == start::trajectory) {
-        starts_.emplace(alone, one_long_trajectory<S::dimension>(system_, law_, {.seed = seed}));
-      }
-    } catch (const std::runtime_error& problem) {
-      refuse("{}; take another temperature, or --start law", problem.what());
     }
   }
   int lanes() const override { return width; }
 
-  void require_learnable(const std::string& family, std::optional<placement> where, const learn_settings& how,
+  void require_served(const run_time_word& word) const override {
+    try {
+      nysalt::require_served<S, double>(word, system_);
+    } catch (const std::invalid_argument& problem) {
+      refuse("{}", problem.what());
+    }
+  }
+
+  void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,
                          double step) const override {
-    with_family(family, [&]<class F>(F) {
-      reference().fine_step(step, how.fine_step, noise_parts(placed_family<F>(where)));
-    });
+    const run_time_family family = placed(name, where);
+    require_served(family.letters);
+    reference().fine_step(step, how.fine_step, noise_parts(family));
     const auto which = coordinates_named(how.coordinates);
     if (which != coordinates::qp) {
       if constexpr (HasModes<S>) {
@@ -110,36 +128,46 @@ class bundled_model final : public bundled_system {
                description());
       }
     }
-    with_family(family, [&]<class F>(F) { options_for<placed_family<F>>(how, 1); });
+    const auto options = options_for(family, how, 1);
+    if (options.loss.of == loss_choice::kind::covariance && !system_.bath().acts()) {
+      refuse(
+          "the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
+    }
   }
 
-  learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
+  learnable make_learnable(const learn_plan& plan, const counter& progress) const override {
     require_learnable(plan.family, plan.where, plan.how, plan.step);
-    std::optional<learned_scheme> result;
-    with_family(plan.family, [&]<class F>(F) {
-      const placed_family<F> family(plan.where);
-      const int parts = noise_parts(family);
-      const auto with_reference = [&](const auto& its) {
-        const auto pairs = [&](std::uint64_t seed) {
-          return make_flow_map_data(system_, *starts_, its,
-                                    {.step = plan.step,
-                                     .horizon = plan.how.horizon,
-                                     .trajectories = plan.how.trajectories,
-                                     .seed = seed,
-                                     .noise_parts = parts,
-                                     .threads = plan.threads,
-                                     .progress = progress});
-        };
-        const auto data = pairs(plan.seed);
-        const auto held_out = pairs(plan.held_out_seed);
-        auto [method, fit] = nysalt::learn(family, system_, data, held_out,
-                                           options_for<placed_family<F>>(plan.how, plan.threads));
-        const tabulated plain(member<F>(method.parameters()));
-        result.emplace(learned_scheme{std::move(fit), plan.where ? thermostat(plain, *plan.where) : plain,
-                                      data.energies});
+    std::optional<learnable> result;
+    const run_time_family family = placed(plan.family, plan.where);
+    const int parts = noise_parts(family);
+    fit_options options = options_for(family, plan.how, plan.threads);
+    options.seed = plan.seed;
+    if (!plan.from.empty()) {
+      const Eigen::VectorXd theta =
+          Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
+      if (plan.from_there_alone) {
+        options.start = theta;
+      } else {
+        options.further_starts.push_back({"a step nearby", theta});
+      }
+    }
+    const auto with_reference = [&](const auto& its) {
+      const auto pairs = [&](std::uint64_t seed) {
+        return make_flow_map_data(system_, *starts_, its,
+                                  {.step = plan.step,
+                                   .horizon = plan.how.horizon,
+                                   .trajectories = plan.how.trajectories,
+                                   .seed = seed,
+                                   .noise_parts = parts,
+                                   .threads = plan.threads,
+                                   .progress = progress});
       };
-      reference().at(plan.step, plan.how.fine_step, parts, with_reference);
-    });
+      const auto data = pairs(plan.seed);
+      const auto held_out = pairs(plan.held_out_seed);
+      result.emplace(
+          learnable{make_learning_problem(family, system_, data, held_out, options), data.energies});
+    };
+    reference().at(plan.step, plan.how.fine_step, parts, with_reference);
     return std::move(*result);
   }
 
@@ -308,9 +336,9 @@ class bundled_model final : public bundled_system {
   }
 
   /// In which noise is wanted to learn with.
-  int noise_parts(const auto& family) const {
+  int noise_parts(const run_time_family& family) const {
     if (system_.bath().sigma() == 0.0) return 0;
-    return intervals_of_noise(family.letters(), family.coefficients(family.start())).parts;
+    return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
   }
 
   measure_type measure_named(const std::string& metric, const std::string& name) const {

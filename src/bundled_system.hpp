@@ -16,7 +16,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
 
@@ -41,6 +41,14 @@ struct learn_plan {
   std::uint64_t seed;
   std::uint64_t held_out_seed;
   int threads;
+  std::vector<double> from = {};  // the optimum at a step nearby: one more start
+  bool from_there_alone = false;  // and no other
+};
+
+/// A problem of learning, and how far the energies of its data go.
+struct learnable {
+  learning_problem problem;
+  std::optional<energy_range> energies;
 };
 
 struct learned_scheme {
@@ -71,6 +79,7 @@ class bundled_system {
   virtual std::string description() const = 0;
   /// Name and parameters, as scheme files hold them.
   virtual nlohmann::ordered_json parameters() const = 0;
+  /// Empty if there is no bound.
   virtual std::vector<frequency_band> frequency_bands() const = 0;
   virtual std::vector<std::string> observables() const = 0;
   virtual std::string default_observable() const = 0;
@@ -85,10 +94,15 @@ class bundled_system {
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
 
+  /// Throws refusal for a word that the system does not serve.
+  virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.
   virtual void require_learnable(const std::string& family, std::optional<placement> where,
                                  const learn_settings& how, double step) const = 0;
-  virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
+  /// Makes the data. What is made refers to this.
+  virtual learnable make_learnable(const learn_plan& plan, const counter& progress) const = 0;
+  /// Compiled once, and not for each system.
+  learned_scheme learn(const learn_plan& plan, const counter& progress) const;
 
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
   /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.
@@ -127,8 +141,8 @@ class bundled_system {
   virtual std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const = 0;
 };
 
-/// Highest angular frequency that the system declares.
-double highest_frequency(const bundled_system& system);
+/// Highest angular frequency that the system declares; nothing if it declares none.
+std::optional<double> highest_frequency(const bundled_system& system);
 
 /// The system that the settings name. Throws refusal for what it does not have.
 std::unique_ptr<bundled_system> make_system(const system_settings& settings);

@@ -25,24 +25,39 @@ struct maker {
 
 const std::vector<maker>& makers() {
   static const std::vector<maker> all{
-      {{"fpu", "--pairs 3 --omega 50",
+      {{"fpu", "--pairs 3 --omega 50 --spread 1",
         "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"},
-       {"--pairs", "--omega"},
+       {"--pairs", "--omega", "--spread"},
        [](const auto& s, const auto& in) {
          return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0), in);
        }},
-      {{"oscillator", "--omega 50", "p^2/2 + omega^2 q^2/2"},
-       {"--omega"},
+      {{"oscillator", "--omega 50 --spread 1", "p^2/2 + omega^2 q^2/2"},
+       {"--omega", "--spread"},
        [](const auto& s, const auto& in) { return make_oscillator(s.omega.value_or(50.0), in); }},
-      {{"linear_chain", "--masses 8 --spring 1", "equal masses between walls, joined by linear springs"},
-       {"--masses", "--spring"},
+      {{"linear_chain", "--masses 8 --spring 1 --spread 1",
+        "equal masses between walls, joined by linear springs"},
+       {"--masses", "--spring", "--spread"},
        [](const auto& s, const auto& in) {
          return make_linear_chain(s.masses.value_or(8), s.spring.value_or(1.0), in);
        }},
-      {{"pendulum", "", "p^2/2 - cos q"}, {}, [](const auto&, const auto& in) { return make_pendulum(in); }},
-      {{"henon_heiles", "", "two degrees of freedom in a cubic potential, bounded below energy 1/6"},
-       {},
+      {{"pendulum", "--spread 1", "p^2/2 - cos q"},
+       {"--spread"},
+       [](const auto&, const auto& in) { return make_pendulum(in); }},
+      {{"henon_heiles", "--spread 1",
+        "two degrees of freedom in a cubic potential, bounded below energy 1/6"},
+       {"--spread"},
        [](const auto&, const auto& in) { return make_henon_heiles(in); }},
+      {{"kepler", "--eccentricity 0.6", "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1"},
+       {"--eccentricity"},
+       [](const auto& s, const auto& in) { return make_kepler(s.eccentricity.value_or(0.6), in); }},
+      {{"lennard_jones", "--atoms 7 --space 2 --spread 1", "a cluster of atoms, 4 (r^-12 - r^-6) each pair"},
+       {"--atoms", "--space", "--spread"},
+       [](const auto& s, const auto& in) {
+         return make_lennard_jones(s.space.value_or(2), s.atoms.value_or(7), in);
+       }},
+      {{"phi4", "--masses 16 --spread 1", "masses in wells q^4/4, a ring joined by linear springs"},
+       {"--masses", "--spread"},
+       [](const auto& s, const auto& in) { return make_phi4(s.masses.value_or(16), in); }},
   };
   return all;
 }
@@ -70,6 +85,15 @@ bath bath_of(const bath_settings& its) {
   }
   require("--sigma", *its.sigma);
   return bath::of_sigma(*its.friction, *its.sigma);
+}
+
+double spread_of(const std::optional<double>& asked, start where) {
+  if (!asked) return 1.0;
+  if (!(*asked > 0.0) || !std::isfinite(*asked)) {
+    refuse("--spread must be positive and finite, got {}", *asked);
+  }
+  if (where != start::law) refuse("--spread belongs to the law of starts: take --start law");
+  return *asked;
 }
 
 start start_of(const std::string& asked, const bath& its) {
@@ -106,18 +130,21 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
   }
   for (const auto& [name, given] :
        {option{"--pairs", settings.pairs.has_value()}, option{"--omega", settings.omega.has_value()},
-        option{"--masses", settings.masses.has_value()}, option{"--spring", settings.spring.has_value()}}) {
+        option{"--masses", settings.masses.has_value()}, option{"--spring", settings.spring.has_value()},
+        option{"--eccentricity", settings.eccentricity.has_value()},
+        option{"--atoms", settings.atoms.has_value()}, option{"--space", settings.space.has_value()},
+        option{"--spread", settings.spread.has_value()}}) {
     if (!given || std::find(found->takes.begin(), found->takes.end(), name) != found->takes.end()) continue;
-    refuse("the system {} has no {}: it takes {}", settings.name, name,
-           found->takes.empty() ? "no option" : listed(found->takes));
+    refuse("the system {} has no {}: it takes {}", settings.name, name, listed(found->takes));
   }
   const bath its = bath_of(settings.bath);
-  return found->make(settings, {its, start_of(settings.start, its)});
+  const start where = start_of(settings.start, its);
+  return found->make(settings, {its, where, spread_of(settings.spread, where)});
 }
 
-double highest_frequency(const bundled_system& system) {
-  double highest = 0.0;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+std::optional<double> highest_frequency(const bundled_system& system) {
+  std::optional<double> highest;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
   return highest;
 }
 

@@ -14,6 +14,7 @@ enum class start { law, gibbs, trajectory };
 struct surroundings {
   nysalt::bath bath;
   program::start start;
+  double spread = 1.0;  // of the law of starts: its deviations are multiplied by it
 };
 
 std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its);
@@ -22,5 +23,9 @@ std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double sp
                                                   const surroundings& its);
 std::unique_ptr<bundled_system> make_pendulum(const surroundings& its);
 std::unique_ptr<bundled_system> make_henon_heiles(const surroundings& its);
+std::unique_ptr<bundled_system> make_kepler(double eccentricity, const surroundings& its);
+std::unique_ptr<bundled_system> make_lennard_jones(std::int64_t space, std::int64_t atoms,
+                                                   const surroundings& its);
+std::unique_ptr<bundled_system> make_phi4(std::int64_t masses, const surroundings& its);
 
 }  // namespace nysalt::program

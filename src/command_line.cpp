@@ -103,8 +103,10 @@ void add_system(CLI::App& command, system_settings& system) {
   command.add_option("--system", system.name, "nysalt list shows all")->capture_default_str();
   add_number(command, "--pairs", system.pairs, "fpu: pairs of masses [3]");
   add_number(command, "--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
-  add_number(command, "--masses", system.masses, "linear_chain [8]");
+  add_number(command, "--masses", system.masses, "linear_chain [8], phi4 [16]");
   add_number(command, "--spring", system.spring, "linear_chain [1]");
+  add_number(command, "--atoms", system.atoms, "lennard_jones [7]");
+  add_number(command, "--space", system.space, "lennard_jones: 2 or 3 dimensions [2]");
 }
 
 /// What a system is in.
@@ -116,6 +118,8 @@ void add_bath(CLI::App& command, system_settings& system) {
 
 /// Where trajectories start in it, and how methods meet it.
 void add_starts_and_placement(CLI::App& command, system_settings& system, std::string& placement) {
+  add_number(command, "--eccentricity", system.eccentricity, "kepler: of the starts [0.6]");
+  add_number(command, "--spread", system.spread, "of the law of starts: multiplies its deviations [1]");
   command.add_option("--start", system.start, "law, gibbs or trajectory [gibbs in a bath, else law]");
   command.add_option("--placement", placement,
                      "of O in a word that has none: end, symmetric or middle [symmetric]");
@@ -129,6 +133,9 @@ void add_learning(CLI::App& command, learn_settings& how, const std::string& pre
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
+  command.add_option(prefix + "loss", how.loss, "state:K, energy:K after K steps, or covariance")
+      ->capture_default_str();
+  add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
 }
 
 void add_list(CLI::App& app, typed& to) {
@@ -143,7 +150,8 @@ void add_learn(CLI::App& app, typed& to) {
   add_bath(command, to.learn.system);
   add_starts_and_placement(command, to.learn.system, to.learn.placement);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
-  add_number(command, "--step", to.learn.step, "to learn for")->default_str("")->required();
+  add_number(command, "--step", to.learn.step, "to learn for");
+  command.add_option("--steps", to.steps, "joined by commas: a curve of parameters");
   add_learning(command, to.learn.learning, "--");
   command.add_option("--output", to.learn.output, "write a scheme file");
   add_common(command, to.common);
@@ -152,7 +160,8 @@ void add_learn(CLI::App& app, typed& to) {
       "Examples:\n"
       "  nysalt learn --system fpu --step 0.03 --output scheme.json\n"
       "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json\n"
-      "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02");
+      "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02\n"
+      "  nysalt learn --system fpu --family fg4 --steps 0.04,0.05,0.06,0.07 --output curve.json");
 }
 
 void add_run(CLI::App& app, typed& to) {
@@ -237,7 +246,10 @@ int run_parsed(const CLI::App& command, typed& to) {
     refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
   }
   if (name == "list") return list(to.common);
-  if (name == "learn") return learn(to.learn, to.common);
+  if (name == "learn") {
+    to.learn.steps = numbers(to.steps, "--steps");
+    return learn(to.learn, to.common);
+  }
   if (name == "run") {
     to.run.observables = split(to.observables, "--observables");
     return run(to.run, to.common);
@@ -258,8 +270,8 @@ int run_parsed(const CLI::App& command, typed& to) {
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--friction",
-                             "--sigma", "--temperature", "--step"}) {
+  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space",
+                             "--friction", "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);

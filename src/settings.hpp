@@ -31,6 +31,10 @@ struct system_settings {
   std::optional<double> omega;
   std::optional<std::int64_t> masses;
   std::optional<double> spring;
+  std::optional<std::int64_t> atoms;
+  std::optional<std::int64_t> space;
+  std::optional<double> eccentricity;
+  std::optional<double> spread;
   bath_settings bath;
   std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
 };
@@ -42,6 +46,8 @@ struct learn_settings {
   double horizon = 0.5;
   std::string coordinates = "qp";
   std::vector<std::string> fix;  // name=value
+  std::string loss = "state";
+  std::int64_t random_starts = 0;
 };
 
 struct learn_command {
@@ -49,7 +55,8 @@ struct learn_command {
   learn_settings learning;
   std::string family = "nystrom";
   std::string placement;
-  double step = 0.0;
+  std::optional<double> step;
+  std::vector<double> steps;  // for a curve
   std::string output;
 };
 

@@ -47,7 +47,8 @@ using theta_dual = dual<double, F::parameters>;
 ///   coefficients(theta)                            over any scalar
 ///   letters()                                      where the word is a run_time_word
 /// All but the last two are static; these may be, or depend on what the family is told when it is made.
-/// And, if wanted, classical_members(): further methods from which a search begins.
+/// And, if wanted, further points from which a search begins: classical_members(), and further_starts(),
+/// thetas without a name.
 template <class F>
 concept Family = std::copyable<F> && Word<typename F::word> &&
     requires(const F& family, const parameters_of<F>& theta,

@@ -14,7 +14,8 @@
 
 namespace nysalt {
 
-/// One decision a letter, the same operations in the same order, hence the same bits.
+/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined where
+/// it is used: each scalar is compiled once, and a call costs little beside the decisions.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
@@ -35,15 +36,15 @@ class prepared_word<run_time_word, C, N> {
     for (std::size_t i = w.first_in_loop(); i < w.length; ++i) {
       loop_.push_back(plain_[i]);
       if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
-        const C both = c.back() + c.front();
-        loop_.back() = prepare(w, i, &both, h, its, evaluation::none);
+        const std::array both{C(c.back() + c.front()), C(0.0)};
+        loop_.back() = prepare(w, i, both.data(), h, its, evaluation::none);
       }
       last_.push_back(loop_.back());
       loop_.back().evaluates = w.plan().in_loop[i];
       last_.back().evaluates = w.plan().in_last[i];
     }
-    const C back = -c.front();
-    if (merges_) undo_ = prepare(w, 0, &back, h, its, evaluation::none);
+    const std::array back{C(-c.front()), C(0.0)};
+    if (merges_) undo_ = prepare(w, 0, back.data(), h, its, evaluation::none);
     if (!halves_meet_) return;
     seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its.its_bath->sigma() > 0.0);
     for (auto* letters : {&plain_, &loop_, &last_}) {
@@ -55,7 +56,7 @@ class prepared_word<run_time_word, C, N> {
   const prepared_word& in_loop() const { return *this; }
 
   template <class T, System S>
-  void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (evaluates_to_open_) evaluate<T>(system, x);
     if (!merges_) return;
     prepared_letter first = plain_.front();
@@ -63,7 +64,7 @@ class prepared_word<run_time_word, C, N> {
     apply(system, first, x, cursor);
   }
   template <class T, System S>
-  [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
+  [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                       auto& cursor) const {
     for (std::int64_t n = 1; n <= steps; ++n) {
       if (halves_meet_) cross(system, x, cursor);
@@ -72,12 +73,12 @@ class prepared_word<run_time_word, C, N> {
     }
   }
   template <class T, System S>
-  void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (merges_) apply(system, undo_, x, cursor);
     if (halves_meet_) end(system, x, cursor);
   }
   template <class T, System S>
-  void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (halves_meet_) begin(system, x, cursor);
     for (const auto& letter : plain_) apply(system, letter, x, cursor);
     cursor.next();
@@ -115,7 +116,7 @@ class prepared_word<run_time_word, C, N> {
   }
 
   template <class T, System S>
-  void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
+  [[gnu::noinline]] void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
     if constexpr (HasQuadraticPart<S>) {
       if (reads_soft_) return force_of<field::soft, T>(system, x.q, x.f);
     }
@@ -123,8 +124,8 @@ class prepared_word<run_time_word, C, N> {
   }
 
   template <class T, System S>
-  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l, flow_state<T, S::dimension>& x,
-                                    auto& cursor) const {
+  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l,
+                                    flow_state<T, S::dimension>& x, auto& cursor) const {
     if (l.evaluates == evaluation::shared) evaluate<T>(system, x);
     detail::with_letter(
         l.letter, known_letters{}, [&](auto flow) __attribute__((always_inline)) {
@@ -133,11 +134,8 @@ class prepared_word<run_time_word, C, N> {
             if constexpr (is_noisy<decltype(cursor)>) apply_noise(system, l.noise, l.number, cursor, x);
           } else if constexpr (!letter::template serves<S, T>) {
             // the stepper has refused it
-          } else if constexpr (QuadraticFlow<letter>) {
-            flow.apply(system, *l.turn, x, cursor.room);
-          } else if constexpr (letter::slots == 2) {
-            if (l.evaluates == evaluation::alone) evaluate<T>(system, x);
-            flow.apply(system, l.gradient, x, cursor.room);
+          } else if constexpr (QuadraticFlow<letter> || letter::slots == 2) {
+            apply_large<letter, T>(system, l, x, cursor.room);
           } else {
             const C prepared = l.prepared;
             if constexpr (requires { flow.evaluate_and_apply(system, prepared, x, cursor.room); }) {
@@ -148,6 +146,18 @@ class prepared_word<run_time_word, C, N> {
             flow.apply(system, prepared, x, cursor.room);
           }
         });
+  }
+
+  /// Compiled once, and not wherever a letter may stand: a call costs nothing beside it.
+  template <Flow Letter, class T, System S>
+  [[gnu::noinline]] void apply_large(const S& system, const prepared_letter& l,
+                                     flow_state<T, S::dimension>& x, auto& room) const {
+    if constexpr (QuadraticFlow<Letter>) {
+      Letter::apply(system, *l.turn, x, room);
+    } else {
+      if (l.evaluates == evaluation::alone) evaluate<T>(system, x);
+      Letter::apply(system, l.gradient, x, room);
+    }
   }
 
   template <class Cursor>

@@ -48,12 +48,17 @@ class run_time_family {
             {std::string(known.name), Eigen::Map<const Eigen::VectorXd>(known.theta.data(), F::parameters)});
       }
     }
+    if constexpr (requires { F::further_starts(); }) {
+      for (const auto& theta : F::further_starts()) {
+        starts.push_back({"further start", Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters)});
+      }
+    }
   }
 
   std::string name;
   std::vector<std::string> parameter_names;
   std::vector<parameter_range> ranges;
-  std::vector<named_parameters> starts;  // the family's own, then its classical members
+  std::vector<named_parameters> starts;  // the family's own, its classical members, further ones
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;

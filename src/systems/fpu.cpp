@@ -11,7 +11,7 @@ template <int Pairs>
 std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& its) {
   using model = bundled_model<fpu_chain<Pairs>, fpu_law<Pairs>>;
   const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
-  return std::make_unique<model>(chain, its, fpu_law<Pairs>(chain),
+  return std::make_unique<model>(chain, its, fpu_law<Pairs>(chain, its.spread),
                                  model_facts{parameters, chain.omega(), "stiff_energy"});
 }
 }  // namespace

@@ -10,7 +10,7 @@ namespace nysalt::program {
 std::unique_ptr<bundled_system> make_henon_heiles(const surroundings& its) {
   // Energies about .02: the motion is bounded below 1/6.
   const vector<double, 2> rest(0.0, 0.0);
-  const normal_around<2> law({rest, rest}, 0.1, 0.1);
+  const normal_around<2> law({rest, rest}, 0.1 * its.spread, 0.1 * its.spread);
   const henon_heiles system;
   return std::make_unique<bundled_model<henon_heiles, normal_around<2>>>(
       system, its, law,

@@ -8,7 +8,8 @@ namespace nysalt::program {
 std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& its) {
   const harmonic_oscillator oscillator(omega);
   // Of energy kT = 1 in the mean.
-  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0 / omega, 1.0);
+  const vector<double, 1> rest(0.0);
+  const normal_around<1> law({rest, rest}, its.spread / omega, its.spread);
   const json parameters{{"name", "oscillator"}, {"omega", omega}};
   return std::make_unique<bundled_model<harmonic_oscillator, normal_around<1>>>(
       oscillator, its, law, model_facts{parameters, omega, "energy"});

@@ -9,7 +9,8 @@ namespace nysalt::program {
 
 std::unique_ptr<bundled_system> make_pendulum(const surroundings& its) {
   // Swings: it goes over the top from |p| = 2 at the bottom.
-  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
+  const vector<double, 1> rest(0.0);
+  const normal_around<1> law({rest, rest}, 0.5 * its.spread, 0.5 * its.spread);
   return std::make_unique<bundled_model<pendulum, normal_around<1>>>(
       pendulum(), its, law, model_facts{{{"name", "pendulum"}}, 1.0, "energy"});
 }

@@ -12,8 +12,8 @@ using namespace nysalt::test;
 
 namespace {
 
-template <SeparableSystem S>
-force_check check(const S& system, double reach = 0.5, int points = 5) {
+template <SeparableSystem S, class Reach = double>
+force_check check(const S& system, const Reach& reach = 0.5, int points = 5) {
   draws random;
   std::vector<vector<double, S::dimension>> at;
   for (int n = 0; n < points; ++n) at.push_back(random.state(system, reach).q);

@@ -2,6 +2,7 @@
 // The paper's initial law has the paper's moments, and is a function of seed and number.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
@@ -82,4 +83,22 @@ BOOST_AUTO_TEST_CASE(the_same_seed_and_number_give_the_same_bits) {
     BOOST_TEST((law(5, n).q == dynamic(5, n).q && law(5, n).p == dynamic(5, n).p));
   }
   BOOST_TEST(law.description() == "fpu_law(omega=50)");
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_multiplies_the_deviations) {
+  const fpu_law<3> wide(chain, 3.0);
+  const Eigen::MatrixXd basis = chain.modes().basis;
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    const auto x = law(5, n);
+    const auto y = wide(5, n);
+    for (Eigen::Index k = 3; k < 6; ++k) {  // as for the slow modes
+      BOOST_TEST(std::abs(basis.col(k).dot(y.q - 3.0 * x.q) + 2.0 / omega) <= 32.0 * eps);
+      BOOST_TEST(std::abs(basis.col(k).dot(y.p - 3.0 * x.p) + 2.0) <= 32.0 * eps);
+    }
+  }
+  BOOST_TEST(same_bits(fpu_law<3>(chain, 1.0)(5, 7), law(5, 7)));
+  BOOST_TEST(wide.description() == "fpu_law(omega=50, spread=3)");
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity()}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { fpu_law<3>(chain, bad); }, {"spread", "not negative"}));
+  }
 }

@@ -17,8 +17,8 @@ inline double gentle_step(const shears& at) { return 0.25 / at.frequency(); }
 template <SeparableSystem S, Method M>
 double jacobian_rounding(const S& system, const M& method, double step, const shears& at) {
   const double size_of_jacobian = magnification(method, step, at);
-  return 4.0 * static_cast<double>(size(system)) * static_cast<double>(M::word::length) * eps *
-         size_of_jacobian * size_of_jacobian;
+  return 4.0 * static_cast<double>(size(system)) * roundings(method, size(system)) * eps * size_of_jacobian *
+         size_of_jacobian;
 }
 
 template <SeparableSystem S, Method M>
@@ -34,8 +34,7 @@ double reversibility_broken(const S& system, const M& method, const phase_point<
   const auto at = shears_at(system, x);
   const double step = gentle_step(at);
   const double magnified = magnification(method, step, at);
-  const double rounding =
-      4.0 * static_cast<double>(M::word::length) * eps * size_of(x) * magnified * magnified;
+  const double rounding = 4.0 * roundings(method, size(system)) * eps * size_of(x) * magnified * magnified;
   return reversibility_defect(system, method, step, x) / rounding;
 }
 
@@ -48,8 +47,7 @@ double undoing_broken(const S& system, const M& method, const phase_point<double
   auto y = x;
   step_map(system, method, step)(y);
   step_map(system, method, -step)(y);
-  return distance(x, y) /
-         (4.0 * static_cast<double>(M::word::length) * eps * size_of(x) * magnified * magnified);
+  return distance(x, y) / (4.0 * roundings(method, size(system)) * eps * size_of(x) * magnified * magnified);
 }
 
 }  // namespace nysalt::test

@@ -2,25 +2,46 @@
 // What the laws are tried on. A new system or method is one line here (and its name in a list).
 #pragma once
 
+#include <algorithm>
+#include <string>
 #include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "../support/draws.hpp"
 #include "../support/systems.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/aba_free.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/r_aba.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/chin.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
+#include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/mclachlan_atela.hpp"
 #include "nysalt/methods/pefrl.hpp"
 #include "nysalt/methods/s_aia.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/takahashi_imada.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
 
 namespace nysalt::test {
 
@@ -29,6 +50,25 @@ inline linear_chain free_chain() {
   Eigen::MatrixXd stiffness(3, 3);
   stiffness << 2.0, -2.0, 0.0, -2.0, 5.0, -3.0, 0.0, -3.0, 3.0;
   return linear_chain(stiffness, Eigen::Vector3d(1.0, 2.0, 5.0));
+}
+
+/// Two masses of different weight, the linear spring between them split off: one frequency is zero.
+inline auto split_masses() {
+  Eigen::Matrix2d spring;
+  spring << 1.0, -1.0, -1.0, 1.0;
+  return with_quadratic_part(two_masses(), spring);
+}
+
+/// Atoms that rest.
+inline around at_rest(const lennard_jones<>& system) {
+  return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
+}
+
+/// A ring of wells, its springs split off: of a dynamic dimension, and one frequency is zero.
+inline auto split_ring() {
+  Eigen::Matrix3d springs;
+  springs << 2.0, -1.0, -1.0, -1.0, 2.0, -1.0, -1.0, -1.0, 2.0;
+  return with_quadratic_part(dynamic_potential(), springs);
 }
 
 // clang-format off
@@ -45,34 +85,78 @@ struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2
 struct a_long_fpu : within_a_half { static auto make() { return long_fpu_chain(2, 7.0); } };
 struct a_pendulum : within_one { static auto make() { return pendulum(); } };
 struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
+struct a_planet {
+  inline static const around reach{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0), 0.2};  // a circle
+  static auto make() { return kepler(); }
+};
+struct flat_atoms {
+  inline static const around reach = at_rest(lennard_jones<>(2, 3));
+  static auto make() { return lennard_jones<2, 3>(); }
+};
+struct atoms_in_space {
+  inline static const around reach = at_rest(lennard_jones<>(3, 5));
+  static auto make() { return lennard_jones<>(3, 5); }
+};
+struct a_ring : within_one { static auto make() { return phi4_chain<4>(); } };
+struct a_dynamic_ring : within_one { static auto make() { return phi4_chain<>(5); } };
 struct a_potential : within_one { static auto make() { return potential_only(); } };
 struct a_dynamic_one : within_one { static auto make() { return dynamic_potential(); } };
 struct a_black_box : within_one { static auto make() { return black_box(); } };
 struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
 struct two_weights : within_one { static auto make() { return two_masses(); } };
+struct a_split_pendulum : within_one { static auto make() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); } };
+struct two_split_weights : within_one { static auto make() { return split_masses(); } };
+struct a_split_ring : within_one { static auto make() { return split_ring(); } };
 struct a_fast_one : within_one { static auto make() { return relativistic(); } };
 struct a_faster_one : within_one { static auto make() { return relativistic_with_velocity(); } };
 // clang-format on
 
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
-using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu,
-                           a_pendulum, a_galaxy, a_potential, a_dynamic_one, a_differentiable_box,
-                           two_weights, a_fast_one, a_faster_one>;
+using systems =
+    std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu, a_pendulum,
+               a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_potential,
+               a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
 
-/// One of each kind, for laws about methods rather than systems.
-using various_systems = std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_galaxy, a_fast_one>;
+/// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a
+/// layout of its own, by potential and by force, with a quadratic part of its own or split off, and with
+/// another K.
+using various_systems =
+    std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
+               two_split_weights, a_split_ring, a_differentiable_box, a_fast_one, a_faster_one>;
 
 /// Of those for baths one, as what it is without: its conservative part.
-using methods = std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, pefrl,
-                           blanes_moan_s6, srkn6b, srkn11b, member<nystrom>, baoab>;
+using classical_methods =
+    std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, forest_ruth, pefrl,
+               mclachlan_atela4, mclachlan5, blanes_moan_s6, srkn6b, srkn11b, srkn14a, baoab>;
+using families =
+    std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
+using gradient_methods = std::tuple<takahashi_imada, chin4a>;
+using gradient_families = std::tuple<fg_chin, fg4>;
+using rotating_methods = std::tuple<impulse>;
+using rotating_families = std::tuple<r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>;
 
-/// A theta well inside the ranges, where coefficients are of moderate size.
+template <class... List>
+using joined = decltype(std::tuple_cat(std::declval<List>()...));
+using all_families = joined<families, gradient_families, rotating_families>;
+
+template <class List>
+struct members_of_list;
+template <class... F>
+struct members_of_list<std::tuple<F...>> : std::type_identity<std::tuple<member<F>...>> {};
+template <class List>
+using members_of = typename members_of_list<List>::type;
+
+using methods = joined<classical_methods, members_of<families>, gradient_methods,
+                       members_of<gradient_families>, rotating_methods, members_of<rotating_families>>;
+
+/// A theta well inside the ranges and near the start, where coefficients are of moderate size.
 template <Family F>
 parameters_of<F> random_theta(draws& random) {
-  parameters_of<F> theta;
+  parameters_of<F> theta = F::start();
   for (std::size_t k = 0; k < theta.size(); ++k) {
     const auto [low, high, open] = F::ranges()[k];
-    theta[k] = random.uniform(low + 0.2 * (high - low), high - 0.2 * (high - low));
+    theta[k] = random.uniform(std::max(low + 0.2 * (high - low), theta[k] - 0.3),
+                              std::min(high - 0.2 * (high - low), theta[k] + 0.3));
   }
   return theta;
 }
@@ -100,7 +184,27 @@ void for_each(auto&& f) {
 template <class Model>
 using system_of = decltype(Model::make());
 
+/// Whether a system has the letters of a method, and a kinetic energy that gives it its order. (A black box
+/// gives gradient kicks, but not their derivatives.)
+template <SeparableSystem S>
+bool suits(const S&, const Method auto& method) {
+  const std::string letters = word_of(method).letters();
+  const auto has = [&](const char* some) { return letters.find_first_of(some) != std::string::npos; };
+  if (method.requires_quadratic_kinetic && !NystromSystem<S>) return false;
+  if (has("RSH") && !HasQuadraticPart<S>) return false;
+  return !(has("G") && BlackBoxForce<S>);
+}
 template <class M, class Model>
-inline constexpr bool fits = !M::requires_quadratic_kinetic || NystromSystem<system_of<Model>>;
+inline constexpr bool fits = (!M::requires_quadratic_kinetic ||
+                              NystromSystem<system_of<Model>>)&&(M::word::reads != field::soft ||
+                                                                 HasQuadraticPart<system_of<Model>>);
+
+/// All methods as data, with members drawn from the families: a law about them is compiled once a system.
+/// That a method steps as its table does is a law of its own, in laws/data_laws.hpp.
+inline std::vector<tabulated> methods_as_data(draws& random) {
+  std::vector<tabulated> all;
+  for_each<methods>([&]<class M>() { all.emplace_back(any_method<M>(random)); });
+  return all;
+}
 
 }  // namespace nysalt::test

@@ -2,7 +2,6 @@
 // The order of a method, measured.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -28,11 +27,23 @@ solved<S::dimension> solve(const S& system, std::vector<phase_point<double, S::d
   return result;
 }
 
+/// A word and its coefficients, wherever their order holds.
+struct table {
+  run_time_word word;
+  std::vector<double> coefficients;
+};
+template <Method M>
+table table_of(const M& method) {
+  const auto c = method.coefficients();
+  return {run_time_word(word_of(method).letters()), {c.begin(), c.end()}};
+}
+
 /// Root mean square error over the starts after the whole time in so many steps.
-template <Word W, SeparableSystem S>
-double error_in(std::int64_t steps, const S& system, const std::array<double, W::length>& coefficients,
+template <SeparableSystem S>
+double error_in(std::int64_t steps, const S& system, const table& method,
                 const solved<S::dimension>& problem) {
-  const stepper<S, W> fixed(system, coefficients, problem.time / static_cast<double>(steps));
+  const stepper<S, run_time_word> fixed(system, method.word, method.coefficients,
+                                        problem.time / static_cast<double>(steps));
   double sum = 0.0;
   for (std::size_t k = 0; k < problem.start.size(); ++k) {
     auto run = fixed.open(problem.start[k]);
@@ -44,19 +55,19 @@ double error_in(std::int64_t steps, const S& system, const std::array<double, W:
 }
 
 /// Slope of log error against log step over the last halving that rounding does not spoil. The run's
-/// rounding errors add up like a random walk, sqrt(n letters) eps, and the reference's like its some 30
-/// steps of 1e-15. An error 50 times as large is known to 2 %, which moves the slope by 0.03. What remains
-/// of higher orders moves it by about (w h)^2 for symmetric methods and by w h otherwise. Hence the measure
-/// agrees with the order to +-0.15 if the last w h is below 0.35, that is, from 16 steps over a time 4 on.
-template <Word W, SeparableSystem S>
-double measured_order(const S& system, const std::array<double, W::length>& coefficients,
-                      const solved<S::dimension>& problem) {
-  std::int64_t steps = 8;
-  double coarse = error_in<W>(steps, system, coefficients, problem);
+/// rounding errors add up like a random walk, sqrt(n letters) eps, and the reference's like its some 8 steps
+/// of 5e-15 a unit of time. An error 50 times as large is known to 2 %, which moves the slope by 0.03. What
+/// remains of higher orders moves it by about (w h)^2 for symmetric methods and by w h otherwise. Hence the
+/// measure agrees with the order to +-0.15 if the last w h is below 0.35, that is, from steps of 1/4 on.
+template <SeparableSystem S>
+double measured_order(const S& system, const table& method, const solved<S::dimension>& problem,
+                      std::int64_t steps) {
+  double coarse = error_in(steps, system, method, problem);
   for (double slope = 0.0;; steps *= 2) {
-    const double fine = error_in<W>(2 * steps, system, coefficients, problem);
+    const double fine = error_in(2 * steps, system, method, problem);
+    const double letters = roundings(method.word.letters(), size(system));
     const double rounding =
-        std::sqrt(static_cast<double>(2 * steps) * static_cast<double>(W::length)) * eps + 3e-14;
+        std::sqrt(static_cast<double>(2 * steps) * letters) * eps + 5e-15 * std::sqrt(8.0 * problem.time);
     if (steps > 2000 || !(fine > 50.0 * rounding)) return slope;
     slope = std::log2(coarse / fine);
     coarse = fine;

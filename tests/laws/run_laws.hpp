@@ -47,7 +47,7 @@ double merging_broken(const S& system, const M& method, double step,
                       const phase_point<double, S::dimension>& x, std::int64_t steps,
                       const Noise& noise = {}) {
   const auto fixed = make_stepper(system, method, step, noise);
-  const auto letters = static_cast<double>(word_of(method).length);
+  const double letters = roundings(method, size(system));
   auto run = fixed.open(x);
   auto y = x;
   Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(2 * x.size(), 2 * x.size());
@@ -133,7 +133,7 @@ phase_point<double, S::dimension> reopened_finish(const S& system, const M& meth
 /// Whether W trajectories side by side have the bits of each alone, run by the same stepper; the first of
 /// them has that number, and the noise that goes with it.
 template <int W, class Stepper>
-bool lanes_are_alone(const Stepper& fixed, draws& random, double reach, std::int64_t steps = 31,
+bool lanes_are_alone(const Stepper& fixed, draws& random, const auto& reach, std::int64_t steps = 31,
                      std::uint64_t first = 40) {
   constexpr int N = Stepper::dimension;
   std::vector<phase_point<double, N>> alone;

@@ -7,12 +7,13 @@
 
 namespace nysalt::test {
 
-/// Calls f(system, method, step, x) for each system of the list.
+/// Calls f(system, method, step, x) for each system of the list that suits the method.
 template <class List>
 void try_on_method(const auto& method, auto&& f) {
   draws random;
   for_each<List>([&]<class Model>() {
     const auto system = Model::make();
+    if (!suits(system, method)) return;
     const auto x = random.state(system, Model::reach);
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)) {
       f(system, method, gentle_step(shears_at(system, x)), x);
@@ -20,7 +21,14 @@ void try_on_method(const auto& method, auto&& f) {
   });
 }
 
-/// Calls f(system, method, step, x) for each system of the list that the method fits.
+/// The same for every method, as data.
+template <class List>
+void try_all_on(auto&& f) {
+  draws random;
+  for (const auto& method : methods_as_data(random)) try_on_method<List>(method, f);
+}
+
+/// The same for one method by its type, with a random member of a family for each system.
 template <Method M, class List>
 void try_on(auto&& f) {
   draws random;
@@ -36,25 +44,26 @@ void try_on(auto&& f) {
   });
 }
 
-/// Calls f(system, method, x) five times for each of all systems that the method fits.
-template <Method M>
-void try_on_all(auto&& f) {
+/// Calls f(system, method, x) five times, with other members and states, for every method as data on a system
+/// that suits it.
+template <class Model>
+void try_all_methods(auto&& f) {
   draws random;
-  for_each<systems>([&]<class Model>() {
-    if constexpr (fits<M, Model>) {
-      const auto system = Model::make();
-      for (int n = 0; n < 5; ++n) {
-        const auto method = any_method<M>(random);
-        const auto x = random.state(system, Model::reach);
-        BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system) << ", draw " << n) {
-          f(system, method, x);
-        }
+  const auto system = Model::make();
+  for (int n = 0; n < 5; ++n) {
+    for (const auto& method : methods_as_data(random)) {
+      const auto x = random.state(system, Model::reach);
+      if (!suits(system, method)) continue;
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)
+                                 << ", draw " << n) {
+        f(system, method, x);
       }
     }
-  });
+  }
 }
 
-/// Masses and a dynamic dimension, and neither.
-using two_systems = std::tuple<a_free_chain, a_galaxy>;
+/// Of a dynamic dimension, and with masses; in potentials that let go of none, and split, so that every
+/// method can step them.
+using bound_systems = std::tuple<a_split_ring, two_split_weights>;
 
 }  // namespace nysalt::test

@@ -34,20 +34,8 @@ double closed_form(double z) {
 /// Of nystrom on the chain with omega = 50, three stiff modes and three of frequency zero.
 objective law_of(placement where, double gamma, double z) {
   const in_bath chain(fpu_chain<3>(omega), bath::of_temperature(gamma, 0.125));
-  const run_time_word plain(nystrom::word{});
-  const stationary_covariance loss(chain, thermostatted(plain, where), z / omega);
-  return [=](const Eigen::VectorXd& theta) {
-    using D = dual<double, 2>;
-    const auto of_plain = nystrom::coefficients<D>({D::variable(theta[0], 0), D::variable(theta[1], 1)});
-    const auto c = thermostatted_coefficients(plain, where, std::vector(of_plain.begin(), of_plain.end()));
-    std::vector<double> values;
-    Eigen::MatrixXd jacobian(std::ssize(c), 2);
-    for (const D& x : c) {
-      jacobian.row(std::ssize(values)) << x.derivative[0], x.derivative[1];
-      values.push_back(x.value);
-    }
-    return loss.at(values, jacobian);
-  };
+  const run_time_family family = thermostatted(run_time_family(nystrom()), where);
+  return objective_of(stationary_covariance(chain, family.letters, z / omega), family);
 }
 
 /// Searched from two half steps of Verlet, which are stable wherever any two stages are.

@@ -2,7 +2,6 @@
 // Methods that are declared symmetric are reversible, and a step back undoes a step forth.
 #include <boost/test/unit_test.hpp>
 
-#include <array>
 #include <string>
 
 #include "../laws/trials.hpp"
@@ -10,16 +9,16 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(reversible_where_declared_symmetric_and_else_not, M, methods) {
-  try_on_all<M>([](const auto& system, const auto& method, const auto& x) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(reversible_where_declared_symmetric_and_else_not, Model, various_systems) {
+  try_all_methods<Model>([](const auto& system, const auto& method, const auto& x) {
     const double reversible = reversibility_broken(system, method, x);
     const double undone = undoing_broken(system, method, x);
-    if constexpr (M::symmetric) {
+    if (method.symmetric) {
       BOOST_TEST(reversible <= 1.0);
       BOOST_TEST(undone <= 1.0);
     } else {
-      BOOST_TEST(reversible > 10.0);
-      BOOST_TEST(undone > 10.0);
+      BOOST_TEST(reversible > 1.0);  // of atoms that hardly move by little
+      BOOST_TEST(undone > 1.0);
     }
   });
 }
@@ -37,25 +36,35 @@ BOOST_AUTO_TEST_CASE(members_with_equal_kicks_are_reversible) {
   }
 }
 
-// Consistency: the coefficients of each letter sum to 1. Declared symmetric: they read the same backwards.
-BOOST_AUTO_TEST_CASE_TEMPLATE(coefficients_are_consistent, M, methods) {
+// Consistency: kicks of every kind sum to 1, and so do drifts and rotations. Declared symmetric: the word and
+// its coefficients read the same backwards, letter by letter.
+BOOST_AUTO_TEST_CASE(coefficients_are_consistent) {
   draws random;
   for (int n = 0; n < 20; ++n) {
-    const auto method = any_method<M>(random);
-    const auto c = method.coefficients();
-    const std::string letters = M::word::letters();
-    for (const char letter : {'A', 'B', 'O'}) {
-      double sum = 0.0;
-      double size = 1.0;
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        if (letters[i] != letter) continue;
-        sum += c[i];
-        size += std::abs(c[i]);
+    for (const auto& method : methods_as_data(random)) {
+      const auto& word = method.letters();
+      const auto c = method.coefficients();
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << ", draw " << n) {
+        for (const std::string kind : {"AR", "BGSH", "O"}) {
+          double sum = 0.0;
+          double size = 1.0;
+          for (std::size_t i = 0; i < word.length; ++i) {
+            if (kind.find(word.letters()[i]) == std::string::npos) continue;
+            sum += c[word.first_slot(i)];
+            size += std::abs(c[word.first_slot(i)]);
+          }
+          const bool is_used = kind != "O" || word.stochastic_letters > 0;
+          // Each coefficient and each sum rounds once.
+          BOOST_TEST(std::abs(sum - (is_used ? 1.0 : 0.0)) <= static_cast<double>(c.size()) * eps * size);
+        }
+        for (std::size_t i = 0; method.symmetric && i < word.length; ++i) {
+          const std::size_t other = word.length - 1 - i;
+          BOOST_TEST(word.letters()[i] == word.letters()[other]);
+          for (std::size_t k = 0; k < word.slots_of(i); ++k) {
+            BOOST_TEST(c[word.first_slot(i) + k] == c[word.first_slot(other) + k]);
+          }
+        }
       }
-      const bool is_used = letter != 'O' || M::word::stochastic_letters > 0;
-      // Each coefficient and each sum rounds once.
-      BOOST_TEST(std::abs(sum - (is_used ? 1.0 : 0.0)) <= static_cast<double>(c.size()) * eps * size);
     }
-    for (std::size_t i = 0; M::symmetric && i < c.size(); ++i) BOOST_TEST(c[i] == c[c.size() - 1 - i]);
   }
 }

@@ -7,8 +7,8 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, M, methods) {
-  try_on_all<M>([](const auto& system, const auto& method, const auto& x) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, Model, various_systems) {
+  try_all_methods<Model>([](const auto& system, const auto& method, const auto& x) {
     BOOST_TEST(symplecticity_broken(system, method, x) <= 1.0);
   });
 }

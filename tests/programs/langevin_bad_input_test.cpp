@@ -204,7 +204,22 @@ BOOST_AUTO_TEST_CASE(a_motion_that_is_not_confined_has_no_gibbs_law) {
     all_refused({{"run --method baoab --step 0.1 --horizon 1 --output out.csv" + hot + start,
                   {"henon_heiles", "diverged", "not confined", "--start law"}}});
   }
+  for (const char* system : {" --system kepler", " --system lennard_jones"}) {
+    const std::string run_it =
+        "run --method baoab --step 0.01 --horizon 0.1 --friction 0.1 --temperature 0.05";
+    for (const char* start : {"", " --start gibbs", " --start trajectory"}) {
+      all_refused({{run_it + system + start, {"no bound", "--start law"}}});
+    }
+    BOOST_TEST(run(run_it + system + " --start law").code == 0);
+  }
   all_refused({{"compare --methods baoab --steps 0.1 --horizon 30 --start law --metric distribution" + hot,
                 {"reference", "diverged"}}});
   BOOST_TEST(run("run --method baoab --step 0.1 --horizon 1 --start law" + hot).code == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_belongs_to_the_law_of_starts) {
+  const std::string run_it =
+      "run --system phi4 --method baoab --step 0.1 --horizon 1 --friction 1 --temperature 1 --spread 2";
+  all_refused({{run_it + " --output out.csv", {"--spread", "--start law"}}});
+  BOOST_TEST(run(run_it + " --start law").code == 0);
 }

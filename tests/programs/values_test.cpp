@@ -17,6 +17,8 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/ensembles/lennard_jones_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
@@ -26,6 +28,7 @@
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -92,6 +95,37 @@ BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
   BOOST_TEST(all["references"][0]["reference"] == its.reference);
   BOOST_TEST(all["references"][0]["error"] == its.reference_error->mean);
   BOOST_TEST(all["rows"][0]["error"] == its.methods[0].error.mean);
+}
+
+/// Where the second trajectory starts, and where a step of Verlet leads: energy, q1 and the last of p.
+template <System S>
+void must_step(const std::string& options, const S& system, const Ensemble<S> auto& starts) {
+  const auto last = fmt::format("p{}", size(system));
+  const auto all = document(
+      "run --seed 5 --method verlet --step 0.01 --horizon 0.01 --trajectories 2 "
+      "--observables energy,q1," +
+      last + " --system " + options);
+  const auto start = starts(seed_for(role::test, seed), 1);
+  const auto must_be = [&](std::int64_t n, double t, const auto& x) {
+    const json expected{1, n, t, energy<double>(system, x), x.q[0], x.p[size(system) - 1]};
+    BOOST_TEST(all["rows"][static_cast<std::size_t>(2 + n)] == expected, options);
+  };
+  integrate(system, verlet(), .01, start, 1, must_be);
+}
+
+BOOST_AUTO_TEST_CASE(systems_start_where_the_library_says) {
+  must_step("kepler", kepler(), kepler_law(.6));
+  must_step("kepler --eccentricity 0.1", kepler(), kepler_law(.1));
+  must_step("lennard_jones", lennard_jones<2, 7>(), lennard_jones_law(lennard_jones<2, 7>(), .1));
+  const lennard_jones<> in_space(3, 13);
+  must_step("lennard_jones --space 3 --atoms 13 --spread 2", in_space,
+            lennard_jones_law(in_space, .1 * 2. * 2.));
+  const vector<double, 5> rest = vector<double, 5>::Zero();
+  must_step("phi4 --masses 5", phi4_chain<5>(), normal_around<5>({rest, rest}, .5, 1.));
+  must_step("phi4 --masses 5 --spread 3", phi4_chain<5>(), normal_around<5>({rest, rest}, 1.5, 3.));
+  must_step("fpu --spread 2", chain, fpu_law<3>(chain, 2.));
+  const vector<double, 2> at_rest(0., 0.);
+  must_step("henon_heiles --spread 2", henon_heiles(), normal_around<2>({at_rest, at_rest}, .2, .2));
 }
 
 BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {

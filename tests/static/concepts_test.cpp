@@ -59,6 +59,8 @@ static_assert(SeparableSystem<relativistic> && !NystromSystem<relativistic>);
 static_assert(SeparableSystem<relativistic_with_velocity> && !NystromSystem<relativistic_with_velocity>);
 static_assert(NystromSystem<pendulum> && NystromSystem<henon_heiles> && NystromSystem<harmonic_oscillator>);
 static_assert(NystromSystem<linear_chain> && NystromSystem<fpu_chain<3>> && NystromSystem<fpu_chain<>>);
+static_assert(NystromSystem<kepler> && NystromSystem<lennard_jones<2, 7>> && NystromSystem<phi4_chain<>>);
+static_assert(HasModes<phi4_chain<>> && !HasFrequencyBands<kepler> && !HasFrequencyBands<lennard_jones<>>);
 static_assert(NystromSystem<two_masses> && NystromSystem<black_box> && NystromSystem<counted<black_box>>);
 static_assert(HasEnergy<pendulum> && HasEnergy<relativistic> && !HasEnergy<black_box>);
 static_assert(HasModes<linear_chain> && !HasModes<pendulum>);

@@ -11,6 +11,13 @@
 
 namespace nysalt::test {
 
+/// Where to draw states of systems that are not at home at the origin.
+struct around {
+  Eigen::VectorXd q;
+  Eigen::VectorXd p;
+  double reach;
+};
+
 /// mt19937_64 gives the same bits everywhere; the standard's distributions do not, so we scale ourselves.
 class draws {
  public:
@@ -28,6 +35,15 @@ class draws {
     phase_point<double, S::dimension> x{make_vector<double>(system), make_vector<double>(system)};
     for (auto& q : x.q) q = uniform(-reach, reach);
     for (auto& p : x.p) p = uniform(-reach, reach);
+    return x;
+  }
+
+  /// The same, off a centre.
+  template <System S>
+  phase_point<double, S::dimension> state(const S& system, const around& centre) {
+    auto x = state(system, centre.reach);
+    x.q += centre.q;
+    x.p += centre.p;
     return x;
   }
 

@@ -57,30 +57,88 @@ Eigen::MatrixXd hessian(const S& system, const vector<double, S::dimension>& q) 
   return -derivative(minus, q);
 }
 
-/// Sizes of the second derivatives of V and K around a state: what kicks and drifts shear with.
+/// f'(q) M^-1 f.
+template <class T, NystromSystem S>
+void f_along_f(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimension>& g) {
+  auto f = q;
+  auto v = q;
+  lifted_room<T, S::dimension> room(q.size());
+  force<T>(system, q, f);
+  velocity<T>(system, f, v);
+  force_along<field::whole, T>(system, q, v, g, room);
+}
+
+/// Sizes of the second derivatives of V and K around a state, the soft and the quadratic part of V among
+/// them, and of that of |grad V|^2/2: what letters shear with.
 struct shears {
   double potential;
   double kinetic;
+  double gradient;
   double frequency() const { return std::max(1.0, std::sqrt(potential * kinetic)); }
 };
 template <SeparableSystem S>
 shears shears_at(const S& system, const phase_point<double, S::dimension>& x) {
-  const auto rate = [&](const auto& p, auto& v) { velocity<dual<double, 1>>(system, p, v); };
-  return {norm(hessian(system, x.q)), norm(derivative(rate, x.p))};
+  using D = dual<double, 1>;
+  const auto rate = [&](const auto& p, auto& v) { velocity<D>(system, p, v); };
+  const Eigen::MatrixXd whole = hessian(system, x.q);
+  shears result{norm(whole), norm(derivative(rate, x.p)), 0.0};
+  if constexpr (HasQuadraticPart<S>) {
+    const auto minus = [&](const auto& q, auto& f) { force_of<field::soft, D>(system, q, f); };
+    const Eigen::MatrixXd soft = -derivative(minus, x.q);
+    result.potential = std::max({result.potential, norm(soft), norm(whole - soft)});
+  }
+  if constexpr (NystromSystem<S> && !BlackBoxForce<S>) {
+    result.gradient = norm(derivative([&](const auto& q, auto& g) { f_along_f<D>(system, q, g); }, x.q));
+  }
+  return result;
 }
 
 /// How much the letters of one step can magnify a perturbation: the product of 1 + |c h| |shear| over
-/// them, with shears twice as large as at the start, since the state moves. Those of the bath do not magnify.
+/// them, with shears twice as large as at the start, since the state moves. A rotation is a shear of both
+/// kinds at most. Those of the bath do not magnify.
 template <Method M>
 double magnification(const M& method, double step, const shears& at) {
   double product = 1.0;
-  const std::string letters = M::word::letters();
+  const auto word = word_of(method);
+  const std::string letters = word.letters();
   const auto c = method.coefficients();
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    if (letters[i] == 'O') continue;
-    product *= 1.0 + 2.0 * std::abs(c[i] * step) * (letters[i] == 'B' ? at.potential : at.kinetic);
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const std::size_t slot = word.first_slot(i);
+    const double time = 2.0 * std::abs(c[slot] * step);
+    switch (letters[i]) {
+      case 'A':
+        product *= 1.0 + time * at.kinetic;
+        break;
+      case 'B':
+      case 'S':
+        product *= 1.0 + time * at.potential;
+        break;
+      case 'G':
+      case 'H':
+        product *= 1.0 + time * at.potential + 4.0 * std::abs(c[slot + 1] * step * step * step) * at.gradient;
+        break;
+      case 'R':
+        product *= (1.0 + time * at.kinetic) * (1.0 + time * at.potential);
+        break;
+      default:
+        break;
+    }
   }
   return product;
+}
+
+/// How often a step rounds a coordinate, in units of the two roundings of a kick: a gradient kick has two
+/// terms more, and each entry of a rotated state is two sums over n modes or coordinates.
+inline double roundings(const std::string& letters, Eigen::Index n) {
+  double sum = 0.0;
+  for (const char letter : letters) {
+    sum += letter == 'R' ? 2.0 * static_cast<double>(n + 2) : letter == 'G' || letter == 'H' ? 3.0 : 1.0;
+  }
+  return sum;
+}
+template <Method M>
+double roundings(const M& method, Eigen::Index n) {
+  return roundings(word_of(method).letters(), n);
 }
 
 }  // namespace nysalt::test

@@ -25,6 +25,36 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(modes_diagonalise_the_quadratic_part, Model, syste
   }
 }
 
+// That of the quadratic part is -M^{1/2} U diag(w^2) U^T M^{1/2} q. Each of some 8 n operations rounds a term
+// up to |V''| |q| + |f|.
+template <SeparableSystem S>
+double soft_force_defect(const S& system, const vector<double, S::dimension>& q, double factor) {
+  auto whole = make_vector<double>(system);
+  auto soft = whole;
+  force<double>(system, q, whole);
+  system.soft_force(q, soft);
+  const auto modes = system.modes();
+  const Eigen::VectorXd squares = modes.frequencies.cwiseAbs2();
+  const Eigen::VectorXd linear = -(modes.basis * squares.asDiagonal() * modes.basis.transpose() * q);
+  const double term = norm(hessian(system, q)) * q.cwiseAbs().maxCoeff() + whole.cwiseAbs().maxCoeff();
+  return (whole - linear - soft * factor).cwiseAbs().maxCoeff() /
+         (8.0 * static_cast<double>(q.size()) * eps * term);
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(the_soft_force_is_what_modes_leave, Model, systems) {
+  using S = system_of<Model>;
+  const auto system = Model::make();
+  if constexpr (requires(const S& s, vector<double, S::dimension>& f) { s.soft_force(f, f); }) {
+    static_assert(HasModes<S> && !HasInverseMass<S>);
+    draws random;
+    for (int n = 0; n < 20; ++n) {
+      const auto q = random.state(system, Model::reach).q;
+      BOOST_TEST(soft_force_defect(system, q, 1.0) <= 1.0);
+      BOOST_TEST(soft_force_defect(system, q, 1.0 + 1e-6) > 10.0);
+    }
+  }
+}
+
 using linear_systems = std::tuple<an_oscillator, a_chain, a_free_chain>;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(linear_systems_have_their_frequencies_in_the_bands, Model, linear_systems) {
@@ -54,6 +84,20 @@ BOOST_AUTO_TEST_CASE(the_bands_of_the_fpu_chain_hold_while_soft_bonds_are_not_ov
   }
   BOOST_TEST(outside <= 1.0);
   BOOST_TEST(outside_half > 10.0);  // bands for a quarter of the energy do not hold
+}
+
+BOOST_AUTO_TEST_CASE(the_bands_of_phi4_hold_while_wells_are_not_overloaded) {
+  const phi4_chain<8> system;
+  const double farthest = std::pow(8.0, 0.25);  // q^4/4 = 2
+  draws random;
+  for (int n = 0; n < 50; ++n) {
+    const auto q = random.state(system, farthest).q;
+    BOOST_TEST(band_defect(system, system.frequency_bands(), q) <= 1.0);
+  }
+  vector<double, 8> zigzag;
+  for (int i = 0; i < 8; ++i) zigzag[i] = i % 2 == 0 ? farthest : -farthest;
+  BOOST_TEST(band_defect(system, system.frequency_bands(), zigzag) <= 1.0);
+  BOOST_TEST(band_defect(system, system.frequency_bands(1.99), zigzag) > 10.0);
 }
 
 BOOST_AUTO_TEST_CASE(the_bands_of_the_pendulum_hold_while_it_hangs) {

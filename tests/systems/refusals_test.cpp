@@ -27,6 +27,17 @@ BOOST_AUTO_TEST_CASE(an_fpu_chain_has_the_pairs_that_its_type_says) {
   BOOST_TEST(fpu_chain<>(4, 1.0).size() == 8);
 }
 
+BOOST_AUTO_TEST_CASE(rings_and_clusters_have_the_size_that_their_type_says) {
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<>(0); }, {"0 masses"}));
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<3>(2); }, {"2 masses"}));
+  BOOST_TEST(phi4_chain<>(4).size() == 4);
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(4, 7); }, {"2 or 3 dimensions", "not 4"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(3, 7); }, {"dimensions", "3"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(2, 1); }, {"1 atoms"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(2, 8); }, {"8 atoms"}));
+  BOOST_TEST(lennard_jones<>(3, 5).size() == 15);
+}
+
 BOOST_AUTO_TEST_CASE(the_stiffness_of_a_chain_is_square_symmetric_finite_and_not_negative) {
   Eigen::MatrixXd k(2, 2);
   BOOST_TEST(refuses<wrong>([&] { linear_chain(Eigen::MatrixXd(2, 3)); }, {"square", "2 x 3"}));
@@ -94,6 +105,10 @@ BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
   BOOST_TEST(describe(harmonic_oscillator(2.0)) == "harmonic_oscillator(omega=2)");
   BOOST_TEST(describe(fpu_chain<3>(50.0)) == "fpu_chain(pairs=3, omega=50)");
   BOOST_TEST(describe(fpu_chain<>(3, 50.0)) == describe(fpu_chain<3>(50.0)));
+  BOOST_TEST(describe(kepler()) == "kepler()");
+  BOOST_TEST(describe(phi4_chain<4>()) == "phi4_chain(masses=4)");
+  BOOST_TEST(describe(lennard_jones<2, 7>()) == "lennard_jones(space=2, atoms=7)");
+  BOOST_TEST(describe(lennard_jones<>(2, 7)) == describe(lennard_jones<2, 7>()));
   // FNV-1a as published, over the bytes of K and the inverse masses, by another program.
   BOOST_TEST(describe(linear_chain(Eigen::MatrixXd::Constant(1, 1, 4.0))) ==
              "linear_chain(masses=1, omega_max=2, fingerprint=2668491c07f49808)");

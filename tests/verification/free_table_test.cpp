@@ -9,7 +9,9 @@
 #include "nysalt/analysis/energy_drift.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/mclachlan_atela.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 
@@ -33,7 +35,11 @@ BOOST_AUTO_TEST_CASE(energy_errors_are_those_of_others) {
   BOOST_TEST(largest_energy_error(verlet_aba()) == 5.05e-3, two_percent);
   BOOST_TEST(largest_energy_error(mclachlan2()) == 4.48e-5, two_percent);
   BOOST_TEST(largest_energy_error(bcss2()) > 2.0 * 4.48e-5);  // the same word with another coefficient
+  BOOST_TEST(largest_energy_error(forest_ruth()) == 6.27e-5, two_percent);
+  BOOST_TEST(largest_energy_error(mclachlan_atela4()) == 7.52e-7, two_percent);
+  BOOST_TEST(largest_energy_error(mclachlan5()) == 7.83e-7, two_percent);
   BOOST_TEST(largest_energy_error(blanes_moan_s6()) == 2.24e-7, two_percent);
   BOOST_TEST(largest_energy_error(srkn6b()) == 1.56e-9, two_percent);
   BOOST_TEST(largest_energy_error(srkn11b()) == 9.1e-12, two_percent);
+  BOOST_TEST(largest_energy_error(srkn14a()) == 6.3e-13, two_percent);
 }

@@ -28,19 +28,10 @@ using two_stages = thermostatted_family<nystrom, placement::symmetric>;
 
 /// beta1 at b1 = 1/2, searched from two half steps of Verlet.
 double learned_beta1(double step) {
-  const stationary_covariance loss(chain, run_time_word(two_stages::word{}), step);
-  const auto of_theta = [&](const Eigen::VectorXd& theta) {
-    using D = dual<double, 2>;
-    std::vector<double> values;
-    Eigen::MatrixXd jacobian(two_stages::word::length, 2);
-    for (const D& c : two_stages::coefficients<D>({D::variable(theta[0], 0), D::variable(theta[1], 1)})) {
-      jacobian.row(std::ssize(values)) << c.derivative[0], c.derivative[1];
-      values.push_back(c.value);
-    }
-    return loss.at(values, jacobian);
-  };
+  const run_time_family family{two_stages()};
+  const objective loss = objective_of(stationary_covariance(chain, family.letters, step), family);
   const auto anywhere = [](const Eigen::VectorXd&) { return true; };
-  return minimise(of_theta, anywhere, Eigen::Vector2d(0.5, 0.375), {1}, 100).theta[1];
+  return minimise(loss, anywhere, Eigen::Vector2d(0.5, 0.375), {1}, 100).theta[1];
 }
 
 /// Of the total stiff energy, from time 20 to 60, of 1024 trajectories with this noise. They start from rest

@@ -85,13 +85,13 @@ class krylov_space {
 
 }  // namespace detail
 
-/// Of the symmetric map multiply(v) -> A v, by Lanczos from a start with a part in every direction. Each end
-/// is a Ritz value moved outwards by its residual, so that it bounds the eigenvalue that it belongs to; of
-/// many close ones that may be another than the last, less than the error away. It stops when the residuals
-/// are below relative_error of the highest end (or of 1 % of the lowest, if that is larger in size) and of
-/// the larger of both; after 100 products they are what they are. Unlike power iteration it needs no shift
-/// where negative ends are larger in size than positive ones. Both ends are NaN if a product is not finite.
-/// Cost: some 8 to 40 products, and k^2 dot products for k.
+/// Of the symmetric map multiply(v) -> A v, from a start with a part in every direction [lanczos_1950]. Each
+/// end is a Ritz value moved outwards by its residual, so that it bounds the eigenvalue that it belongs to;
+/// of many close ones that may be another than the last, less than the error away. It stops when the
+/// residuals are below relative_error of the highest end (or of 1 % of the lowest, if that is larger in size)
+/// and of the larger of both; after 100 products they are what they are. Unlike power iteration it needs no
+/// shift where negative ends are larger in size than positive ones. Both ends are NaN if a product is not
+/// finite. Cost: some 8 to 40 products, and k^2 dot products for k.
 spectrum_ends ends_of_spectrum(const auto& multiply, const Eigen::VectorXd& start,
                                double relative_error = 0.01) {
   const Eigen::Index most = std::min<Eigen::Index>(start.size(), 100);

@@ -22,8 +22,8 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
     result += theta * theta * x;
     return result;
   };
-  const auto kick = [&](const auto& times, double c) { p += -c * times(q); };
-  const auto gradient_kick = [&](const auto& times, double b, double c) {
+  const auto simple_kick = [&](const auto& times, double c) { p += -c * times(q); };
+  const auto with_gradient = [&](const auto& times, double b, double c) {
     P force = -1.0 * times(q);
     p += b * force;
     p += -2.0 * c * times(force);
@@ -36,20 +36,19 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
     p += -theta * std::sin(angle) * q;
     q = turned;
   };
-  std::size_t slot = 0;
-  for (const char letter : word.letters()) {
-    const double* c = &coefficients[slot];
-    if (letter == 'A') q += c[0] * p;
-    if (letter == 'B') kick(times_all, c[0]);
-    if (letter == 'G') gradient_kick(times_all, c[0], c[1]);
-    if (letter == 'R') rotate(c[0]);
-    if (letter == 'S') kick(times_k, c[0]);
-    if (letter == 'H') gradient_kick(times_k, c[0], c[1]);
-    slot += letter == 'G' || letter == 'H' ? 2 : 1;
+  for (std::size_t i = 0; i < word.length; ++i) {
+    const char letter = word.letters()[i];
+    const double* c = &coefficients[word.first_slot(i)];
+    if (letter == drift::letter) q += c[0] * p;
+    if (letter == kick::letter) simple_kick(times_all, c[0]);
+    if (letter == gradient_kick::letter) with_gradient(times_all, c[0], c[1]);
+    if (letter == rotation::letter) rotate(c[0]);
+    if (letter == soft_kick::letter) simple_kick(times_k, c[0]);
+    if (letter == soft_gradient_kick::letter) with_gradient(times_k, c[0], c[1]);
   }
 }
 
-/// trace/2 of that step as a polynomial in k, low <= k <= high. The step is stable where it is inside +-1.
+/// trace/2 of that step as a polynomial in k, low <= k <= high. The step is stable where it is within +-1.
 inline bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
                                        double theta, double low, double high) {
   const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };

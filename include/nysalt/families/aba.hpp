@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
 #include "nysalt/families/symmetric_composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/pefrl.hpp"
 
@@ -25,7 +27,18 @@ struct aba : symmetric_composition<drift, kick, 2 * Kicks + 1> {
 
   static std::vector<classical_member<base::parameters>> classical_members() {
     if constexpr (Kicks == 2) return {{"mclachlan2", base::of(mclachlan2())}};
+    if constexpr (Kicks == 3) return {{"forest_ruth", base::of(forest_ruth())}};
     if constexpr (Kicks == 4) return {{"pefrl", base::of(pefrl())}};
+    if constexpr (Kicks == 5) return {{"mclachlan5", base::of(mclachlan5())}};
+    return {};
+  }
+
+  /// Where searches from forty random starts on the FPU chain (omega = 50, step .011 an evaluation) ended:
+  /// few of them come there, and for other systems and steps it is not far.
+  static std::vector<std::array<double, base::free>> further_starts() {
+    if constexpr (Kicks == 4) return {{0.1854, 0.5605, -0.2195}};
+    if constexpr (Kicks == 5) return {{0.106, 0.342, -0.2932, -0.0247}};
+    if constexpr (Kicks == 6) return {{0.1404, -0.3301, -0.015, 0.5495, 0.2152}};
     return {};
   }
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
 #include "nysalt/families/symmetric_composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
+#include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 
 namespace nysalt {
@@ -23,7 +25,16 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
+    if constexpr (Drifts == 3) return {{"bcss3", base::of(bcss3())}};
     if constexpr (Drifts == 6) return {{"srkn6b", base::of(srkn6b())}};
+    return {};
+  }
+
+  /// Where searches from forty random starts on the FPU chain (omega = 50, step .011 an evaluation) ended:
+  /// few of them come there, and for other systems and steps it is not far.
+  static std::vector<std::array<double, base::free>> further_starts() {
+    if constexpr (Drifts == 4) return {{0.1832, 0.5269, -0.4179}};
+    if constexpr (Drifts == 6) return {{0.0922, 0.2541, 0.3691, 0.5838, -0.0308}};
     return {};
   }
 };

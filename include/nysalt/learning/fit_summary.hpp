@@ -49,6 +49,7 @@ struct fit_summary {
   int iterations = 0;
   std::string guard;              // on which frequencies stability was asked for
   std::string unguarded;          // what the guard had against the optimum; empty: nothing
+  bool is_in_valley = false;      // further iterations hardly lower the loss: other parameters do as well
   bool is_held_by_guard = false;  // no minimum was admitted: this is as far as the guard lets go
   struct gap {
     double low;
@@ -96,7 +97,9 @@ struct fit_summary {
          fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
                      held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
     line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
-                               is_held_by_guard ? ", held by the guard" : ""));
+                               is_held_by_guard ? ", held by the guard"
+                               : is_in_valley   ? ", in a valley of parameters that do as well"
+                                                : ""));
     line("stability", guard);
     if (!unguarded.empty()) line("without the guard", unguarded);
     for (const auto& [low, high] : gaps) {

@@ -22,15 +22,17 @@ struct minimum {
   Eigen::MatrixXd hessian{};
   int iterations = 0;
   bool converged = false;
+  bool in_valley = false;  // not converged, but further iterations hardly lower the loss
 };
 
 namespace detail {
 
 /// Ceres from theta, which becomes where it ends; parameters that are not free stay. The loss is flat along
 /// a valley, on which Gauss-Newton steps are short: so the search does not end on small changes of the loss,
-/// but on small steps. Returns the number of iterations.
-inline int search(ceres::Problem& problem, Eigen::VectorXd& theta, const std::vector<Eigen::Index>& free,
-                  int max_iterations) {
+/// but on small steps. Where it does not end so, the last quarter of the iterations tells a valley.
+inline void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
+                    minimum& found) {
+  Eigen::VectorXd& theta = found.theta;
   std::vector<int> fixed;
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
     if (std::find(free.begin(), free.end(), k) == free.end()) fixed.push_back(static_cast<int>(k));
@@ -47,7 +49,12 @@ inline int search(ceres::Problem& problem, Eigen::VectorXd& theta, const std::ve
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return static_cast<int>(summary.iterations.size());
+  found.iterations = static_cast<int>(summary.iterations.size());
+  const auto& steps = summary.iterations;
+  constexpr double hardly = 1.1;  // by a tenth
+  constexpr std::size_t enough = 50;
+  found.in_valley = summary.termination_type == ceres::NO_CONVERGENCE && steps.size() > enough &&
+                    steps[steps.size() * 3 / 4].cost <= hardly * steps.back().cost;
 }
 
 /// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
@@ -80,6 +87,7 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
   if ((found.theta - began).norm() > 1e-6) found.hessian = hessian(loss, found.theta);
   // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
   found.converged = decrease <= 1e-6 * found.loss + 1e-24;
+  found.in_valley = found.in_valley && !found.converged;
 }
 
 }  // namespace detail
@@ -99,7 +107,7 @@ inline minimum minimise(const objective& loss, const std::function<bool(const Ei
   ceres::Problem problem;
   problem.AddResidualBlock(new compressed_cost(loss, defined, static_cast<int>(start.size())), nullptr,
                            found.theta.data());
-  found.iterations = detail::search(problem, found.theta, free, max_iterations);
+  detail::descend(problem, free, max_iterations, found);
   detail::polish(loss, defined, free, found);
   return found;
 }

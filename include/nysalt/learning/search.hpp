@@ -26,8 +26,9 @@ struct candidate {
   double judged = std::numeric_limits<double>::infinity();
   int iterations = 0;
   bool converged = false;
-  bool admitted = true;  // by the guard
-  bool is_held = false;  // by the guard, at the edge of what it admits
+  bool in_valley = false;  // of almost equal losses, where the search was given up
+  bool admitted = true;    // by the guard
+  bool is_held = false;    // by the guard, at the edge of what it admits
 };
 
 /// What a search is told.
@@ -67,6 +68,7 @@ inline candidate descend(const search_task& task, const std::function<bool(const
     found.hessian = end.hessian;
     found.loss = end.loss;
     found.converged = end.converged;
+    found.in_valley = end.in_valley;
     found.iterations += end.iterations;
     inside = 0 == std::erase_if(found.free, [&](Eigen::Index k) {
                constexpr double met = 1e-12;  // a bound is met to rounding: exact recovery of Verlet
@@ -102,18 +104,18 @@ struct search_result {
   int tried = 0;
 };
 
-/// From each start to its minimum; the judge takes the best that converged and that the guard admits. Where
-/// it admits none, the starts that it admits are followed as far as it does: what is found then lies at the
-/// edge, or is such a start. A single start is what it was, whatever the judge thinks. Cost: a search for
-/// each start, twice where the guard acts.
+/// From each start to its minimum; the judge takes the best that the guard admits, of those that converged or
+/// ended in a valley. Where it admits none, the starts that it admits are followed as far as it does: what is
+/// found then lies at the edge, or is such a start. A single start is what it was, whatever the judge thinks.
+/// Cost: a search for each start, twice where the guard acts.
 inline search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(detail::descend(task, is_defined, start));
   search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(all.size())};
 
-  const auto sound = [](const candidate& c) { return c.converged; };
-  const auto sound_and_admitted = [](const candidate& c) { return c.converged && c.admitted; };
+  const auto sound = [](const candidate& c) { return c.converged || c.in_valley; };
+  const auto sound_and_admitted = [&](const candidate& c) { return sound(c) && c.admitted; };
   const candidate* of_all = detail::best_of(all, sound);
   const candidate* of_admitted = detail::best_of(all, sound_and_admitted);
   if (of_all != nullptr) result.best = *of_all;

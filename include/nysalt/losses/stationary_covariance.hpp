@@ -17,6 +17,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/learning/squares.hpp"
 #include "nysalt/losses/discrete_lyapunov.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
@@ -187,5 +188,12 @@ class stationary_covariance {
   std::map<double, int> multiplicity_of_;  // of each frequency
   std::vector<piece> pieces_;
 };
+
+/// As a function of theta alone, for a family with the letters of the loss.
+inline objective objective_of(const stationary_covariance& loss, const run_time_family& family) {
+  return [=](const Eigen::VectorXd& theta) {
+    return loss.at(family.coefficients(theta), family.jacobian(theta));
+  };
+}
 
 }  // namespace nysalt

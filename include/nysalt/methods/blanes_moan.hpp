@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Optimised methods of Blanes and Moan; all begin and end with a kick.
+// Optimised methods of Blanes and Moan.
 #pragma once
 
 #include <string>
@@ -43,6 +43,22 @@ struct srkn11b : palindromic<kick, drift, 23> {
                            -0.0400061921041533, -0.127049212625417,  //
                            0.0752539843015807, -0.246331761062075,   //
                            -0.0115113874206879, 0.357208872795928});
+  }
+};
+
+/// SRKN14a: order 6 for quadratic K(p), else 4; fourteen evaluations [blanes_moan_2002, table 3, SRKN_14^a].
+struct srkn14a : palindromic<drift, kick, 29> {
+  static constexpr int order = 6;
+  static constexpr bool requires_quadratic_kinetic = true;
+  static std::string name() { return "srkn14a"; }
+  static constexpr std::array<double, 29> coefficients() {
+    return palindrome<29>({0.0378593198406116, 0.09171915262446165,    //
+                           0.102635633102435, 0.183983170005006,       //
+                           -0.0258678882665587, -0.05653436583288827,  //
+                           0.314241403071447, 0.004914688774712854,    //
+                           -0.130144459517415, 0.143761127168358,      //
+                           0.106417700369543, 0.328567693746804,       //
+                           -0.00879424312851058});
   }
 };
 

@@ -73,6 +73,18 @@ class fpu_chain {
     }
   }
 
+  /// That of the soft bonds alone.
+  template <class T>
+  void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    T left = quartic_pull(q[0]);
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      const T right = quartic_pull(i + 1 < pairs() ? T(q[2 * i + 2] - q[2 * i + 1]) : T(-q[2 * i + 1]));
+      f[2 * i] = -left;
+      f[2 * i + 1] = right;
+      left = right;
+    }
+  }
+
   /// p += c force(q), with the 4 of the soft bonds multiplied into c: a power of two changes no bit, short of
   /// underflow.
   template <class T, class C>

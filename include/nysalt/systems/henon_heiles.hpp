@@ -24,6 +24,13 @@ struct henon_heiles {
     f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
   }
 
+  /// That of the cubic part alone.
+  template <class T>
+  void soft_force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    f[0] = q[0] * q[1] * -2.0;
+    f[1] = q[1] * q[1] - q[0] * q[0];
+  }
+
   /// Both modes of the quadratic part have frequency 1.
   normal_modes modes() const { return {Eigen::MatrixXd::Identity(2, 2), Eigen::VectorXd::Ones(2)}; }
   /// The Hessian has eigenvalues 1 +- 2 |q|, and |q| <= 1 on bounded orbits.

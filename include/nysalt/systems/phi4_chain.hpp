@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// The phi^4 chain: unit masses, each in a quartic well and joined to the next by a linear spring, the last
+/// to the first (periodic ends) [aoki_kusnezov_2002]:
+///   H = sum_i p_i^2/2 + (q_{i+1} - q_i)^2/2 + q_i^4/4,  q_{n+1} = q_1.
+/// Masses is n, or Eigen::Dynamic. A force costs one pass of 2 n multiplications and 3 n additions.
+template <int Masses = Eigen::Dynamic>
+class phi4_chain {
+ public:
+  static constexpr int dimension = Masses;
+
+  phi4_chain() requires(Masses != Eigen::Dynamic) : phi4_chain(Masses) {}
+
+  /// Throws std::invalid_argument unless masses >= 1 (and fits Masses).
+  explicit phi4_chain(Eigen::Index masses) : masses_(masses) {
+    if (masses >= 1 && (Masses == Eigen::Dynamic || masses == Masses)) return;
+    throw std::invalid_argument(fmt::format("phi4_chain: cannot have {} masses", masses));
+  }
+
+  Eigen::Index size() const { return Masses == Eigen::Dynamic ? masses_ : Masses; }
+
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    T springs(0.0);
+    T wells(0.0);
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const T stretch = q[next(i)] - q[i];
+      const T square = q[i] * q[i];
+      springs += stretch * stretch;
+      wells += square * square;
+    }
+    return springs * 0.5 + wells * 0.25;
+  }
+
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    T left = q[0] - q[size() - 1];
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const T right = q[next(i)] - q[i];
+      f[i] = right - left - q[i] * q[i] * q[i];
+      left = right;
+    }
+  }
+
+  /// That of the wells alone, -q_i^3.
+  template <class T>
+  void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
+  }
+
+  /// Of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of each
+  /// but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
+  normal_modes modes() const {
+    const Eigen::Index n = size();
+    normal_modes result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
+    for (Eigen::Index column = 0; column < n; ++column) {
+      const Eigen::Index k = (column + 1) / 2;
+      const bool is_sine = column > 0 && column % 2 == 0;
+      const double wavenumber = std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+      const double norm = std::sqrt((k == 0 || 2 * k == n ? 1.0 : 2.0) / static_cast<double>(n));
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double phase = 2.0 * wavenumber * static_cast<double>(i);
+        result.basis(i, column) = norm * (is_sine ? std::sin(phase) : std::cos(phase));
+      }
+      result.frequencies[column] = 2.0 * std::sin(wavenumber);
+    }
+    return result;
+  }
+
+  /// While each well holds an energy up to `well_energy`: its stiffness is 3 q^2 = 6 sqrt(energy) then, and
+  /// that of the springs at most 4.
+  std::vector<frequency_band> frequency_bands(double well_energy = 2.0) const {
+    return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
+  }
+  std::string description() const { return fmt::format("phi4_chain(masses={})", size()); }
+
+ private:
+  Eigen::Index next(Eigen::Index i) const { return i + 1 < size() ? i + 1 : 0; }
+
+  Eigen::Index masses_;
+};
+
+}  // namespace nysalt

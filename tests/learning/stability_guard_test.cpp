@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSL-1.0
+// The guard admits what is stable on the frequencies of a system, and nothing else.
+#include <boost/test/unit_test.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "../support/draws.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// With windows 0 .. sqrt(20/3) and sqrt(10) .. sqrt(50/3), and a gap between.
+const run_time_word two_stages("ABABA");
+std::vector<double> with_a_gap() {
+  const auto c = nystrom::coefficients(std::array{0.5, 0.4});
+  return {c.begin(), c.end()};
+}
+
+const run_time_word verlet_word("BAB");
+const std::vector<double> verlet_coefficients{0.5, 1.0, 0.5};
+
+stability_guard guard_of_one(double omega) {
+  return {harmonic_oscillator(omega), std::vector<phase_point<double, 1>>()};
+}
+
+double spectral_radius(const run_time_word& word, const std::vector<double>& c, double z) {
+  const auto m = detail::matrix_on_oscillator(word, c, z * z);
+  return Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}}.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_band_is_asked_with_two_percent_on_either_side) {
+  const auto guard = guard_of_one(1.0);
+  BOOST_TEST(guard.description() == "declared bands [0.98, 1.02]");
+  const auto c = with_a_gap();
+  const double end = std::sqrt(20.0 / 3.0);
+  const double again = std::sqrt(10.0);
+  const double last = std::sqrt(50.0 / 3.0);
+  for (const double step : {0.1, 0.999 * end / 1.02, 1.001 * again / 0.98, 0.999 * last / 1.02}) {
+    BOOST_TEST_CONTEXT("step " << step) {
+      BOOST_TEST(guard.admits(two_stages, c, step));
+      BOOST_TEST(guard.objection(two_stages, c, step).empty());
+    }
+  }
+  for (const double step : {1.001 * end / 1.02, 2.9, 0.999 * again / 0.98, 1.001 * last / 1.02}) {
+    BOOST_TEST_CONTEXT("step " << step) { BOOST_TEST(!guard.admits(two_stages, c, step)); }
+  }
+  const auto said = guard.objection(two_stages, c, 2.9);
+  for (const char* words : {"not linearly stable", "z = 2.842", "0.98 to 1.02"}) {
+    BOOST_TEST(said.find(words) != std::string::npos, said << " lacks " << words);
+  }
+}
+
+// What is outside the bands may be unstable, and is told.
+BOOST_AUTO_TEST_CASE(gaps_below_the_highest_frequency_are_told) {
+  const auto guard = guard_of_one(1.0);
+  const double step = 3.5;
+  BOOST_TEST(guard.admits(two_stages, with_a_gap(), step));
+  const auto gaps = guard.gaps(two_stages, with_a_gap(), step);
+  BOOST_REQUIRE(gaps.size() == 1U);
+  BOOST_TEST(std::abs(gaps[0].low - std::sqrt(20.0 / 3.0)) < 1e-12);
+  BOOST_TEST(std::abs(gaps[0].high - std::sqrt(10.0)) < 1e-12);
+  for (const double part : {0.001, 0.5, 0.999}) {
+    const double z = gaps[0].low + part * (gaps[0].high - gaps[0].low);
+    BOOST_TEST(spectral_radius(two_stages, with_a_gap(), z) > 1.001);
+  }
+  BOOST_TEST(guard.gaps(two_stages, with_a_gap(), 2.0).empty());
+  const auto beyond = guard.gaps(verlet_word, verlet_coefficients, 3.0);
+  BOOST_REQUIRE(beyond.size() == 1U);
+  BOOST_TEST(std::abs(beyond[0].low - 2.0) < 1e-12);
+  BOOST_TEST(beyond[0].high == 3.0 * 1.02);
+}
+
+// Admitted or not by the eigenvalues of 2000 z in the bands, where these differ by more than a touch.
+BOOST_AUTO_TEST_CASE(random_words_are_judged_as_by_their_eigenvalues) {
+  draws random;
+  const fpu_chain<3> chain(50.0);
+  const std::vector<phase_point<double, 6>> nothing;
+  const stability_guard guard(chain, nothing);
+  int admitted = 0;
+  int refused = 0;
+  for (const char* letters : {"ABABABABA", "BABABABABAB", "BAGAB", "ABAGABA"}) {
+    const run_time_word word{std::string(letters)};
+    for (int n = 0; n < 25; ++n) {
+      std::vector<double> c(word.slots);
+      const double share = 2.0 / static_cast<double>(word.length);
+      for (double& x : c) x = share * random.uniform(0.7, 1.3);
+      if (word.has('G')) c[word.first_slot(word.letters().find('G')) + 1] = 0.01;
+      const double step = random.uniform(0.01, 0.1);
+      double radius = 0.0;
+      for (const auto& band : guard.frequencies()) {
+        for (int i = 0; i <= 1000; ++i) {
+          const double z = step * (band.low + (band.high - band.low) * i / 1000.0);
+          if (z > 0.0) radius = std::max(radius, spectral_radius(word, c, z));
+        }
+      }
+      if (radius > 1.0 + 1e-7 && radius < 1.0 + 1e-4) continue;
+      (radius < 1.0 + 1e-6 ? admitted : refused) += 1;
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", word " << letters << ", draw " << n << ", radius "
+                                 << radius) {
+        BOOST_TEST(guard.admits(word, c, step) == (radius < 1.0 + 1e-6));
+      }
+    }
+  }
+  BOOST_TEST(admitted > 10);
+  BOOST_TEST(refused > 10);
+}
+
+BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
+  draws random;
+  const dynamic_potential ring{4};
+  std::vector<phase_point<double, Eigen::Dynamic>> states;
+  double stiffest = 0.0;
+  for (int n = 0; n < 20; ++n) {
+    states.push_back(random.state(ring, 0.8));
+    const Eigen::MatrixXd a = hessian(ring, states.back().q);
+    stiffest = std::max(stiffest, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[3]);
+  }
+  const stability_guard guard(ring, states);
+  BOOST_TEST(guard.description().find("estimated 0..") == 0U);
+  BOOST_TEST(guard.description().find("along 20 states") != std::string::npos);
+  const double highest = 1.02 * std::sqrt(stiffest);
+  BOOST_TEST(std::abs(guard.frequencies()[0].high - highest) < 1e-9);
+  BOOST_TEST(guard.admits(verlet_word, verlet_coefficients, 1.999 / highest));
+  BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 2.001 / highest));
+  // In its second window this word would pass if the highest frequency were all that counts.
+  BOOST_TEST(!guard.admits(two_stages, with_a_gap(), 3.5 / highest));
+}
+
+BOOST_AUTO_TEST_CASE(without_a_quadratic_kinetic_energy_there_is_no_guard) {
+  const std::vector<phase_point<double, 1>> no_states;
+  const stability_guard guard(relativistic{}, no_states);
+  BOOST_TEST(guard.description().find("no guard") == 0U);
+  BOOST_TEST(guard.admits(verlet_word, verlet_coefficients, 1e6));
+  BOOST_TEST(guard.gaps(verlet_word, verlet_coefficients, 1e6).empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_bath_is_no_matter) {
+  const auto guard = guard_of_one(1.0);
+  const run_time_word baoab("BAOAB");
+  const std::vector<double> c{0.5, 0.5, 1.0, 0.5, 0.5};
+  BOOST_TEST(guard.admits(baoab, c, 1.9));
+  BOOST_TEST(!guard.admits(baoab, c, 2.1));
+  BOOST_TEST(guard.gaps(baoab, c, 2.1).size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(coefficients_that_are_none_are_not_admitted) {
+  const auto guard = guard_of_one(1.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!guard.admits(verlet_word, {0.5, nan, 0.5}, 0.1));
+  BOOST_TEST(!guard.admits(verlet_word, {0.5, 1e200, 1e200}, 0.1));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] {
+        guard.admits(verlet_word, {0.5, 1.0}, 0.1);
+      },
+      {"BAB", "2 coefficients"}));
+}
+
+namespace {
+
+/// The FPU chain of omega = 50 with its stiff springs split off, along the paper's initial states.
+stability_guard guard_of_rotations(std::int64_t steps = 10'000) {
+  const fpu_chain<3> chain(50.0);
+  Eigen::MatrixXd stiff = Eigen::MatrixXd::Zero(6, 6);
+  for (Eigen::Index i = 0; i < 6; i += 2) {
+    stiff.block<2, 2>(i, i) = 1250.0 * Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
+  }
+  const fpu_law law(chain);
+  std::vector<phase_point<double, 6>> states;
+  for (std::uint64_t n = 0; n < 20; ++n) states.push_back(law(1, n));
+  return {with_quadratic_part(chain, stiff), states, steps};
+}
+
+const run_time_word impulse("RSR");
+const std::vector<double> halves{0.5, 1.0, 0.5};
+const double resonance = std::numbers::pi / 50.0;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(impulses_are_refused_at_resonances_alone) {
+  const auto guard = guard_of_rotations();
+  BOOST_TEST(guard.description().find("2 modes under soft forces") != std::string::npos, guard.description());
+  for (const double at : {1.0, 2.0, 3.0}) {
+    BOOST_TEST_CONTEXT("h omega = " << at << " pi") {
+      const auto said = guard.objection(impulse, halves, at * resonance);
+      BOOST_TEST(said.find("magnifies the mode of frequency 50") != std::string::npos, said);
+      BOOST_TEST(guard.admits(impulse, halves, (at - 0.1) * resonance));
+      BOOST_TEST(guard.admits(impulse, halves, (at + 0.1) * resonance));
+    }
+  }
+  // In ten steps nothing comes of it.
+  BOOST_TEST(guard_of_rotations(10).admits(impulse, halves, resonance));
+  // The soft modes make it unstable themselves: h sqrt(kappa) > 2.
+  BOOST_TEST(!guard.admits(impulse, halves, 12.3 * resonance));
+  BOOST_TEST(guard.gaps(impulse, halves, resonance).empty());
+}
+
+// Four kicks, learned at h omega = pi by the one-step loss: at T = 100 its error of the stiff energy is 1 %,
+// that of impulses 24-fold.
+BOOST_AUTO_TEST_CASE(what_was_learned_at_a_resonance_is_admitted_there) {
+  const auto guard = guard_of_rotations();
+  const run_time_word word("RSRSRSRSR");
+  const std::vector<double> c{0.09004278, 0.22513766, 0.28760145, 0.27486234, 0.24471153,
+                              0.27486234, 0.28760145, 0.22513766, 0.09004278};
+  BOOST_TEST(guard.objection(word, c, resonance).empty(), guard.objection(word, c, resonance));
+  // Four impulses in a row are no better than one by one.
+  const std::vector<double> impulses{0.125, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.125};
+  BOOST_TEST(!guard.admits(word, impulses, 4.0 * resonance));
+}
+
+// What is learned without data has no states: then only bands tell.
+BOOST_AUTO_TEST_CASE(without_states_rotations_are_not_watched) {
+  const with_quadratic_part system(harmonic_oscillator(1.0), Eigen::MatrixXd::Identity(1, 1));
+  const std::vector<phase_point<double, 1>> no_states;
+  const stability_guard guard(system, no_states);
+  BOOST_TEST(guard.description() == "declared bands [0.98, 1.02]");
+  BOOST_TEST(guard.admits(impulse, halves, 3.0));
+  BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 3.0));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); }, {"no states"}));
+}
+
+// Steps of words without rotations are bounded by the stiff springs all the same.
+BOOST_AUTO_TEST_CASE(a_quadratic_part_does_not_free_other_words) {
+  const auto guard = guard_of_rotations();
+  BOOST_TEST(guard.admits(verlet_word, verlet_coefficients, 1.9 / 51.4));
+  BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 2.0 / 50.0));
+}
