@@ -1,4 +1,4 @@
-// expect: the letters B, G kick with the whole force and S, H with the soft part of it
+// expect: the letters A, B, G split H into K and V, and R, S, H into its quadratic part
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
