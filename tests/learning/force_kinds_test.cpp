@@ -112,4 +112,6 @@ BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused
   };
   BOOST_TEST(refused(r_fg4(), exact));
   BOOST_TEST(refused(r_fg4(), by_black_box()));
+  // Gradient kicks ask for f'(q) v alone, which a black box has by differences.
+  BOOST_TEST(learn(run_time_family(fg4()), by_black_box(), data, data_of(2)).summary.usable);
 }
