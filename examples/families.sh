@@ -24,33 +24,35 @@ rows() { # TABLE...: method, step, size, evaluations, seconds, error, its own er
   for table in "$@"; do tail -n +2 "$folder/$table/rows.csv"; done
 }
 
-draw() { # PICTURE YLABEL TABLE...: error against evaluations; what is learned in colour and filled
+draw() { # PICTURE YLABEL TABLE...: against evaluations and seconds; what is learned in colour and filled
   picture=$1 label=$2
   shift 2
   rows "$@" | awk -F , '
-    $6 == "" { next }
-    !($1 in points) { name[++n] = $1 }
-    { points[$1] = points[$1] $4 " " $6 " " $7 "\n" }
     function print_those(learned) {
       for (i = 1; i <= n; ++i) if ((name[i] ~ /learned/) == learned) print name[i] "\n" points[name[i]] "\n"
     }
+    $6 == "" { next }
+    !($1 in points) { name[++n] = $1 }
+    { points[$1] = points[$1] $4 " " $5*1e9 " " $6 " " $7 "\n" }
     END { print_those(1); print_those(0) }' >"$folder/$picture.dat"
   cat >"$folder/$picture.gp" <<END
 set terminal svg size 800,420 background 'white' font 'sans,13' noenhanced
-set output '$picture.svg'
 set grid lw 0.5 lc '#cccccc'
 set key outside right top
 set logscale xy
 set format y '%.0e'
-set xlabel 'force evaluations per unit time'
 set ylabel '$label'
 learned = $(grep -c '^learned' "$folder/$picture.dat")
 blocks = $(grep -c '^[a-z]' "$folder/$picture.dat")
 filled = "7 5 9 13 15"
 hollow = "6 4 8 12 10 14 2 1"
-plot for [k = 0:blocks-1] '$picture.dat' index k using 1:2:3 with yerrorlines title columnheader(1) \\
-  lc rgb (k < learned ? '#D55E00' : '#444444') lw (k < learned ? 2 : 1) \\
-  pt int(k < learned ? word(filled, k + 1) : word(hollow, k + 1 - learned))
+do for [cost = 1:2] {
+  set output cost == 1 ? '$picture.svg' : '${picture}_seconds.svg'
+  set xlabel cost == 1 ? 'force evaluations per unit time' : 'nanoseconds per unit time'
+  plot for [k = 0:blocks-1] '$picture.dat' index k using cost:3:4 with yerrorlines title columnheader(1) \\
+    lc rgb (k < learned ? '#D55E00' : '#444444') lw (k < learned ? 2 : 1) \\
+    pt int(k < learned ? word(filled, k + 1) : word(hollow, k + 1 - learned))
+}
 END
   (cd "$folder" && gnuplot "$picture.gp") || echo "   $picture is not drawn: that takes gnuplot"
 }
@@ -113,6 +115,8 @@ say "The energy of its stiff springs on [0, 100]"
 stiff energy_larger path 100 $larger $learned_steps
 stiff energy_fourth path 100 $fourth,mclachlan5 0.0043,0.0051,0.0061,0.0073,0.0087
 stiff energy_two_stage path 100 $two_stage 0.0012,0.0014,0.0017
+stiff energy_near_pi path 100 learned:fg4,learned:aba4 0.0151,0.0154,0.0157,0.016,0.0164
+stiff energy_near_pi_3 path 100 learned:fg_chin,learned:aba3_free 0.0199,0.0204,0.0209,0.0214,0.0223
 draw stiff_energy 'error of I on [0, 100]' energy_larger energy_fourth energy_two_stage
 
 say "The same with exact rotations; soft evaluations are charged"
@@ -127,7 +131,7 @@ say "A stiffer chain, omega = 200"
 stiffer() { # NAME METHODS STEPS
   compare "$1" --system fpu --omega 200 $equal_cost --fine-step 1e-4 --horizon 100 --methods "$2" --steps "$3"
 }
-stiffer stiffer_larger learned:fg4,learned:fg_chin 0.004,0.0047,0.0055,0.0064,0.0072,0.0082
+stiffer stiffer_larger learned:fg4,learned:fg_chin 0.0031,0.0036,0.0042,0.0048,0.0056,0.0064,0.0072,0.0082
 stiffer stiffer_fourth pefrl,mclachlan_atela4,chin4a,mclachlan5 0.0012,0.0014,0.0016
 
 say "Systems that are not stiff"
@@ -143,7 +147,7 @@ soft kepler 2 0.02,0.05
 soft lennard_jones 1 0.01,0.02 --fine-step 0.001
 soft phi4 8 0.1,0.15
 
-say "An atomic chain over a range of costs"
+say "The chain of wells over a range of costs"
 compare phi4_range --system phi4 $equal_cost --metric state --horizon 10 --learn-horizon 8 \
   --methods $larger,learned:nystrom,verlet,pefrl,srkn6b,chin4a,mclachlan5 --steps 0.07,0.1,0.14,0.2
 draw phi4 'state error on [0, 10]' phi4_range
@@ -173,3 +177,31 @@ for spread in 0.5 1.5; do
   other_law "henon_heiles, spread $spread" henon_heiles 20 0.25 --spread $spread
 done
 for e in 0.4 0.75; do other_law "kepler, eccentricity $e" kepler 2 0.02 --eccentricity $e; done
+
+say "Tables"
+{
+  echo "The largest step per evaluation before the error of the state on [0, 10] comes to 1 %:"
+  printf '\n| method | step |\n|---|---|\n'
+  first_crossing 0.01 state_larger state_fourth state_two_stage
+  printf '\nThe same for I on [0, 100]; with rotations soft evaluations count:\n\n| method | step |\n|---|---|\n'
+  first_crossing 0.01 energy_larger energy_fourth energy_two_stage
+  first_crossing 0.01 rotation | grep 'r_\|impulse'
+  printf '\nOmega = 200, I on [0, 100] to 0.3 %%:\n\n| method | step |\n|---|---|\n'
+  first_crossing 0.003 stiffer_larger stiffer_fourth
+  printf '\nI on [0, 100] near a step of pi/omega, where explicit families resonate:\n\n'
+  printf '| method | step | omega times the whole step | error |\n|---|---|---|---|\n'
+  rows energy_near_pi energy_near_pi_3 | sort -t , -s -k 1,1 |
+    awk -F , '{ printf "| `%s` | %s | %.2f | %s |\n", $1, $2, 50*$3, $6 == "" ? "-" : sprintf("%.1e", $6) }'
+  printf '\nErrors of I on [0, 100] where the step times omega is pi, 2 pi, 3 pi:\n\n| method | step | error |\n|---|---|---|\n'
+  rows resonances | awk -F , '{ printf "| `%s` | %.4f | %.1e |\n", $1, $2, $6 }'
+} >"$folder/thresholds.md"
+
+others="learned:fg_chin learned:aba3_free learned:aba4 learned:nystrom mclachlan5 takahashi_imada"
+gains "learned:fg4 $others" henon_heiles pendulum kepler lennard_jones phi4 >"$folder/gains.md"
+gains "old:fg4 old:fg_chin old:aba3_free learned:fg4" "phi4, spread 0.5" "phi4, spread 1.5" "phi4, spread 2" \
+  "henon_heiles, spread 0.5" "henon_heiles, spread 1.5" "kepler, eccentricity 0.4" "kepler, eccentricity 0.75" \
+  >"$folder/other_laws.md"
+awk -F '|' 'NR > 2 { print $6 + 0 }' "$folder/gains.md" | sort -g |
+  awk '{ gain[NR] = $1 } END { printf "\nMedian gain of learned:fg4: %.2g\n", (gain[NR/2] + gain[NR/2 + 1])/2 }' \
+  >>"$folder/gains.md"
+cat "$folder/thresholds.md" "$folder/gains.md" "$folder/other_laws.md"
