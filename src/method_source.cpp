@@ -78,15 +78,40 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
 
 namespace {
 
+/// The first band of the system on which a method is not stable. Words that rotate are exact on them.
+std::optional<frequency_band> unstable_band(const tabulated& method, const bundled_system& system,
+                                            double step) {
+  if (has_rotation(method.letters())) return std::nullopt;
+  const auto windows = stability_of(method);
+  for (const auto& band : system.frequency_bands()) {
+    if (!is_stable(windows, step * band.low, step * band.high)) return band;
+  }
+  return std::nullopt;
+}
+
+/// Between learned steps nobody has asked yet whether the method is stable.
+tabulated from_scheme(const method_source& source, const bundled_system& system, double step, bool force) {
+  const tabulated method = source.learned->at(step);
+  if (source.learned->is_learned_at(step) || force) return method;
+  if (const auto band = unstable_band(method, system, step)) {
+    refuse(
+        "{}: between its learned steps it is not linearly stable at step {} for the frequencies {:g} to "
+        "{:g}; "
+        "learn it there, or take --force",
+        source.typed, step, band->low, band->high);
+  }
+  return method;
+}
+
 tabulated found_at(const method_source& source, const bundled_system& system, double step, bool force,
                    std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     const std::string why = out_of_place(*source.learned, system, step);
-    if (why.empty()) return source.learned->at(step);
+    if (why.empty()) return from_scheme(source, system, step, force);
     if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
-    return source.learned->at(step);
+    return from_scheme(source, system, step, force);
   }
   if (source.is_adaptive()) {
     const auto fastest = highest_frequency(system);
@@ -129,13 +154,10 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
-  if (has_rotation(method.letters())) return;  // exact at all frequencies of the quadratic part
-  const auto windows = stability_of(method);
-  for (const auto& [low, high] : system.frequency_bands()) {
-    if (is_stable(windows, step * low, step * high)) continue;
+  if (const auto band = unstable_band(method, system, step)) {
     warnings.push_back(
         fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
-                    source.typed, step, low, high, system.description()));
+                    source.typed, step, band->low, band->high, system.description()));
   }
 }
 

@@ -40,6 +40,11 @@ class theta_curve {
     return steps_.front() * (1.0 - met) <= step && step <= steps_.back() * (1.0 + met);
   }
 
+  /// Whether it was learned there, and not between.
+  bool has(double step) const {
+    return std::any_of(steps_.begin(), steps_.end(), [&](double s) { return std::abs(step - s) <= met * s; });
+  }
+
   /// Throws std::invalid_argument where it does not cover the step.
   Eigen::VectorXd at(double step) const {
     if (!covers(step)) {
