@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
@@ -102,6 +103,10 @@ class bundled_system {
                                           const trajectories_plan& plan, const std::string& metric,
                                           const std::string& observable, std::optional<double> fine_step,
                                           const counter& progress) const = 0;
+
+  /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
+  virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,
+                                       double temperature, const counter& progress) const = 0;
 
   /// Least and largest value of an observable over the first starts of a plan.
   virtual std::array<double, 2> range_of_starts(const trajectories_plan& plan,

@@ -192,13 +192,16 @@ void add_compare(CLI::App& app, typed& to) {
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
   add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
   add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
-  command.add_option("--metric", to.compare.metric, "path, state, exchange, energy, distribution or acf")
+  command
+      .add_option("--metric", to.compare.metric,
+                  "path, state, exchange, energy, acceptance, distribution or acf")
       ->capture_default_str();
   command.add_option("--observable", to.compare.observable,
                      "of path, distribution and acf [that of the system]");
   command.add_option("--range", to.range, "LOW,HIGH of the histogram [of the starts]");
   add_number(command, "--bins", to.compare.bins, "of the histogram");
   add_number(command, "--longest-lag", to.compare.longest_lag, "of the autocovariance, a time");
+  add_number(command, "--hmc-temperature", to.compare.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, to.compare.learning, "--learn-");
   command.add_option("--output", to.compare.output, "folder for tables and pictures");
   add_common(command, to.common);
@@ -259,6 +262,7 @@ int run_parsed(const CLI::App& command, typed& to) {
     belongs("--range", {"distribution"});
     belongs("--bins", {"distribution"});
     belongs("--longest-lag", {"acf"});
+    belongs("--hmc-temperature", {"acceptance"});
     return compare(to.compare, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");

@@ -32,7 +32,7 @@ void comparison::learn_and_measure() {
 }
 
 bool comparison::has_result() const {
-  return std::any_of(rows_.begin(), rows_.end(), [](const row& its) { return !std::isnan(its.error.mean); });
+  return std::any_of(rows_.begin(), rows_.end(), [](const row& its) { return its.reason.empty(); });
 }
 
 void comparison::require_sound_command() const {
@@ -52,6 +52,7 @@ void comparison::require_sound_command() const {
   require_at_least_one("--trajectories", command_.trajectories);
   require_sound(command_.learning, "--learn-");
   if (is_statistical()) require_sound_statistics();
+  if (is_acceptance()) require_positive("--hmc-temperature", command_.hmc_temperature);
 }
 
 void comparison::plan_rows() {
@@ -77,6 +78,7 @@ void comparison::plan_rows() {
 /// A scheme file has a row where its own step is asked for, and nowhere else.
 void comparison::add_row(const method_source& source, double nominal) {
   const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
+  if (is_acceptance()) require_reversible(source);
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
   row its{source.typed, nominal, step};
@@ -120,6 +122,8 @@ void comparison::measure_errors() {
   for (const auto& [step, group] : by_step) {
     if (is_statistical()) {
       measure_statistics_at(step, group);
+    } else if (is_acceptance()) {
+      measure_acceptance_at(step, group);
     } else {
       measure_at(step, group);
     }
@@ -138,6 +142,13 @@ std::vector<row*> comparison::usable(const std::vector<row*>& group, const traje
   }
   return result;
 }
+
+namespace {
+std::string all_diverged(const std::vector<diverged_trajectory>& all) {
+  const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
+  return fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+}
+}  // namespace
 
 void comparison::measure_at(double step, const std::vector<row*>& group) {
   const trajectories_plan plan = plan_at(step);
@@ -158,11 +169,20 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
     its.evaluations_per_time = found.methods[k].evaluations_per_time;
     its.diverged = found.methods[k].diverged;
     if (found.reference_error) its.reference_error = found.reference_error->mean;
-    if (its.diverged == plan.count) {
-      const auto& all = found.methods[k].diverged_at;
-      const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
-      its.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
-    }
+    if (its.diverged == plan.count) its.reason = all_diverged(found.methods[k].diverged_at);
+  }
+}
+
+void comparison::measure_acceptance_at(double step, const std::vector<row*>& group) {
+  const trajectories_plan plan = plan_at(step);
+  for (row* its : usable(group, plan)) {
+    shown_.part(fmt::format("{} at step {:g}", its->method, its->nominal));
+    const auto found =
+        system_->acceptance(*its->coefficients, plan, command_.hmc_temperature, shown_.counter(plan.count));
+    its->error = found.probability;
+    its->evaluations_per_time = found.evaluations_per_time;
+    its->diverged = std::ssize(found.diverged_at);
+    if (its->diverged == plan.count) its->reason = all_diverged(found.diverged_at);
   }
 }
 

@@ -83,7 +83,8 @@ struct compare_command {
   std::string observable;
   std::vector<double> range;  // of the histogram; empty: that of the starts
   std::int64_t bins = 100;
-  double longest_lag = 1.0;  // of the autocovariance, a time
+  double longest_lag = 1.0;      // of the autocovariance, a time
+  double hmc_temperature = 1.0;  // kT of the acceptance
   std::string output;
 };
 
