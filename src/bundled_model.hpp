@@ -31,7 +31,6 @@
 #include "nysalt/learner.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
-#include "placed_family.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -101,11 +100,19 @@ class bundled_model final : public bundled_system {
   }
   int lanes() const override { return width; }
 
-  void require_learnable(const std::string& family, std::optional<placement> where, const learn_settings& how,
+  void require_served(const run_time_word& word) const override {
+    try {
+      nysalt::require_served<S, double>(word, system_);
+    } catch (const std::invalid_argument& problem) {
+      refuse("{}", problem.what());
+    }
+  }
+
+  void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,
                          double step) const override {
-    with_family(family, [&]<class F>(F) {
-      reference().fine_step(step, how.fine_step, noise_parts(placed_family<F>(where)));
-    });
+    const run_time_family family = placed(name, where);
+    require_served(family.letters);
+    reference().fine_step(step, how.fine_step, noise_parts(family));
     const auto which = coordinates_named(how.coordinates);
     if (which != coordinates::qp) {
       if constexpr (HasModes<S>) {
@@ -121,36 +128,48 @@ class bundled_model final : public bundled_system {
                description());
       }
     }
-    with_family(family, [&]<class F>(F) { options_for<placed_family<F>>(how, 1); });
+    const auto options = options_for(family, how, 1);
+    if (options.loss.of == loss_choice::kind::covariance && !system_.bath().acts()) {
+      refuse(
+          "the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
+    }
   }
 
   learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
     require_learnable(plan.family, plan.where, plan.how, plan.step);
     std::optional<learned_scheme> result;
-    with_family(plan.family, [&]<class F>(F) {
-      const placed_family<F> family(plan.where);
-      const int parts = noise_parts(family);
-      const auto with_reference = [&](const auto& its) {
-        const auto pairs = [&](std::uint64_t seed) {
-          return make_flow_map_data(system_, *starts_, its,
-                                    {.step = plan.step,
-                                     .horizon = plan.how.horizon,
-                                     .trajectories = plan.how.trajectories,
-                                     .seed = seed,
-                                     .noise_parts = parts,
-                                     .threads = plan.threads,
-                                     .progress = progress});
-        };
-        const auto data = pairs(plan.seed);
-        const auto held_out = pairs(plan.held_out_seed);
-        auto [method, fit] = nysalt::learn(family, system_, data, held_out,
-                                           options_for<placed_family<F>>(plan.how, plan.threads));
-        const tabulated plain(member<F>(method.parameters()));
-        result.emplace(learned_scheme{std::move(fit), plan.where ? thermostat(plain, *plan.where) : plain,
-                                      data.energies});
+    const run_time_family family = placed(plan.family, plan.where);
+    const int parts = noise_parts(family);
+    fit_options options = options_for(family, plan.how, plan.threads);
+    options.seed = plan.seed;
+    if (!plan.from.empty()) {
+      const Eigen::VectorXd theta =
+          Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
+      if (plan.from_there_alone) {
+        options.start = theta;
+      } else {
+        options.further_starts.push_back({"a step nearby", theta});
+      }
+    }
+    const auto with_reference = [&](const auto& its) {
+      const auto pairs = [&](std::uint64_t seed) {
+        return make_flow_map_data(system_, *starts_, its,
+                                  {.step = plan.step,
+                                   .horizon = plan.how.horizon,
+                                   .trajectories = plan.how.trajectories,
+                                   .seed = seed,
+                                   .noise_parts = parts,
+                                   .threads = plan.threads,
+                                   .progress = progress});
       };
-      reference().at(plan.step, plan.how.fine_step, parts, with_reference);
-    });
+      const auto data = pairs(plan.seed);
+      const auto held_out = pairs(plan.held_out_seed);
+      auto [theta, fit] = nysalt::learn(family, system_, data, held_out, options);
+      const tabulated method(family.name, family.letters, family.coefficients(theta),
+                             {family.order, family.symmetric, family.requires_quadratic_kinetic});
+      result.emplace(learned_scheme{std::move(fit), method, data.energies});
+    };
+    reference().at(plan.step, plan.how.fine_step, parts, with_reference);
     return std::move(*result);
   }
 
@@ -331,9 +350,9 @@ class bundled_model final : public bundled_system {
   }
 
   /// In which noise is wanted to learn with.
-  int noise_parts(const auto& family) const {
+  int noise_parts(const run_time_family& family) const {
     if (system_.bath().sigma() == 0.0) return 0;
-    return intervals_of_noise(family.letters(), family.coefficients(family.start())).parts;
+    return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
   }
 
   measure_type measure_named(const std::string& metric, const std::string& name) const {

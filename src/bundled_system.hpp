@@ -42,6 +42,8 @@ struct learn_plan {
   std::uint64_t seed;
   std::uint64_t held_out_seed;
   int threads;
+  std::vector<double> from = {};  // the optimum at a step nearby: one more start
+  bool from_there_alone = false;  // and no other
 };
 
 struct learned_scheme {
@@ -87,6 +89,8 @@ class bundled_system {
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
 
+  /// Throws refusal for a word that the system does not serve.
+  virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.
   virtual void require_learnable(const std::string& family, std::optional<placement> where,
                                  const learn_settings& how, double step) const = 0;

@@ -3,6 +3,13 @@
 
 #include <algorithm>
 
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/aba_free.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/r_aba.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
@@ -14,24 +21,47 @@
 
 namespace nysalt::program {
 
+namespace {
+template <class... F>
+std::vector<run_time_family> as_data() {
+  return {run_time_family(F{})...};
+}
+}  // namespace
+
+const std::vector<run_time_family>& families() {
+  static const auto all = as_data<nystrom, aba<4>, aba<5>, aba<6>, bab<4>, bab<6>, aba3_free, aba4_free,
+                                  fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+  return all;
+}
+
 std::vector<std::string> family_names() {
   std::vector<std::string> names;
-  std::apply([&](auto... family) { (names.emplace_back(family.name), ...); }, families{});
+  for (const auto& family : families()) names.push_back(family.name);
   return names;
 }
 
-tabulated family_member(const std::string& family, const std::vector<double>& parameters) {
-  std::optional<tabulated> result;
-  with_family(family, [&]<class F>(F) {
-    parameters_of<F> theta;
-    if (parameters.size() != theta.size()) {
-      refuse("the family {} has {} parameters ({}), got {}", family, theta.size(), listed(F::parameter_names),
-             parameters.size());
-    }
-    std::copy(parameters.begin(), parameters.end(), theta.begin());
-    result.emplace(member<F>(theta));
-  });
-  return *result;
+const run_time_family& family_named(std::string_view name) {
+  for (const auto& family : families()) {
+    if (family.name == name) return family;
+  }
+  refuse("unknown family '{}': it is one of {}", name, listed(family_names()));
+}
+
+run_time_family placed(std::string_view name, std::optional<placement> where) {
+  const auto& plain = family_named(name);
+  return where ? thermostatted(plain, *where) : plain;
+}
+
+tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
+  const auto& family = family_named(name);
+  if (std::ssize(parameters) != family.parameters()) {
+    refuse("the family {} has {} parameters ({}), got {}", name, family.parameters(),
+           listed(family.parameter_names), parameters.size());
+  }
+  const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(parameters.data(), family.parameters());
+  require_in_range(family, theta);
+  return tabulated(family.name, family.letters, family.coefficients(theta),
+                   {family.order, family.symmetric, family.requires_quadratic_kinetic});
 }
 
 const std::vector<classical_method>& classical_methods() {

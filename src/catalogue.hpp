@@ -5,29 +5,22 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/langevin.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
 
-/// Every family that can be learned. A new one is one name here.
-using families = std::tuple<nystrom>;
-
+/// Every family that can be learned.
+const std::vector<run_time_family>& families();
 std::vector<std::string> family_names();
-
-/// Calls f(F{}) for the family of that name. Throws refusal, listing the names, if there is none.
-template <class Action>
-void with_family(std::string_view name, Action&& f) {
-  const bool known = std::apply(
-      [&](auto... family) { return ((family.name == name && (f(family), true)) || ...); }, families{});
-  if (!known) refuse("unknown family '{}': it is one of {}", name, listed(family_names()));
-}
+/// Throws refusal, listing the names, if there is none of that name.
+const run_time_family& family_named(std::string_view name);
+/// With its letters O, where there is a bath.
+run_time_family placed(std::string_view name, std::optional<placement> where);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
 tabulated family_member(const std::string& family, const std::vector<double>& parameters);

@@ -133,6 +133,9 @@ void add_learning(CLI::App& command, learn_settings& how, const std::string& pre
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
+  command.add_option(prefix + "loss", how.loss, "state:K, energy:K after K steps, or covariance")
+      ->capture_default_str();
+  add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
 }
 
 void add_list(CLI::App& app, typed& to) {
@@ -147,7 +150,8 @@ void add_learn(CLI::App& app, typed& to) {
   add_bath(command, to.learn.system);
   add_starts_and_placement(command, to.learn.system, to.learn.placement);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
-  add_number(command, "--step", to.learn.step, "to learn for")->default_str("")->required();
+  add_number(command, "--step", to.learn.step, "to learn for");
+  command.add_option("--steps", to.steps, "joined by commas: a curve of parameters");
   add_learning(command, to.learn.learning, "--");
   command.add_option("--output", to.learn.output, "write a scheme file");
   add_common(command, to.common);
@@ -156,7 +160,8 @@ void add_learn(CLI::App& app, typed& to) {
       "Examples:\n"
       "  nysalt learn --system fpu --step 0.03 --output scheme.json\n"
       "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json\n"
-      "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02");
+      "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02\n"
+      "  nysalt learn --system fpu --family fg4 --steps 0.04,0.05,0.06,0.07 --output curve.json");
 }
 
 void add_run(CLI::App& app, typed& to) {
@@ -244,7 +249,10 @@ int run_parsed(const CLI::App& command, typed& to) {
     refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
   }
   if (name == "list") return list(to.common);
-  if (name == "learn") return learn(to.learn, to.common);
+  if (name == "learn") {
+    to.learn.steps = numbers(to.steps, "--steps");
+    return learn(to.learn, to.common);
+  }
   if (name == "run") {
     to.run.observables = split(to.observables, "--observables");
     return run(to.run, to.common);

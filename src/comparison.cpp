@@ -69,9 +69,9 @@ void comparison::plan_rows() {
         std::any_of(rows_.begin(), rows_.end(), [&](const row& its) { return its.method == source.typed; });
     if (has_row) continue;
     const double evaluations = command_.equal_cost ? source.evaluations_per_step : 1.0;
-    refuse("{} was learned for the step {}, which is not among --steps{}: add {}, or take --force",
-           source.typed, source.learned->step, command_.equal_cost ? " (of an evaluation)" : "",
-           source.learned->step / evaluations);
+    refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
+           source.learned->steps(), command_.equal_cost ? " (of an evaluation)" : "",
+           source.learned->curve.steps().back() / evaluations);
   }
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "learning.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "seeds.hpp"
@@ -14,12 +17,39 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
   require_positive(horizon.c_str(), how.horizon);
   if (how.fine_step) require_positive("--fine-step", *how.fine_step);
   coordinates_named(how.coordinates);
+  loss_named(how.loss);
+  if (how.random_starts < 0 || how.random_starts > 10'000) {
+    refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), how.random_starts);
+  }
 }
 
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
-  shown.part(fmt::format("learning {} at step {:g}", plan.family, plan.step));
-  return system.learn(plan, shown.counter(plan.how.trajectories));
+  learn_plan its = plan;
+  // Where landscapes are hard, the optimum at a smaller step is near that at the next.
+  const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && !plan.how.fine_step;
+  for (const double part : {0.5, 0.75, 1.0}) {
+    if (part < 1.0 && !is_hard) continue;
+    its.step = part * plan.step;
+    shown.part(fmt::format("learning {} at step {:g}", plan.family, its.step));
+    learned_scheme learned = system.learn(its, shown.counter(plan.how.trajectories));
+    if (part == 1.0) return learned;
+    its.from = theta_of(learned.fit);
+  }
+  throw std::logic_error("learn_with: not reached");
+}
+
+std::vector<learned_scheme> learn_curve(const bundled_system& system, learn_plan plan,
+                                        std::vector<double> steps, progress& shown) {
+  std::sort(steps.begin(), steps.end());
+  std::vector<learned_scheme> learned;
+  for (std::size_t n = steps.size(); n-- > 0;) {
+    plan.step = steps[n];
+    learned.insert(learned.begin(), learn_with(system, plan, shown));
+    plan.from = theta_of(learned.front().fit);
+    plan.from_there_alone = true;
+  }
+  return learned;
 }
 
 learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
@@ -38,6 +68,12 @@ void prepare_starts(bundled_system& system, const common_settings& common, progr
   system.prepare_starts(seed_for(role::training, common.seed));
 }
 
+std::vector<double> theta_of(const fit_summary& fit) {
+  std::vector<double> theta;
+  for (const auto& parameter : fit.parameters) theta.push_back(parameter.value);
+  return theta;
+}
+
 json by_name(const fit_summary& fit, double fitted_parameter::*field) {
   json result = json::object();
   for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
@@ -49,8 +85,11 @@ json fit_json(const fit_summary& fit) {
           {"parameters", by_name(fit, &fitted_parameter::value)},
           {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
           {"step", fit.step},
+          {"objective", fit.loss_name},
           {"loss", fit.loss},
           {"held_out_loss", fit.held_out_loss},
+          {"one_step_error", fit.one_step_error},
+          {"trajectory_error", fit.trajectory_error},
           {"samples", fit.samples},
           {"usable", fit.usable},
           {"reason", fit.usable ? json(nullptr) : json(fit.reason)},

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bundled_system.hpp"
 #include "json.hpp"
@@ -14,8 +15,17 @@ namespace nysalt::program {
 /// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
 void require_sound(const learn_settings& how, const std::string& prefix);
 
-/// Throws refusal for what cannot be learned, before any work is done.
+/// Families of more than two parameters are learned at half the step and at three quarters before. Throws
+/// refusal for what cannot be learned, before any work is done.
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
+
+/// At each of several steps: from the largest down, where the search is the plan's own, each from the optimum
+/// at the one before, so that theta goes along one branch. In the order of the steps.
+std::vector<learned_scheme> learn_curve(const bundled_system& system, learn_plan plan,
+                                        std::vector<double> steps, progress& shown);
+
+/// What was found, in the order of the family's parameters.
+std::vector<double> theta_of(const fit_summary& fit);
 
 /// Training and held-out seeds are the roles of the user's.
 learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,

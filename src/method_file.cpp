@@ -23,6 +23,7 @@ namespace {
 
 constexpr int known_version = 1;
 constexpr int with_placement = 2;  // of a scheme that says where its letters O are
+constexpr int as_curve = 3;        // of a scheme with several steps, perhaps with a placement
 constexpr const char* scheme_format = "nysalt scheme";
 constexpr const char* table_format = "nysalt table";
 
@@ -69,6 +70,12 @@ class reader {
     }
     return value.get<double>();
   }
+  std::vector<double> numbers(const char* key) const {
+    if (!member(key).is_array()) refuse("{}: \"{}\" must be a list of numbers", file_, key);
+    std::vector<double> result;
+    for (const auto& value : member(key)) result.push_back(number(value, key));
+    return result;
+  }
   bool flag(const char* key) const {
     if (!member(key).is_boolean()) refuse("{}: \"{}\" must be true or false", file_, key);
     return member(key).get<bool>();
@@ -89,21 +96,28 @@ auto in_file(const std::string& file, const auto& f) {
   }
 }
 
-/// By name: the order of members means nothing in JSON.
-std::vector<double> parameters_in(const json& parameters, const std::string& family, const reader& read) {
-  std::vector<double> theta;
+/// By name: the order of members means nothing in JSON. Each holds one number, or one for each step.
+std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_time_family& family,
+                                           std::size_t steps, bool is_curve, const reader& read) {
+  if (!parameters.is_object()) refuse("{}: \"parameters\" must be an object", read.file());
+  std::vector<Eigen::VectorXd> thetas(steps, Eigen::VectorXd::Zero(family.parameters()));
   const reader values(parameters, read.file());
-  const auto known = family_names();
-  if (std::find(known.begin(), known.end(), family) == known.end()) {
-    refuse("{}: unknown family '{}': it is one of {}", read.file(), family, listed(known));
+  for (Eigen::Index k = 0; k < family.parameters(); ++k) {
+    const char* name = family.parameter_names[static_cast<std::size_t>(k)].c_str();
+    if (!is_curve) {
+      thetas[0][k] = values.number(name);
+      continue;
+    }
+    const auto all = values.numbers(name);
+    if (all.size() != steps) refuse("{}: \"{}\" must hold a number for each step", read.file(), name);
+    for (std::size_t n = 0; n < steps; ++n) thetas[n][k] = all[n];
   }
-  with_family(family, [&]<class F>(F) {
-    for (const auto name : F::parameter_names) theta.push_back(values.number(std::string(name).c_str()));
-    if (parameters.size() == theta.size()) return;
-    refuse("{}: the family {} has the parameters {} and no others", read.file(), family,
-           listed(F::parameter_names));
-  });
-  return theta;
+  if (std::ssize(parameters) != family.parameters()) {
+    refuse("{}: the family {} has the parameters {} and no others", read.file(), family.name,
+           listed(family.parameter_names));
+  }
+  for (const auto& theta : thetas) require_in_range(family, theta);
+  return thetas;
 }
 
 placement placement_in(const reader& read) {
@@ -121,23 +135,45 @@ scheme scheme_in(const json& document, const reader& read) {
         "coefficients of your own as a table",
         read.file());
   }
-  const std::string family = read.text("family");
-  const std::vector<double> theta = parameters_in(read.member("parameters"), family, read);
-  const double step = read.number("step");
-  if (!(step > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), step);
+  const std::string name = read.text("family");
+  const auto known = family_names();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    refuse("{}: unknown family '{}': it is one of {}", read.file(), name, listed(known));
+  }
+  const bool is_curve = document.contains("steps");
+  const auto steps = is_curve ? read.numbers("steps") : std::vector<double>{read.number("step")};
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    if (!(steps[n] > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), steps[n]);
+    if (n > 0 && !(steps[n - 1] < steps[n])) refuse("{}: \"steps\" must rise", read.file());
+  }
+  if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
   const reader of_system(read.member("system"), read.file());
   return in_file(read.file(), [&] {
-    tabulated method = family_member(family, theta);
-    if (document.contains("placement")) method = thermostat(method, placement_in(read));
-    return scheme{method, step, of_system.text("description"), read.flag("usable"), read.text("reason")};
+    const auto thetas =
+        parameters_in(read.member("parameters"), family_named(name), steps.size(), is_curve, read);
+    std::optional<placement> where;
+    if (document.contains("placement")) where = placement_in(read);
+    scheme result{name,
+                  where,
+                  theta_curve(steps, thetas),
+                  of_system.text("description"),
+                  read.flag("usable"),
+                  read.text("reason")};
+    result.at(steps.front());  // its word takes the placement
+    return result;
   });
 }
 
-/// "A adds up to 1, B adds up to 0.9"
-std::string sums_of(const std::string& letters, const std::vector<double>& coefficients) {
-  std::map<char, double> sums{{'A', 0.0}, {'B', 0.0}};  // a method needs both
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (letters[i] != ornstein_uhlenbeck::letter) sums[letters[i]] += coefficients[i];
+/// "A adds up to 1, B adds up to 0.9": drifts or rotations, and kicks of any kind; a method needs both.
+std::string sums_of(const run_time_word& word, const std::vector<double>& coefficients) {
+  const bool is_split = has_rotation(word) || word.reads == field::soft;
+  std::map<std::string, double> sums{{is_split ? "R" : "A", 0.0}, {is_split ? "S" : "B", 0.0}};
+  for (std::size_t i = 0; i < word.length; ++i) {
+    std::string letter(1, word.letters()[i]);
+    if (letter[0] == bath_letter) continue;
+    if (letter == "G") letter = "B";  // its first coefficient is that of a kick
+    if (letter == "H") letter = "S";
+    sums[letter] += coefficients[word.first_slot(i)];
   }
   std::vector<std::string> texts;
   for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
@@ -153,10 +189,7 @@ tabulated table_in(const json& document, const reader& read) {
   if (letters.size() > most_letters) {
     refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
   }
-  const json& list = read.member("coefficients");
-  if (!list.is_array()) refuse("{}: \"coefficients\" must be a list of numbers", read.file());
-  std::vector<double> coefficients;
-  for (const auto& value : list) coefficients.push_back(read.number(value, "coefficients"));
+  const std::vector<double> coefficients = read.numbers("coefficients");
   return in_file(read.file(), [&] {
     const run_time_word word(letters);
     const std::string name = document.contains("name") ? read.text("name") : "table";
@@ -165,7 +198,7 @@ tabulated table_in(const json& document, const reader& read) {
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
       refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
-             read.file(), sums_of(letters, coefficients));
+             read.file(), sums_of(word, coefficients));
     }
     if (document.contains("order")) {
       const double declared = read.number("order");
@@ -179,43 +212,87 @@ tabulated table_in(const json& document, const reader& read) {
             read.file(), declared, found.quadratic_kinetic);
       }
     }
-    if (limit_of(bare) == 0.0) {  // throws where there are too many letters to tell
+    if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters to tell
       refuse("{}: it is not linearly stable at any small step", read.file());
     }
-    const auto palindrome = [](const auto& x) { return std::equal(x.begin(), x.end(), x.rbegin()); };
     return tabulated(name, word, coefficients,
-                     {found.quadratic_kinetic, palindrome(letters) && palindrome(coefficients),
-                      found.any_kinetic < found.quadratic_kinetic});
+                     {found.quadratic_kinetic, is_palindrome(word, coefficients),
+                      found.any_kinetic < found.quadratic_kinetic || has_rotation(word)});
   });
 }
 
 }  // namespace
 
-std::string scheme_text(const learned_scheme& learned, const bundled_system& system, const learn_plan& plan) {
-  const fit_summary& fit = learned.fit;
+tabulated scheme::at(double step) const {
+  const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
+  const run_time_family its = placed(family, where);
+  const Eigen::VectorXd theta = curve.at(inside);
+  require_in_range(its, theta);
+  return tabulated(its.name, its.letters, its.coefficients(theta),
+                   {its.order, its.symmetric, its.requires_quadratic_kinetic});
+}
+
+int scheme::evaluations_per_step() const { return placed(family, where).letters.evaluations_per_step; }
+
+std::string scheme::steps() const {
+  const auto& all = curve.steps();
+  return all.size() == 1 ? fmt::format("the step {}", all.front())
+                         : fmt::format("steps from {} to {}", all.front(), all.back());
+}
+
+std::string scheme_text(const std::vector<learned_scheme>& learned, const bundled_system& system,
+                        const learn_plan& plan) {
+  const fit_summary& fit = learned.front().fit;
+  const bool is_curve = learned.size() > 1;
   json of_system = system.parameters();
   of_system["description"] = system.description();
+  // One value, or a list with one for each step.
+  const auto at_steps = [&](const auto& value_of) {
+    if (!is_curve) return json(value_of(fit));
+    json all = json::array();
+    for (const auto& one : learned) all.push_back(value_of(one.fit));
+    return all;
+  };
+  const auto by_parameter = [&](double fitted_parameter::*value) {
+    json all = json::object();
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+      all[fit.parameters[k].name] =
+          at_steps([&](const fit_summary& one) { return one.parameters[k].*value; });
+    }
+    return all;
+  };
+  const auto not_usable =
+      std::find_if(learned.begin(), learned.end(), [](const learned_scheme& one) { return !one.fit.usable; });
+  std::optional<energy_range> energies = learned.front().energies;
+  for (const auto& one : learned) {
+    if (!energies || !one.energies) continue;
+    energies->include(one.energies->low);
+    energies->include(one.energies->high);
+  }
   json document{{"format", scheme_format},
-                {"version", plan.where ? with_placement : known_version},
+                {"version", is_curve     ? as_curve
+                            : plan.where ? with_placement
+                                         : known_version},
                 {"family", fit.family},
-                {"parameters", by_name(fit, &fitted_parameter::value)},
-                {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
-                {"step", fit.step},
+                {"parameters", by_parameter(&fitted_parameter::value)},
+                {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
+                {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
                 {"system", of_system},
                 {"energy_range", nullptr},
-                {"loss", fit.loss},
-                {"held_out_loss", fit.held_out_loss},
-                {"usable", fit.usable},
-                {"reason", fit.reason},
+                {"objective", fit.loss_name},
+                {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
+                {"held_out_loss", at_steps([](const fit_summary& one) { return one.held_out_loss; })},
+                {"usable", not_usable == learned.end()},
+                {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
                 {"coordinates", fit.coordinates},
-                {"reference", fit.reference},
+                {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
                 {"starts", fit.ensemble},
                 {"trajectories", fit.trajectories},
                 {"horizon", plan.how.horizon},
                 {"seed", fit.seed},
                 {"held_out_seed", fit.held_out_seed},
                 {"versions", {{"nysalt", version}}}};
-  if (learned.energies) document["energy_range"] = {learned.energies->low, learned.energies->high};
+  if (energies) document["energy_range"] = {energies->low, energies->high};
   if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);
   return text_of(document);
@@ -244,14 +321,17 @@ method_file read_method_file(const std::filesystem::path& path) {
   }
   const reader read(document, file);
   const double file_version = read.number("version");
-  const bool is_placed = format == scheme_format && document.contains("placement");
-  const int newest = format == scheme_format ? with_placement : known_version;
+  const bool is_scheme = format == scheme_format;
+  const bool is_placed = is_scheme && document.contains("placement");
+  const bool is_curve = is_scheme && document.contains("steps");
+  const int newest = is_scheme ? as_curve : known_version;
   if (file_version > newest) {
     refuse("{}: it has version {}, and this nysalt knows {} at most: take a newer nysalt, or learn it again",
            file, file_version, newest);
   }
-  if (file_version != (is_placed ? with_placement : known_version)) {
-    refuse("{}: there is no version {} {} a placement", file, file_version, is_placed ? "with" : "without");
+  if (file_version != (is_curve ? as_curve : is_placed ? with_placement : known_version)) {
+    refuse("{}: there is no version {} {} a placement and {} several steps", file, file_version,
+           is_placed ? "with" : "without", is_curve ? "with" : "without");
   }
   method_file result;
   if (format == scheme_format) {

@@ -5,25 +5,35 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bundled_system.hpp"
 #include "json.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/theta_curve.hpp"
 
 namespace nysalt::program {
 
-/// What a scheme file says: a family's parameters, and where they are valid.
+/// What a scheme file says: a family's parameters at a step or at several, and where they are valid.
 struct scheme {
-  tabulated method;  // under the family's name
-  double step;
+  std::string family;
+  std::optional<placement> where;  // of its letters O
+  theta_curve curve;
   std::string system;  // its description
   bool usable;
   std::string reason;
+
+  /// The method at a step, under the family's name; beyond the curve that of its nearer end.
+  tabulated at(double step) const;
+  int evaluations_per_step() const;
+  /// "the step 0.03", or "steps from 0.02 to 0.03".
+  std::string steps() const;
 };
 
-/// The file's text: what was learned, how well, and from what; with a checksum, and nothing of the machine or
-/// the hour, so that equal runs write equal bytes.
-std::string scheme_text(const learned_scheme& learned, const bundled_system& system, const learn_plan& plan);
+/// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
+/// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
+std::string scheme_text(const std::vector<learned_scheme>& learned, const bundled_system& system,
+                        const learn_plan& plan);
 
 struct method_file {
   std::optional<scheme> learned;   // one of the two

@@ -48,14 +48,13 @@ method_source find_method(const std::string& typed) {
     source.evaluations_per_step = s_aia2::word::evaluations_per_step;
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
-    with_family(*source.family,
-                [&]<class F>(F) { source.evaluations_per_step = F::word::evaluations_per_step; });
+    source.evaluations_per_step = family_named(*source.family).letters.evaluations_per_step;
   } else if (is_file_name(text)) {
     method_file file = read_method_file(text);
     source.learned = std::move(file.learned);
     source.fixed = std::move(file.table);
-    const auto& method = source.learned ? source.learned->method : *source.fixed;
-    source.evaluations_per_step = method.letters().evaluations_per_step;
+    source.evaluations_per_step = source.learned ? source.learned->evaluations_per_step()
+                                                 : source.fixed->letters().evaluations_per_step;
   } else {
     refuse("unknown method '{}': it is one of {}, learned:FAMILY with a family of {}, or a file NAME.json",
            text, listed(method_names()), listed(family_names()));
@@ -63,14 +62,12 @@ method_source find_method(const std::string& typed) {
   return source;
 }
 
-bool is_at(const scheme& learned, double step) {
-  return std::abs(step - learned.step) <= 1e-9 * learned.step;
-}
+bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
 
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step) {
   std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
-    reasons.push_back(fmt::format("it was learned for the step {}, not {}", learned.step, step));
+    reasons.push_back(fmt::format("it was learned for {}, not {}", learned.steps(), step));
   }
   if (learned.system != system.description()) {
     reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
@@ -86,10 +83,10 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     const std::string why = out_of_place(*source.learned, system, step);
-    if (why.empty()) return source.learned->method;
+    if (why.empty()) return source.learned->at(step);
     if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
-    return source.learned->method;
+    return source.learned->at(step);
   }
   if (source.is_adaptive()) {
     const auto fastest = highest_frequency(system);
@@ -132,6 +129,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
+  if (has_rotation(method.letters())) return;  // exact at all frequencies of the quadratic part
   const auto windows = stability_of(method);
   for (const auto& [low, high] : system.frequency_bands()) {
     if (is_stable(windows, step * low, step * high)) continue;
@@ -147,6 +145,7 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
                           std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const tabulated method =
       in_its_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
+  system.require_served(method.letters());
   warn_of_instability(source, method, system, step, warnings);
   return method;
 }
@@ -155,11 +154,11 @@ std::optional<placement> placement_in(const method_source& source, const bundled
                                       std::optional<placement> otherwise) {
   if (!system.its_bath().acts()) return std::nullopt;
   const placement where = source.where.value_or(otherwise.value_or(usual));
-  with_family(*source.family, [&]<class F>(F) {
-    if (where != placement::middle || F::word::length % 2 == 1) return;
+  const run_time_word& word = family_named(*source.family).letters;
+  if (where == placement::middle && word.length % 2 == 0) {
     refuse("{}: the word {} has no central letter to split: place O at the end, or symmetric", source.typed,
-           F::word::letters());
-  });
+           word.letters());
+  }
   return where;
 }
 

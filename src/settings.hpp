@@ -46,6 +46,8 @@ struct learn_settings {
   double horizon = 0.5;
   std::string coordinates = "qp";
   std::vector<std::string> fix;  // name=value
+  std::string loss = "state";
+  std::int64_t random_starts = 0;
 };
 
 struct learn_command {
@@ -53,7 +55,8 @@ struct learn_command {
   learn_settings learning;
   std::string family = "nystrom";
   std::string placement;
-  double step = 0.0;
+  std::optional<double> step;
+  std::vector<double> steps;  // for a curve
   std::string output;
 };
 

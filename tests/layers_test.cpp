@@ -23,7 +23,7 @@ const std::vector<std::vector<std::string>> layers{
      "quadratic_part", "stiffness_modes", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "conservative_part", "noise_seam", "prepared_word",
      "prepared_run_time_word", "palindrome", "served_letters", "stepper"},
-    {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
+    {"langevin", "family", "families/", "run_time_family", "theta_curve", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "ensemble", "ensembles/", "ensemble_loop",
      "integrate_ensemble", "flow_map_data"},

@@ -135,6 +135,17 @@ class run_time_word {
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 
+/// It reads the same from both ends, letters and coefficients.
+inline bool is_palindrome(const run_time_word& word, const std::vector<double>& coefficients) {
+  for (std::size_t i = 0, j = word.length; i < j--; ++i) {
+    if (word.letters()[i] != word.letters()[j]) return false;
+    for (std::size_t k = 0; k < word.slots_of(i); ++k) {
+      if (coefficients[word.first_slot(i) + k] != coefficients[word.first_slot(j) + k]) return false;
+    }
+  }
+  return true;
+}
+
 /// What a stepper takes.
 template <class W>
 concept Word = TypeLevelWord<W> || std::same_as<W, run_time_word>;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+
 #include "../bundled_system.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
@@ -19,13 +21,19 @@ json document(const learned_scheme& learned, const bundled_system& system, std::
   result["coordinates"] = fit.coordinates;
   result["held_out_samples"] = fit.held_out_samples;
   result["trajectories"] = fit.trajectories;
-  result["one_step_error"] = fit.one_step_error;
   result["reference"] = fit.reference;
   result["reference_error"] = fit.reference_checked ? json(fit.reference_error) : json(nullptr);
   result["condition"] = fit.condition;
   result["flat_directions"] = fit.flat_directions;
   result["dropped_coordinates"] = fit.dropped;
   result["iterations"] = fit.iterations;
+  result["starts_tried"] = fit.starts_tried;
+  result["in_valley"] = fit.is_in_valley;
+  result["guard"] = fit.guard;
+  result["held_by_guard"] = fit.is_held_by_guard;
+  result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
+  result["gaps"] = json::array();
+  for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
   result["starts"] = fit.ensemble;
   result["energy_range"] =
       learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
@@ -37,9 +45,17 @@ json document(const learned_scheme& learned, const bundled_system& system, std::
 }  // namespace
 
 int learn(const learn_command& command, const common_settings& common) {
-  require_positive("--step", command.step);
+  if (command.step.has_value() == !command.steps.empty()) {
+    refuse("give --step, or --steps for a curve, and not both");
+  }
+  std::vector<double> steps = command.steps;
+  if (command.step) steps.push_back(*command.step);
+  for (const double step : steps) {
+    require_positive(command.step ? "--step" : "--steps", step);
+    steps_within("--horizon", command.learning.horizon, step);
+    if (std::count(steps.begin(), steps.end(), step) > 1) refuse("--steps names {} twice", step);
+  }
   require_sound(command.learning, "--");
-  steps_within("--horizon", command.learning.horizon, command.step);
   const auto system = make_system(command.system);
   if (!command.output.empty()) require_writable(command.output);
 
@@ -47,29 +63,37 @@ int learn(const learn_command& command, const common_settings& common) {
   method_source source;
   source.typed = source.family.emplace(command.family);
   const auto where = placement_in(source, *system, placement_asked(command.placement));
-  const learn_plan plan = plan_for(command.family, where, command.step, command.learning, common);
-  system->require_learnable(plan.family, plan.where, plan.how, plan.step);
+  const learn_plan plan = plan_for(command.family, where, steps.front(), command.learning, common);
+  for (const double step : steps) system->require_learnable(plan.family, plan.where, plan.how, step);
   prepare_starts(*system, common, shown);
-  const learned_scheme learned = learn_with(*system, plan, shown);
+  const auto learned = learn_curve(*system, plan, steps, shown);
   shown.clear();
 
-  const fit_summary& fit = learned.fit;
-  const bool keep = !command.output.empty() && (fit.usable || common.force);
+  const auto bad =
+      std::find_if(learned.begin(), learned.end(), [](const auto& one) { return !one.fit.usable; });
+  const bool usable = bad == learned.end();
+  const bool keep = !command.output.empty() && (usable || common.force);
   if (keep) write_result(command.output, scheme_text(learned, *system, plan), common);
   if (common.json) {
-    json result = document(learned, *system, where);
+    json result;
+    if (command.step) {
+      result = document(learned.front(), *system, where);
+    } else {
+      result["fits"] = json::array();
+      for (const auto& one : learned) result["fits"].push_back(document(one, *system, where));
+    }
     result["output"] = keep ? json(command.output) : json(nullptr);
     print(text_of(result));
   } else {
-    print(fit.full());
+    for (const auto& one : learned) print(command.step ? one.fit.full() : one.fit.brief() + "\n");
     if (where)
       print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*where),
-                        learned.method.letters().letters()));
+                        learned.front().method.letters().letters()));
     if (keep) print(fmt::format("Written: {}\n", command.output));
   }
-  if (fit.usable) return done;
+  if (usable) return done;
   const bool withheld = !command.output.empty() && !keep;
-  warn(fmt::format("the fit is not usable: {}{}", fit.reason,
+  warn(fmt::format("the fit at step {} is not usable: {}{}", bad->fit.step, bad->fit.reason,
                    withheld ? "; the scheme file was not written (--force writes it)" : ""));
   return no_result;
 }

@@ -46,7 +46,8 @@ json methods_json() {
                    {"letters", method.letters().letters()},
                    {"order", method.order},
                    {"evaluations_per_step", evaluations},
-                   {"limit_per_evaluation", limit_of(method) / evaluations},
+                   {"limit_per_evaluation",
+                    has_rotation(method.letters()) ? json(nullptr) : json(limit_of(method) / evaluations)},
                    {"source", source}});
   }
   all.push_back({{"name", adaptive_method},
@@ -60,26 +61,20 @@ json methods_json() {
 
 json families_json() {
   json all = json::array();
-  std::apply(
-      [&]<class... F>(F...) {
-        const auto one = [&]<class G>(G) {
-          json parameters = json::array();
-          const auto ranges = G::ranges();
-          for (std::size_t k = 0; k < ranges.size(); ++k) {
-            parameters.push_back({{"name", G::parameter_names[k]},
-                                  {"low", ranges[k].low},
-                                  {"high", ranges[k].high},
-                                  {"open", ranges[k].open}});
-          }
-          all.push_back({{"name", G::name},
-                         {"letters", G::word::letters()},
-                         {"order", G::order},
-                         {"evaluations_per_step", G::word::evaluations_per_step},
-                         {"parameters", parameters}});
-        };
-        (one(F{}), ...);
-      },
-      families{});
+  for (const auto& family : families()) {
+    json parameters = json::array();
+    for (std::size_t k = 0; k < family.ranges.size(); ++k) {
+      const auto& [low, high, open] = family.ranges[k];
+      parameters.push_back(
+          {{"name", family.parameter_names[k]}, {"low", low}, {"high", high}, {"open", open}});
+    }
+    all.push_back({{"name", family.name},
+                   {"letters", family.letters.letters()},
+                   {"order", family.order},
+                   {"symmetric", family.symmetric},
+                   {"evaluations_per_step", family.letters.evaluations_per_step},
+                   {"parameters", parameters}});
+  }
   return all;
 }
 
@@ -100,7 +95,8 @@ std::string readable(const json& all) {
   for (const auto& m : all["methods"]) {
     const json& limit = m["limit_per_evaluation"];
     methods.add({m["name"], m["letters"], m["order"].dump(), m["evaluations_per_step"].dump(),
-                 limit.is_null() ? "by step" : fmt::format("{:.4f}", limit.get<double>())});
+                 limit.is_null() ? m["name"] == adaptive_method ? "by step" : "exact"
+                                 : fmt::format("{:.4f}", limit.get<double>())});
   }
   text += methods.text() + "\nFamilies that can be learned:\n\n";
   table of_families({"family", "letters", "parameters", "order", "evaluations"}, 3);
@@ -108,8 +104,7 @@ std::string readable(const json& all) {
     std::string parameters;
     for (const auto& p : f["parameters"]) {
       if (!parameters.empty()) parameters += ", ";
-      parameters += fmt::format("{} in {}..{}", p["name"].get<std::string>(), p["low"].get<double>(),
-                                p["high"].get<double>());
+      parameters += p["name"].get<std::string>();
     }
     of_families.add(
         {f["name"], f["letters"], parameters, f["order"].dump(), f["evaluations_per_step"].dump()});

@@ -29,7 +29,7 @@ subject subject_of(const stability_command& command, const bundled_system* syste
   const method_source source = find_method(*command.method);
   if (system != nullptr)
     return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
-  if (source.learned) return {source.typed, source.learned->method};
+  if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
   if (source.fixed) return {source.typed, *source.fixed};
   if (source.is_adaptive()) {
     refuse("{} depends on step and highest frequency: give --step, and --system if it is not fpu",
@@ -52,6 +52,13 @@ int stability(const stability_command& command, const common_settings& common) {
   }
   std::vector<std::string> warnings;
   const auto [name, method] = subject_of(command, system.get(), common.force, warnings);
+  if (has_rotation(method.letters())) {
+    refuse(
+        "{} rotates: it is exact on the quadratic part at any step, and what soft forces make of that "
+        "depends on "
+        "the system; learn and recommend guard against it",
+        name);
+  }
   const auto windows = stability_of(method);
   const bool from_zero = !windows.empty() && windows.front().low == 0.0;
   const double limit = from_zero ? windows.front().high : 0.0;
