@@ -256,6 +256,10 @@ class bundled_model final : public bundled_system {
     its.every *= finer;
     return statistics(method_of_reference(), its, name, progress);
   }
+  double fastest_rate() const override { return reference().fastest(); }
+  std::optional<double> fine_step_for_ranking(double step) const override {
+    return reference().fine_step_for_ranking(step);
+  }
   std::string reference_of_statistics(double step, std::optional<double> fine_step) const override {
     return fmt::format("{} with step {:.12g}", method_of_reference().name(),
                        reference().fine_step_for_statistics(step, fine_step));

@@ -121,6 +121,10 @@ class bundled_system {
   virtual gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                                    std::optional<double> fine_step,
                                                    const counter& progress) const = 0;
+  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  virtual double fastest_rate() const = 0;
+  /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
+  virtual std::optional<double> fine_step_for_ranking(double step) const = 0;
   virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
   /// Hands the records over in the order of the trajectories; few are in memory at a time.

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/analysis/timing.hpp"
+#include "seconds.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {
@@ -78,20 +79,25 @@ void comparison::plan_rows() {
 /// A scheme file has a row where its own step is asked for, and nowhere else.
 void comparison::add_row(const method_source& source, double nominal) {
   const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
-  if (is_acceptance()) require_reversible(source);
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
   row its{source.typed, nominal, step};
   const auto otherwise = placement_asked(command_.placement);
   int parts = 1;
+  bool symmetric = false;
   if (source.family) {
+    symmetric = family_named(*source.family).symmetric;
     steps_within("--learn-horizon", command_.learning.horizon, step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, command_.learning, step);
     if (where == placement::symmetric) parts = 2;
   } else {
     its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    symmetric = its.coefficients->symmetric;
     if (!is_statistical()) parts = noise_parts(*its.coefficients, *system_);
+  }
+  if (is_acceptance() && !symmetric && !system_->its_bath().acts()) {
+    refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method", source.typed);
   }
   system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step,
                            parts);
@@ -186,35 +192,15 @@ void comparison::measure_acceptance_at(double step, const std::vector<row*>& gro
   }
 }
 
-/// In turns, so that a machine that slows down slows all; each job is long enough for the clock, and all
-/// together take some seconds unless a single trajectory takes longer.
 void comparison::measure_seconds() {
-  constexpr double job = 1e-3;
   constexpr double all_rounds = 4.0;
-  constexpr std::int64_t most_trajectories = 64;
   shown_.part("timing");
-  std::vector<std::function<void()>> jobs;
-  std::vector<double> simulated;
-  double round = 0.0;
+  std::vector<timed_method> methods;
   for (const auto& its : rows_) {
-    trajectories_plan plan = plan_at(its.step);
-    const double time = static_cast<double>(plan.steps) * its.step;
-    const double wanted = std::max(1.0, std::floor(1e5 / (its.evaluations_per_time * time)));
-    const double count = std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories)));
-    const std::int64_t lanes = system_->lanes();  // all of them full, as in a large ensemble
-    plan.count = (static_cast<std::int64_t>(count) + lanes - 1) / lanes * lanes;
-    const auto once = system_->timed_run(*its.coefficients, plan);
-    const double seconds = interleaved_seconds({once}, 1).front();
-    const double repeats = std::max(1.0, std::ceil(job / std::max(seconds, 1e-9)));
-    jobs.emplace_back([once, repeats] {
-      for (double n = 0.0; n < repeats; ++n) once();
-    });
-    simulated.push_back(time * static_cast<double>(plan.count) * repeats);
-    round += seconds * repeats;
+    methods.push_back({*its.coefficients, plan_at(its.step), its.evaluations_per_time});
   }
-  const int rounds = static_cast<int>(std::clamp(all_rounds / round, 1.0, 15.0));
-  const auto seconds = interleaved_seconds(jobs, rounds);
-  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i] / simulated[i];
+  const auto seconds = seconds_per_time(*system_, methods, all_rounds);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i];
 }
 
 /// A reference that errs like the method says nothing of it.

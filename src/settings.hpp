@@ -91,6 +91,23 @@ struct compare_command {
   std::string output;
 };
 
+struct recommend_command {
+  system_settings system;
+  learn_settings learning;
+  std::optional<double> learn_horizon;
+  std::vector<std::string> families;  // empty: all that suit
+  std::string placement;
+  std::optional<double> budget;  // evaluations per unit time
+  std::optional<double> error;
+  double horizon = 0.0;
+  std::int64_t trajectories = 100;
+  std::string metric = "state";
+  std::string observable;
+  double hmc_temperature = 1.0;
+  bool reversible = false;
+  std::string output;
+};
+
 struct stability_command {
   std::optional<std::string> family;
   std::vector<double> parameters;

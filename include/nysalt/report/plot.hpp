@@ -28,10 +28,10 @@ struct panel {
   std::string title;
   std::string x_label;
   std::string y_label;
-  bool log_log = false;   // with points; else plain lines
-  bool linear_y = false;  // all the same, of what does not go to 0
+  bool log_log = false;  // with points; else plain lines
   std::vector<curve> curves;
   std::string y_range = "[*:*]";
+  bool linear_y = false;  // where log_log would be, of what does not go to 0
 };
 
 struct figure {
