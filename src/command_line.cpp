@@ -250,8 +250,8 @@ void add_recommend(CLI::App& app, typed& to) {
   add_common(command, to.common);
   command.footer(
       "Examples:\n"
-      "  nysalt recommend --system fpu --budget 80 --horizon 10 --output scheme.json\n"
-      "  nysalt recommend --system henon_heiles --error 1e-4 --horizon 20 --reversible");
+      "  nysalt recommend --system fpu --budget 80 --horizon 5 --output scheme.json\n"
+      "  nysalt recommend --system henon_heiles --error 1e-4 --horizon 10 --reversible");
 }
 
 void add_stability(CLI::App& app, typed& to) {
