@@ -13,10 +13,13 @@
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/chin.hpp"
 #include "nysalt/methods/forest_ruth.hpp"
+#include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/mclachlan_atela.hpp"
 #include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/takahashi_imada.hpp"
 #include "nysalt/methods/verlet.hpp"
 
 namespace nysalt::program {
@@ -80,6 +83,9 @@ const std::vector<classical_method>& classical_methods() {
       {tabulated(srkn6b{}), "blanes_moan_2002"},
       {tabulated(srkn11b{}), "blanes_moan_2002"},
       {tabulated(srkn14a{}), "blanes_moan_2002"},
+      {tabulated(takahashi_imada{}), "takahashi_imada_1984"},
+      {tabulated(chin4a{}), "chin_1997"},
+      {tabulated(impulse{}), "tuckerman_berne_martyna_1992"},
       {tabulated(baoab{}), "leimkuhler_matthews_2013"},
       {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
       {tabulated(aboba{}), "leimkuhler_matthews_2013"},

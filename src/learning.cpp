@@ -6,6 +6,7 @@
 
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {

@@ -115,7 +115,7 @@ class prepared_word<run_time_word, C, N> {
   }
 
   template <class T, System S>
-  void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
+  [[gnu::noinline]] void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
     if constexpr (HasQuadraticPart<S>) {
       if (reads_soft_) return force_of<field::soft, T>(system, x.q, x.f);
     }
@@ -123,8 +123,8 @@ class prepared_word<run_time_word, C, N> {
   }
 
   template <class T, System S>
-  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l, flow_state<T, S::dimension>& x,
-                                    auto& cursor) const {
+  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l,
+                                    flow_state<T, S::dimension>& x, auto& cursor) const {
     if (l.evaluates == evaluation::shared) evaluate<T>(system, x);
     detail::with_letter(
         l.letter, known_letters{}, [&](auto flow) __attribute__((always_inline)) {
@@ -133,11 +133,8 @@ class prepared_word<run_time_word, C, N> {
             if constexpr (is_noisy<decltype(cursor)>) apply_noise(system, l.noise, l.number, cursor, x);
           } else if constexpr (!letter::template serves<S, T>) {
             // the stepper has refused it
-          } else if constexpr (QuadraticFlow<letter>) {
-            flow.apply(system, *l.turn, x, cursor.room);
-          } else if constexpr (letter::slots == 2) {
-            if (l.evaluates == evaluation::alone) evaluate<T>(system, x);
-            flow.apply(system, l.gradient, x, cursor.room);
+          } else if constexpr (QuadraticFlow<letter> || letter::slots == 2) {
+            apply_large<letter, T>(system, l, x, cursor.room);
           } else {
             const C prepared = l.prepared;
             if constexpr (requires { flow.evaluate_and_apply(system, prepared, x, cursor.room); }) {
@@ -148,6 +145,18 @@ class prepared_word<run_time_word, C, N> {
             flow.apply(system, prepared, x, cursor.room);
           }
         });
+  }
+
+  /// Compiled once, and not wherever a letter may stand: a call costs nothing beside it.
+  template <Flow Letter, class T, System S>
+  [[gnu::noinline]] void apply_large(const S& system, const prepared_letter& l,
+                                     flow_state<T, S::dimension>& x, auto& room) const {
+    if constexpr (QuadraticFlow<Letter>) {
+      Letter::apply(system, *l.turn, x, room);
+    } else {
+      if (l.evaluates == evaluation::alone) evaluate<T>(system, x);
+      Letter::apply(system, l.gradient, x, room);
+    }
   }
 
   template <class Cursor>

@@ -42,12 +42,13 @@ json methods_json() {
   json all = json::array();
   for (const auto& [method, source] : classical_methods()) {
     const int evaluations = method.letters().evaluations_per_step;
+    json limit = nullptr;  // of words that rotate it depends on the system
+    if (!has_rotation(method.letters())) limit = limit_of(method) / evaluations;
     all.push_back({{"name", method.name()},
                    {"letters", method.letters().letters()},
                    {"order", method.order},
                    {"evaluations_per_step", evaluations},
-                   {"limit_per_evaluation",
-                    has_rotation(method.letters()) ? json(nullptr) : json(limit_of(method) / evaluations)},
+                   {"limit_per_evaluation", limit},
                    {"source", source}});
   }
   all.push_back({{"name", adaptive_method},
@@ -95,8 +96,7 @@ std::string readable(const json& all) {
   for (const auto& m : all["methods"]) {
     const json& limit = m["limit_per_evaluation"];
     methods.add({m["name"], m["letters"], m["order"].dump(), m["evaluations_per_step"].dump(),
-                 limit.is_null() ? m["name"] == adaptive_method ? "by step" : "exact"
-                                 : fmt::format("{:.4f}", limit.get<double>())});
+                 limit.is_null() ? "it depends" : fmt::format("{:.4f}", limit.get<double>())});
   }
   text += methods.text() + "\nFamilies that can be learned:\n\n";
   table of_families({"family", "letters", "parameters", "order", "evaluations"}, 3);

@@ -8,16 +8,18 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(windows_end_where_the_spectral_radius_leaves_one, M, methods) {
+BOOST_AUTO_TEST_CASE(windows_end_where_the_spectral_radius_leaves_one) {
   draws random;
-  for (int n = 0; n < 20; ++n) {
-    const auto method = any_method<M>(random);
-    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << ", draw " << n) {
-      BOOST_TEST(!stability_windows(method).empty());
-      try_ends(
-          method, 1e-3, 1e-3,
-          [&](double z) { BOOST_TEST(spectral_radius(method, z) <= 1.0 + radius_rounding(method, z)); },
-          [&](double z) { BOOST_TEST(spectral_radius(method, z) > 1.0 + radius_rounding(method, z)); });
+  for (int n = 0; n < 4; ++n) {
+    for (const auto& method : methods_as_data(random)) {
+      if (has_rotation(method.letters())) continue;
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << ", draw " << n) {
+        BOOST_TEST(!stability_windows(method).empty());
+        try_ends(
+            method, 1e-3, 1e-3,
+            [&](double z) { BOOST_TEST(spectral_radius(method, z) <= 1.0 + radius_rounding(method, z)); },
+            [&](double z) { BOOST_TEST(spectral_radius(method, z) > 1.0 + radius_rounding(method, z)); });
+      }
     }
   }
 }

@@ -64,6 +64,13 @@ inline around at_rest(const lennard_jones<>& system) {
   return {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05};
 }
 
+/// A ring of wells, its springs split off: of a dynamic dimension, and one frequency is zero.
+inline auto split_ring() {
+  Eigen::Matrix3d springs;
+  springs << 2.0, -1.0, -1.0, -1.0, 2.0, -1.0, -1.0, -1.0, 2.0;
+  return with_quadratic_part(dynamic_potential(), springs);
+}
+
 // clang-format off
 // reach: random coordinates are drawn from -reach..reach, where motion stays bounded.
 struct within_one { static constexpr double reach = 1.0; };
@@ -98,8 +105,8 @@ struct a_black_box : within_one { static auto make() { return black_box(); } };
 struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
 struct two_weights : within_one { static auto make() { return two_masses(); } };
 struct a_split_pendulum : within_one { static auto make() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); } };
-struct a_split_galaxy : within_a_quarter { static auto make() { return with_quadratic_part(henon_heiles(), Eigen::MatrixXd::Identity(2, 2)); } };
 struct two_split_weights : within_one { static auto make() { return split_masses(); } };
+struct a_split_ring : within_one { static auto make() { return split_ring(); } };
 struct a_fast_one : within_one { static auto make() { return relativistic(); } };
 struct a_faster_one : within_one { static auto make() { return relativistic_with_velocity(); } };
 // clang-format on
@@ -110,12 +117,12 @@ using systems =
                a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_potential,
                a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
 
-/// Whose quadratic part is split off.
-using split_systems = std::tuple<a_split_pendulum, a_split_galaxy, two_split_weights>;
-
-/// One of each kind, for laws about methods rather than systems.
+/// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a
+/// layout of its own, by potential and by force, with a quadratic part of its own or split off, and with
+/// another K.
 using various_systems =
-    std::tuple<a_free_chain, an_fpu_chain, a_pendulum, a_split_galaxy, two_split_weights, a_fast_one>;
+    std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
+               two_split_weights, a_split_ring, a_differentiable_box, a_fast_one, a_faster_one>;
 
 /// Of those for baths one, as what it is without: its conservative part.
 using classical_methods =

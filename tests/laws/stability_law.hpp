@@ -83,12 +83,14 @@ double bound_of_long_run(const M& method, double z) {
 }
 
 /// Calls inside(z) and outside(z) near the ends of every window: so large a part of the narrowest width or
-/// gap beside the end away from it. A window that begins at 0 has no outside there.
+/// gap beside the end away from it. A window that begins at 0 has no outside there. Far out letters magnify
+/// so much that rounding hides where a window ends: those are left out, but never the first.
 template <Method M>
 void try_ends(const M& method, double part_inside, double part_outside, auto&& inside, auto&& outside) {
   const auto windows = stability_windows(method);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const auto [low, high] = windows[i];
+    if (i > 0 && radius_rounding(method, high) > 1e-6) continue;
     double nearest = high - low;
     if (i > 0) nearest = std::min(nearest, low - windows[i - 1].high);
     if (i + 1 < windows.size()) nearest = std::min(nearest, windows[i + 1].low - high);

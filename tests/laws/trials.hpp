@@ -62,9 +62,8 @@ void try_all_methods(auto&& f) {
   }
 }
 
-/// Masses and a dynamic dimension, and neither.
-using two_systems = std::tuple<a_free_chain, a_galaxy>;
-/// The same, in potentials that let go of none; every method can step the second.
-using bound_systems = std::tuple<a_dynamic_one, two_split_weights>;
+/// Of a dynamic dimension, and with masses; in potentials that let go of none, and split, so that every
+/// method can step them.
+using bound_systems = std::tuple<a_split_ring, two_split_weights>;
 
 }  // namespace nysalt::test

@@ -8,15 +8,24 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(evaluations_are_those_declared, M, methods) {
-  using W = typename M::word;
-  try_on<M, two_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
+  try_all_on<bound_systems>([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto& word = method.letters();
     for (const std::int64_t n : {0, 1, 2, 17}) {
       BOOST_TEST(evaluations_of_run(system, method, step, x, n) ==
-                 W::evaluations_to_open + n * W::evaluations_per_step);
+                 word.evaluations_to_open + n * word.evaluations_per_step);
     }
-    BOOST_TEST(evaluations_of_step(system, method, step, x) == W::evaluations_of_plain_step);
+    BOOST_TEST(evaluations_of_step(system, method, step, x) == word.evaluations_of_plain_step);
   });
+}
+
+BOOST_AUTO_TEST_CASE(gradient_kicks_cost_two) {
+  const auto per_step = [](const auto& method) { return word_of(method).evaluations_per_step; };
+  BOOST_TEST(per_step(takahashi_imada()) == 2);
+  BOOST_TEST(per_step(chin4a()) == 3);
+  BOOST_TEST(per_step(member<fg4>(fg4::start())) == 4);
+  BOOST_TEST(per_step(member<r_fg4>(r_fg4::start())) == 4);
+  BOOST_TEST(per_step(impulse()) == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_plain_step_of_verlet_costs_more_than_a_step_of_its_run) {

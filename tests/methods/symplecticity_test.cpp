@@ -7,9 +7,7 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-using whole_and_split = joined<systems, split_systems>;
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, Model, whole_and_split) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(steps_are_symplectic, Model, various_systems) {
   try_all_methods<Model>([](const auto& system, const auto& method, const auto& x) {
     BOOST_TEST(symplecticity_broken(system, method, x) <= 1.0);
   });

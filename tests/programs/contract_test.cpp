@@ -65,8 +65,9 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
     BOOST_TEST(system["default_observable"] == (system["name"] == "fpu" ? "stiff_energy" : "energy"));
   }
   for (const auto& method : all["methods"]) {
-    const std::string limit =
-        method["name"] == "s_aia2" ? "null" : "number";  // its limit depends on the step
+    // Their limits depend on the step, and on the system.
+    const bool has_limit = method["name"] != "s_aia2" && method["name"] != "impulse";
+    const std::string limit = has_limit ? "number" : "null";
     BOOST_TEST(shape(method) ==
                "name:text letters:text order:integer evaluations_per_step:integer limit_per_evaluation:" +
                    limit + " source:text");
@@ -90,7 +91,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   BOOST_TEST(
       names("methods") ==
       "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 forest_ruth pefrl mclachlan_atela4 mclachlan5 "
-      "blanes_moan_s6 srkn6b srkn11b srkn14a baoab baoab_2x aboba obabo s_aia2 ");
+      "blanes_moan_s6 srkn6b srkn11b srkn14a takahashi_imada chin4a impulse baoab baoab_2x aboba obabo "
+      "s_aia2 ");
 }
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {

@@ -4,6 +4,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include "../support/rounding.hpp"
 
 using namespace nysalt;

@@ -8,6 +8,7 @@
 #include "nysalt/families/symmetric_composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
+#include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 
 namespace nysalt {
@@ -24,6 +25,7 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
+    if constexpr (Drifts == 3) return {{"bcss3", base::of(bcss3())}};
     if constexpr (Drifts == 6) return {{"srkn6b", base::of(srkn6b())}};
     return {};
   }
