@@ -52,6 +52,7 @@ void recommendation::require_sound_command() const {
   require_sound(learning_at(1.0), "--learn-");
   if (command_.learn_horizon) require_positive("--learn-horizon", *command_.learn_horizon);
   require_positive("--hmc-temperature", command_.hmc_temperature);
+  placement_asked(command_.placement);
   if (command_.metric == "distribution" || command_.metric == "acf") {
     refuse(
         "recommend ranks by errors along trajectories: --metric {} is not among path, state, exchange, "
@@ -100,7 +101,8 @@ void recommendation::plan_families() {
   }
   if (!fixes)
     refuse("--fix {}: no family that is learned here has such parameters", listed(command_.learning.fix));
-  if (all_.size() == before && !command_.families.empty()) {
+  const bool asked = !command_.families.empty() || !command_.learning.fix.empty();
+  if (all_.size() == before && asked) {
     refuse("{}: {}", left_out_.back().first, left_out_.back().second);
   }
 }

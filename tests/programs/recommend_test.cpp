@@ -194,6 +194,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
                      {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
                      {sound + "--families aba3_free --reversible", {"aba3_free", "not reversible"}},
                      {sound + "--fix nosuch=1", {"--fix", "nosuch"}},
+                     {sound + "--fix b1", {"--fix", "name=number"}},
                      {sound + "--learn-trajectories 0", {"--learn-trajectories", "at least 1"}},
                      {sound + "--metric acceptance --friction 1 --temperature 1", {"acceptance", "bath"}},
                      {sound + "--output nowhere/scheme.json", {"no folder nowhere"}}}));
