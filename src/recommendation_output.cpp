@@ -71,7 +71,7 @@ std::string recommendation::verdict() const {
 
 std::string recommendation::as_options(const candidate& its) const {
   const std::string where = command_.placement.empty() ? "" : " --placement " + command_.placement;
-  return fmt::format("--method {} --step {}{}", its.source.typed, its.step, where);
+  return fmt::format("--method {} --step {:.12g}{}", its.source.typed, its.step, where);
 }
 
 std::string recommendation::advice() const {
@@ -86,7 +86,7 @@ std::string recommendation::advice() const {
         as_options(*classical));
   }
   if (classical == nullptr) {
-    return fmt::format("Take {} at step {:g}: no classical method stands.", learned->source.typed,
+    return fmt::format("Take {} at step {:.12g}: no classical method stands.", learned->source.typed,
                        learned->step);
   }
   const auto factor = [&](const candidate& a, const candidate& b) {
@@ -111,7 +111,7 @@ std::string recommendation::advice() const {
         as_options(*classical), what, factor(*classical, *learned), learned->source.typed, by);
   }
   std::string text = fmt::format(
-      "Take {} at step {:g}: its {} is {:.2g} times smaller than that of {}, the best "
+      "Take {} at step {:.12g}: its {} is {:.2g} times smaller than that of {}, the best "
       "classical method{}.",
       learned->source.typed, learned->step, what, factor(*learned, *classical), classical->source.typed, by);
   if (!learned->rotates) return text;

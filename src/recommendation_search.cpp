@@ -16,11 +16,13 @@ constexpr int octaves = 6;           // down from where an evaluation covers hal
 
 const double recommendation::grid_ratio = std::exp2(1.0 / points_of_octave);
 
-/// The same steps per evaluation for all, so that methods of as many evaluations share the reference.
+/// The same steps per evaluation for all, so that methods of as many evaluations share the reference; of
+/// three digits, as people type them.
 double recommendation::grid_step(const candidate& its, int k) const {
-  const double radian = 1.0 / system_->fastest_rate();
-  return 0.5 * radian * its.source.evaluations_per_step *
-         std::exp2(static_cast<double>(k) / points_of_octave);
+  const double half_a_radian = 0.5 / system_->fastest_rate();
+  const double exact = half_a_radian * std::exp2(static_cast<double>(k) / points_of_octave);
+  const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+  return its.source.evaluations_per_step * std::round(exact / digit) * digit;
 }
 
 void recommendation::prepare_search(candidate& its) const {

@@ -10,7 +10,7 @@
 #include "../support/without_times.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/methods/verlet.hpp"
 
 using namespace nysalt;
@@ -18,7 +18,7 @@ using namespace nysalt::test;
 
 namespace {
 
-const std::string line = "compare --methods verlet,learned:nystrom --steps 0.03 --metric acceptance ";
+const std::string line = "compare --methods verlet,learned:fg_chin --steps 0.03 --metric acceptance ";
 const std::string few = line + "--trajectories 20 --learn-trajectories 5 ";
 
 }  // namespace
@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(the_numbers_are_those_of_the_library) {
     };
     BOOST_TEST(all["hmc_temperature"] == temperature);
     must_be(all["rows"][0], verlet());
-    must_be(all["rows"][1], member<nystrom>({theta["b1"], theta["beta1"]}));
+    must_be(all["rows"][1], member<fg_chin>({theta["b"], theta["c"]}));
   }
 }
 
@@ -87,7 +87,8 @@ BOOST_AUTO_TEST_CASE(threads_change_no_byte) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   all_refused(scratch("acceptance_refused"),
-              {{line + "--methods learned:aba3_free", {"learned:aba3_free", "not reversible", "symmetric"}},
+              {{"compare --steps 0.1 --metric acceptance --methods learned:aba3_free",
+                {"learned:aba3_free", "not reversible", "symmetric"}},
                {line + "--friction 1 --temperature 1", {"acceptance", "bath", "--friction"}},
                {line + "--hmc-temperature 0", {"--hmc-temperature", "positive", "0"}},
                {line + "--hmc-temperature nan", {"--hmc-temperature", "finite"}},
