@@ -28,7 +28,7 @@
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
@@ -135,9 +135,9 @@ class bundled_model final : public bundled_system {
     }
   }
 
-  learned_scheme learn(const learn_plan& plan, const counter& progress) const override {
+  learnable make_learnable(const learn_plan& plan, const counter& progress) const override {
     require_learnable(plan.family, plan.where, plan.how, plan.step);
-    std::optional<learned_scheme> result;
+    std::optional<learnable> result;
     const run_time_family family = placed(plan.family, plan.where);
     const int parts = noise_parts(family);
     fit_options options = options_for(family, plan.how, plan.threads);
@@ -164,10 +164,8 @@ class bundled_model final : public bundled_system {
       };
       const auto data = pairs(plan.seed);
       const auto held_out = pairs(plan.held_out_seed);
-      auto [theta, fit] = nysalt::learn(family, system_, data, held_out, options);
-      const tabulated method(family.name, family.letters, family.coefficients(theta),
-                             {family.order, family.symmetric, family.requires_quadratic_kinetic});
-      result.emplace(learned_scheme{std::move(fit), method, data.energies});
+      result.emplace(
+          learnable{make_learning_problem(family, system_, data, held_out, options), data.energies});
     };
     reference().at(plan.step, plan.how.fine_step, parts, with_reference);
     return std::move(*result);

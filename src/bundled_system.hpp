@@ -17,7 +17,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
 
@@ -44,6 +44,12 @@ struct learn_plan {
   int threads;
   std::vector<double> from = {};  // the optimum at a step nearby: one more start
   bool from_there_alone = false;  // and no other
+};
+
+/// A problem of learning, and how far the energies of its data go.
+struct learnable {
+  learning_problem problem;
+  std::optional<energy_range> energies;
 };
 
 struct learned_scheme {
@@ -94,7 +100,10 @@ class bundled_system {
   /// Throws refusal for what cannot be learned, before any work is done.
   virtual void require_learnable(const std::string& family, std::optional<placement> where,
                                  const learn_settings& how, double step) const = 0;
-  virtual learned_scheme learn(const learn_plan& plan, const counter& progress) const = 0;
+  /// Makes the data. What is made refers to this.
+  virtual learnable make_learnable(const learn_plan& plan, const counter& progress) const = 0;
+  /// Compiled once, and not for each system.
+  learned_scheme learn(const learn_plan& plan, const counter& progress) const;
 
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
   /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.

@@ -9,7 +9,7 @@
 
 #include "catalogue.hpp"
 #include "number.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "refusal.hpp"
 #include "settings.hpp"
 

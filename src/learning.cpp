@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "nysalt/learning/solve.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 
@@ -22,6 +24,15 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
   if (how.random_starts < 0 || how.random_starts > 10'000) {
     refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), how.random_starts);
   }
+}
+
+learned_scheme bundled_system::learn(const learn_plan& plan, const counter& progress) const {
+  const auto [problem, energies] = make_learnable(plan, progress);
+  const run_time_family& family = problem.family;
+  auto [theta, fit] = solve(problem);
+  const tabulated method(family.name, family.letters, family.coefficients(theta),
+                         {family.order, family.symmetric, family.requires_quadratic_kinetic});
+  return {std::move(fit), method, energies};
 }
 
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {

@@ -2,7 +2,10 @@
 // The loop allocates nothing, however many steps it takes.
 #include <boost/test/unit_test.hpp>
 
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/r_aba.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
@@ -10,7 +13,9 @@
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
 #include "support/allocations.hpp"
 
 namespace {
@@ -18,9 +23,10 @@ namespace {
 using namespace nysalt;
 using nysalt::test::allocations;
 
-template <System S, Method M, NoiseSource Noise = no_noise>
-std::size_t allocations_of(const S& chain, const M& method, std::int64_t steps, const Noise& noise = {}) {
-  const auto stepper = make_stepper(chain, method, 1e-3, noise);
+template <class Stepper>
+std::size_t allocations_of(const Stepper& stepper, std::int64_t steps) {
+  const auto& chain = stepper.system();
+  using S = std::decay_t<decltype(chain)>;
   phase_point<double, S::dimension> start{make_vector<double>(chain), make_vector<double>(chain)};
   start.q.setConstant(0.7);
   start.p.setConstant(0.1);
@@ -28,6 +34,20 @@ std::size_t allocations_of(const S& chain, const M& method, std::int64_t steps, 
   const std::size_t before = allocations;
   stepper.advance(run, steps);
   return allocations - before;
+}
+
+template <System S, Method M, NoiseSource Noise = no_noise>
+std::size_t allocations_of(const S& chain, const M& method, std::int64_t steps, const Noise& noise = {}) {
+  return allocations_of(make_stepper(chain, method, 1e-3, noise), steps);
+}
+
+/// By a family's word as a type, and as data.
+template <Family F, System S>
+std::array<std::size_t, 2> allocations_of_family(const S& chain, std::int64_t steps) {
+  const auto c = F::coefficients(F::start());
+  const nysalt::stepper<S, typename F::word> by_type(chain, c, 1e-3);
+  const nysalt::stepper by_data(chain, run_time_word(typename F::word()), {c.begin(), c.end()}, 1e-3);
+  return {allocations_of(by_type, steps), allocations_of(by_data, steps)};
 }
 
 }  // namespace
@@ -40,6 +60,27 @@ BOOST_AUTO_TEST_CASE(the_loop_allocates_nothing) {
   BOOST_TEST(allocations_of(fpu_chain<>(3, 50.0), two_stage, 1000) == 0U);
   BOOST_TEST(allocations_of(long_fpu_chain(70, 50.0), verlet{}, 1000) == 0U);
   BOOST_TEST(allocations_of(long_fpu_chain(70, 50.0), tabulated(two_stage), 1000) == 0U);
+}
+
+// Letters that need more than the state have four vectors of a dynamic size, whatever the number of steps.
+BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_allocate_nothing_either) {
+  using counts = std::array<std::size_t, 2>;
+  const fpu_chain<3> fixed(50.0);
+  const fpu_chain<> dynamic(3, 50.0);
+  const long_fpu_chain long_one(70, 50.0);
+  const auto linear = linear_chain::between_walls(6, 4.0);
+  const with_quadratic_part split(dynamic, Eigen::MatrixXd::Identity(6, 6));
+  const with_quadratic_part fixed_split(fixed, Eigen::MatrixXd::Identity(6, 6));
+  BOOST_TEST((allocations_of_family<fg4>(fixed, 1000) == counts{0, 0}));
+  BOOST_TEST((allocations_of_family<fg4>(dynamic, 1000) == counts{4, 4}));
+  BOOST_TEST((allocations_of_family<fg_chin>(long_one, 1000) == counts{4, 4}));
+  BOOST_TEST((allocations_of_family<r_fg4>(fixed_split, 1000) == counts{0, 0}));
+  BOOST_TEST((allocations_of_family<nystrom>(dynamic, 1000) == counts{0, 0}));  // nobody needs them
+  // A word as a type is copied into the loop, with three vectors for each rotation and each seam.
+  BOOST_TEST((allocations_of_family<r_aba<4>>(linear, 1000) == counts{4 + 3 * (5 + 2), 4}));
+  BOOST_TEST((allocations_of_family<r_aba<4>>(split, 1000) == counts{4 + 3 * (5 + 2), 4}));
+  BOOST_TEST((allocations_of_family<r_fg4>(split, 1000) == counts{4 + 3 * (4 + 2), 4}));
+  BOOST_TEST((allocations_of_family<r_fg4>(split, 1) == counts{4 + 3 * (4 + 2), 4}));
 }
 
 // Of a dynamic size the noise has one vector, whatever the number of steps.

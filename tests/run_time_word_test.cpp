@@ -23,6 +23,9 @@ void compare() {
   BOOST_TEST_CONTEXT(W::letters()) {
     BOOST_TEST(as_data.letters() == W::letters());
     BOOST_TEST(as_data.length == W::length);
+    BOOST_TEST(as_data.slots == W::slots);
+    BOOST_TEST((as_data.reads == W::reads));
+    BOOST_TEST(as_data.force_derivatives == W::force_derivatives);
     BOOST_TEST(as_data.merges == W::merges);
     BOOST_TEST(as_data.halves_meet == W::halves_meet);
     BOOST_TEST(as_data.stochastic_letters == W::stochastic_letters);
@@ -31,6 +34,8 @@ void compare() {
     BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
     BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
     for (std::size_t i = 0; i < W::length; ++i) {
+      BOOST_TEST(as_data.first_slot(i) == W::first_slot(i));
+      BOOST_TEST(as_data.slots_of(i) == W::first_slot(i + 1) - W::first_slot(i));
       BOOST_TEST((as_data.plan().in_step[i] == W::plan.in_step[i]));
       BOOST_TEST((as_data.plan().in_loop[i] == W::plan.in_loop[i]));
       BOOST_TEST((as_data.plan().in_last[i] == W::plan.in_last[i]));
@@ -52,6 +57,17 @@ BOOST_AUTO_TEST_CASE(also_of_odd_words) {
   compare<word<kick, drift, kick, kick>>();
 }
 
+BOOST_AUTO_TEST_CASE(also_of_gradient_kicks_and_rotations) {
+  compare<word<gradient_kick>>();
+  compare<word<drift, gradient_kick, drift>>();
+  compare<word<gradient_kick, drift, gradient_kick>>();  // these do not merge
+  compare<word<kick, drift, gradient_kick, drift, kick>>();
+  compare<word<rotation, soft_kick, rotation>>();
+  compare<word<soft_kick, rotation, soft_kick>>();
+  compare<word<rotation, soft_kick, rotation, soft_gradient_kick, rotation, soft_kick, rotation>>();
+  compare<word<soft_kick, rotation, ornstein_uhlenbeck, rotation, soft_kick>>();
+}
+
 BOOST_AUTO_TEST_CASE(also_of_words_with_letters_of_the_bath) {
   using O = ornstein_uhlenbeck;
   compare<word<kick, drift, O, drift, kick>>();
@@ -63,9 +79,20 @@ BOOST_AUTO_TEST_CASE(also_of_words_with_letters_of_the_bath) {
   compare<word<O, O, drift, O, kick, O, O>>();
 }
 
+BOOST_AUTO_TEST_CASE(a_word_splits_the_hamiltonian_in_one_way_or_the_other) {
+  for (const char* mixed : {"BAS", "SRB", "BAH", "GRS", "SRHRG", "RBR", "ASA", "RAS"}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{mixed}; },
+                                              {mixed, "A, B, G", "R, S, H"}));
+  }
+  for (const char* pure : {"BAG", "SRH", "RSR"}) {
+    BOOST_TEST(!refuses<std::invalid_argument>([&] { run_time_word{pure}; }, {}));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(letters_that_are_not_known_are_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(""); }, {"at least one letter"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B, G, R, S, H, O"}));
+  BOOST_TEST(
+      refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B, G, R, S, H, O"}));
   for (const char* bath_alone : {"O", "OO"}) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{bath_alone}; },
                                               {bath_alone, "needs a letter beside those of the bath"}));

@@ -14,7 +14,8 @@
 
 namespace nysalt {
 
-/// One decision a letter, the same operations in the same order, hence the same bits.
+/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined where
+/// it is used: each scalar is compiled once, and a call costs little beside the decisions.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
@@ -55,7 +56,7 @@ class prepared_word<run_time_word, C, N> {
   const prepared_word& in_loop() const { return *this; }
 
   template <class T, System S>
-  void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (evaluates_to_open_) evaluate<T>(system, x);
     if (!merges_) return;
     prepared_letter first = plain_.front();
@@ -63,7 +64,7 @@ class prepared_word<run_time_word, C, N> {
     apply(system, first, x, cursor);
   }
   template <class T, System S>
-  [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
+  [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                       auto& cursor) const {
     for (std::int64_t n = 1; n <= steps; ++n) {
       if (halves_meet_) cross(system, x, cursor);
@@ -72,12 +73,12 @@ class prepared_word<run_time_word, C, N> {
     }
   }
   template <class T, System S>
-  void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (merges_) apply(system, undo_, x, cursor);
     if (halves_meet_) end(system, x, cursor);
   }
   template <class T, System S>
-  void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (halves_meet_) begin(system, x, cursor);
     for (const auto& letter : plain_) apply(system, letter, x, cursor);
     cursor.next();

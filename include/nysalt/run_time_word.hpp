@@ -42,23 +42,19 @@ class run_time_word {
   using coefficients = std::vector<C>;
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet.
-  /// Throws std::invalid_argument if there is none but O, or one that is not known, or if some letters kick
-  /// with the whole force and some with the soft part of it.
+  /// Throws std::invalid_argument if there is none but O, or one that is not known, or if some
+  /// letters split H in one way and some in the other.
   explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
     if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
     std::vector<bool> reads;
     std::vector<bool> moves;
-    bool mixes = false;
     for (std::size_t i = 0; i < length; ++i) {
       const bool is_known = detail::with_letter(letters_[i], known_letters{}, [&](auto flow) {
         first_slots_.push_back(slots);
         slots += flow.slots;
         force_derivatives += flow.force_derivatives;
-        if (flow.reads != field::none) {
-          mixes = mixes || (this->reads != field::none && this->reads != flow.reads);
-          this->reads = flow.reads;
-        }
+        if (flow.reads != field::none) this->reads = flow.reads;
         reads.push_back(flow.reads != field::none);
         moves.push_back(flow.moves_q);
         if (i == 0) additive = flow.additive;
@@ -68,11 +64,11 @@ class run_time_word {
                                                 letters_, letters_[i], all_known()));
       }
     }
-    if (mixes) {
+    if (detail::mixes_splittings(letters_)) {
       throw std::invalid_argument(
-          fmt::format("the word {} kicks with the whole force (B, G) and with the soft part of it (S, H); a "
-                      "word has but one "
-                      "of the two",
+          fmt::format("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
+                      "quadratic part and the "
+                      "rest; take those of one splitting",
                       letters_));
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;

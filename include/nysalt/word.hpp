@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -75,6 +76,14 @@ struct evaluation_plan {
 
 }  // namespace detail
 
+namespace detail {
+/// A, B, G split H into K + V; R, S, H into (K + quadratic part of V) + rest.
+constexpr bool mixes_splittings(std::string_view letters) {
+  return letters.find_first_of("ABG") != std::string_view::npos &&
+         letters.find_first_of("RSH") != std::string_view::npos;
+}
+}  // namespace detail
+
 /// Letters act from left to right: word<kick, drift, kick> is velocity Verlet.
 ///
 /// A run over many steps is held open: the first letter is already applied. Where the last letter is the
@@ -98,10 +107,14 @@ struct word {
 
   /// The force that its letters read.
   static constexpr field reads = std::max({L::reads...});
+  static constexpr bool has_one_splitting = [] {
+    constexpr std::array all{L::letter...};
+    return !detail::mixes_splittings({all.data(), all.size()});
+  }();
   static_assert(
-      ((L::reads == field::none || L::reads == reads) && ...),
-      "nysalt: the letters B, G kick with the whole force and S, H with the soft part of it: a word "
-      "has but one of the two");
+      has_one_splitting,
+      "nysalt: the letters A, B, G split H into K and V, and R, S, H into its quadratic part and the "
+      "rest: a word has those of one splitting");
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =

@@ -52,6 +52,9 @@ inline linear_chain free_chain() {
   return linear_chain(stiffness, Eigen::Vector3d(1.0, 2.0, 5.0));
 }
 
+/// Small swings split off.
+inline auto split_pendulum() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); }
+
 /// Two masses of different weight, the linear spring between them split off: one frequency is zero.
 inline auto split_masses() {
   Eigen::Matrix2d spring;
@@ -104,7 +107,7 @@ struct a_dynamic_one : within_one { static auto make() { return dynamic_potentia
 struct a_black_box : within_one { static auto make() { return black_box(); } };
 struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
 struct two_weights : within_one { static auto make() { return two_masses(); } };
-struct a_split_pendulum : within_one { static auto make() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); } };
+struct a_split_pendulum : within_one { static auto make() { return split_pendulum(); } };
 struct two_split_weights : within_one { static auto make() { return split_masses(); } };
 struct a_split_ring : within_one { static auto make() { return split_ring(); } };
 struct a_fast_one : within_one { static auto make() { return relativistic(); } };

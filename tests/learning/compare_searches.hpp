@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -27,8 +28,8 @@ void compare_searches(const S& system, const auto& starts, const auto& reference
   const one_step<F, S> loss(system, data, measure);
   const sample_blocks<F, S> blocks(system, data, measure);
   const Eigen::VectorXd start = column_of(F::start());
-  const auto small = minimise(objective_of(loss), detail::is_defined<F>, start, free, 200);
-  const auto large = minimise_by_blocks(blocks, detail::is_defined<F>, start, free, 200);
+  const auto small = minimise(objective_of(loss), defined_for<F>(), start, free, 200);
+  const auto large = minimise_by_blocks(blocks, defined_for<F>(), start, free, 200);
   BOOST_TEST_CONTEXT(describe(system) << ", " << F::name) {
     BOOST_TEST_MESSAGE(describe(system)
                        << ", " << F::name << ": theta off by " << norm(small.theta - large.theta)

@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "../laws/models.hpp"
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
@@ -27,8 +28,9 @@ Eigen::Matrix2d exact_hessian(const auto& pairs, const parameters_of<nystrom>& t
     lifted[i] = outer::variable(inner::variable(theta[i], k), k);
   }
   outer sum(0.0);
-  for (std::size_t pair = 0; pair < pairs.pairs(); ++pair) {
-    for (const outer& r : pairs.at(pair, lifted)) sum += r * r * (1.0 / static_cast<double>(pairs.pairs()));
+  const double share = 1.0 / static_cast<double>(pairs.stretches());
+  for (std::size_t pair = 0; pair < pairs.stretches(); ++pair) {
+    for (const outer& r : pairs.at(pair, lifted)) sum += r * r * share;
   }
   Eigen::Matrix2d result;
   for (int i = 0; i < 2; ++i) {

@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
     BOOST_TEST(solver.eigenvalues()[0] <= 1e-8 * solver.eigenvalues()[2]);
     BOOST_TEST(solver.eigenvalues()[1] > 1e-8 * solver.eigenvalues()[2]);
     const auto large =
-        minimise_by_blocks(blocks, detail::is_defined<aba4>, column_of(aba4::start()), {0, 1, 2}, 200);
+        minimise_by_blocks(blocks, defined_for<aba4>(), column_of(aba4::start()), {0, 1, 2}, 200);
     BOOST_TEST_MESSAGE("eigenvalues " << solver.eigenvalues().transpose() << ", loss " << fit.summary.loss
                                       << " and " << large.loss);
     BOOST_TEST(large.loss <= 1e-24);

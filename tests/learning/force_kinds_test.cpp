@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -57,7 +58,7 @@ flow_map_data<1> data_of(std::uint64_t seed) {
 double allowed(const flow_map_data<1>& data, const parameters_of<nystrom>& theta, double relative) {
   const metric<1> measure(exact, data, coordinates::qp);
   const one_step<nystrom, by_force> loss(exact, data, measure);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(nysalt::hessian(loss, theta));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
   const double jacobian =
       std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more
   return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / solver.eigenvalues()[0];

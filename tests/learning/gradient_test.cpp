@@ -3,11 +3,12 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "../support/tableau.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
@@ -120,7 +121,7 @@ BOOST_AUTO_TEST_CASE(parts_by_trajectory_and_by_coordinate_have_the_same_sum) {
   const one_step<nystrom, S> loss(system, data, measure);
   const parameters_of<nystrom> theta{0.4, 0.35};
   const Eigen::VectorXd by_trajectory = squares_at(loss, theta).gradient();
-  const auto by_coordinate = tree_sum(coordinate_gradients(loss, theta));
+  const auto by_coordinate = tree_sum(residual_gradients(loss, theta));
   BOOST_TEST(by_coordinate.cols() == 4);
   // 140 terms are added in another order.
   const double rounding = 140.0 * eps * by_coordinate.cwiseAbs().sum();

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "../support/draws.hpp"
+#include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/steps_in_bath.hpp"
@@ -60,7 +61,7 @@ double distance_of(const parameters& a, const parameters& b) {
 double recovery_error(const data_sets& sets, const parameters& theta, const galaxy& system = warm) {
   const metric<2> measure(system, sets.data, coordinates::qp);
   const one_step<family, galaxy> loss(system, sets.data, measure);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(nysalt::hessian(loss, theta));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
   return std::sqrt(4.0) * 40.0 * eps / 0.1 / std::sqrt(0.5 * solver.eigenvalues()[0]);
 }
 

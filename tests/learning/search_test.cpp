@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "../laws/models.hpp"
+#include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learner.hpp"
@@ -60,7 +61,7 @@ double recovery_error(const data_sets& sets, const parameters_of<nystrom>& theta
   }
   const double least = std::sqrt(squares.minCoeff() / static_cast<double>(sets.data.pairs()));
   const double residual = std::sqrt(4.0) * 24.0 * eps * magnified / least;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(nysalt::hessian(loss, theta));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
   return residual / std::sqrt(0.5 * solver.eigenvalues()[0]);
 }
 
@@ -72,7 +73,7 @@ double distance_of(const parameters_of<nystrom>& a, const parameters_of<nystrom>
 double remaining_step(const data_sets& sets, const parameters_of<nystrom>& theta, Eigen::Index free) {
   const metric<2> measure(galaxy, sets.data, coordinates::qp);
   const one_step<nystrom, S> loss(galaxy, sets.data, measure);
-  const curvature bend(nysalt::hessian(loss, theta), {free});
+  const curvature bend(hessian(loss, theta), {free});
   return std::abs(bend.solve(squares_at(loss, theta).gradient())[free]);
 }
 

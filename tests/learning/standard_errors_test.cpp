@@ -6,6 +6,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "../support/draws.hpp"
+#include "../support/one_step.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -13,6 +14,7 @@
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 

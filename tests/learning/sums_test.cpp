@@ -3,6 +3,7 @@
 // added in the order of tree_sum.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/one_step.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"

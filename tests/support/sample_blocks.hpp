@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// The one-step loss as a textbook has it: pair after pair over double, and a Ceres block for each. It shares
-// no loop with the library's own: an oracle for tests, and what benchmarks compare with.
+// The loss over steps as a textbook has it: stretch after stretch over double, by the word as a type, and a
+// Ceres block for each. It shares no loop with the library's own: an oracle for tests, and what benchmarks
+// compare with.
 #pragma once
 
 #include <ceres/cost_function.h>
@@ -11,14 +12,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "nysalt/energy.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/learning/minimise.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt::test {
 
-/// Refers to all three.
+/// Refers to system, data and metric.
 template <Family F, SeparableSystem S>
 class sample_blocks {
   static constexpr int most = S::dimension == Eigen::Dynamic ? Eigen::Dynamic : 2 * S::dimension;
@@ -29,20 +32,42 @@ class sample_blocks {
   template <class C>
   using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1, 0, most, 1>;
 
-  sample_blocks(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure)
-      : system_(&system), data_(&data), metric_(&measure) {}
+  sample_blocks(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
+                const after_steps_options& options = {})
+      : system_(&system), data_(&data), metric_(&measure), options_(options) {
+    const auto steps = static_cast<std::size_t>(options.steps);
+    for (std::size_t m = 0; m < data.trajectories(); ++m) {
+      std::size_t pair = data.first_of[m];
+      while (pair + steps <= data.first_of[m + 1]) {
+        stretches_.push_back({m, pair});
+        pair += options.overlap ? 1 : steps;
+      }
+    }
+    if constexpr (HasEnergy<S>) {
+      if (options.energy) energy_scale_ = 1.0 / size_of_kinetic_energy();
+    }
+  }
 
-  std::size_t pairs() const { return data_->pairs(); }
-  int residuals_of_pair() const { return static_cast<int>(metric_->residuals()); }
+  std::size_t stretches() const { return stretches_.size(); }
+  int residuals_of_stretch() const { return options_.energy ? 1 : static_cast<int>(metric_->residuals()); }
 
-  /// The residuals of one pair over double, or anything that carries derivatives by theta.
+  /// The residuals of one stretch over double, or anything that carries derivatives by theta.
   template <Scalar C>
-  residuals<C> at(std::size_t pair, const std::array<C, parameters>& theta) const {
+  residuals<C> at(std::size_t stretch, const std::array<C, parameters>& theta) const {
     const stepper<S, typename F::word, C> one(*system_, F::coefficients(theta), data_->step);
+    const std::size_t pair = stretches_[stretch].first_pair;
     auto x = data_->start[pair].template cast<C>();
-    one.step(x);
-    residuals<C> r(metric_->residuals());
-    metric_->residual(x.q, x.p, data_->finish[pair], r.data());
+    for (int n = 0; n < options_.steps; ++n) one.step(x);
+    residuals<C> r(residuals_of_stretch());
+    if (options_.energy) {
+      if constexpr (HasEnergy<S, C>) {
+        const auto start = data_->start[pair].template cast<C>();
+        r[0] = (energy<C>(*system_, x) - energy<C>(*system_, start)) * energy_scale_;
+      }
+    } else {
+      const auto last = pair + static_cast<std::size_t>(options_.steps) - 1;
+      metric_->residual(x.q, x.p, data_->finish[last], r.data());
+    }
     return r;
   }
 
@@ -52,22 +77,22 @@ class sample_blocks {
     return result;
   }
 
-  /// The mean over pairs, by trajectory: a pair's terms are added first, then those of a trajectory.
+  /// The mean over stretches, by trajectory: a stretch's terms are added first, then those of a trajectory.
   std::vector<squares> by_trajectory(const std::array<double, parameters>& theta) const {
     const auto lifted = with_derivatives(theta.data());
     const squares zero{0.0, Eigen::VectorXd::Zero(F::parameters),
                        Eigen::MatrixXd::Zero(F::parameters, F::parameters)};
     std::vector<squares> result(data_->trajectories(), zero);
-    for (std::size_t m = 0; m < result.size(); ++m) {
-      for (std::size_t pair = data_->first_of[m]; pair < data_->first_of[m + 1]; ++pair) {
-        squares of_pair = zero;
-        for (const D& r : at(pair, lifted)) add(of_pair, r);
-        add(result[m], of_pair);
-      }
-      const double share = 1.0 / static_cast<double>(pairs());
-      result[m].value *= share;
-      result[m].half_gradient *= share;
-      result[m].normal_matrix *= share;
+    for (std::size_t n = 0; n < stretches(); ++n) {
+      squares of_stretch = zero;
+      for (const D& r : at(n, lifted)) add(of_stretch, r);
+      add(result[stretches_[n].trajectory], of_stretch);
+    }
+    const double share = 1.0 / static_cast<double>(stretches());
+    for (auto& part : result) {
+      part.value *= share;
+      part.half_gradient *= share;
+      part.normal_matrix *= share;
     }
     return result;
   }
@@ -102,21 +127,39 @@ class sample_blocks {
     sum.normal_matrix += term.normal_matrix;
   }
 
+  /// Its root mean square at the starts.
+  double size_of_kinetic_energy() const {
+    std::vector<double> squares;
+    for (const auto& x : data_->start) {
+      const double k = kinetic_energy<double>(*system_, x.p);
+      squares.push_back(k * k);
+    }
+    return std::sqrt(tree_sum(squares) / static_cast<double>(squares.size()));
+  }
+
+  struct stretch {
+    std::size_t trajectory;
+    std::size_t first_pair;
+  };
+
   const S* system_;
   const flow_map_data<S::dimension>* data_;
   const metric<S::dimension>* metric_;
+  after_steps_options options_;
+  double energy_scale_ = 1.0;
+  std::vector<stretch> stretches_;
 };
 
-/// One pair as a Ceres cost.
+/// One stretch as a Ceres cost.
 template <class Blocks>
 class sample_cost final : public ceres::CostFunction {
  public:
-  sample_cost(const Blocks& blocks, std::size_t pair, std::function<bool(const Eigen::VectorXd&)> defined)
+  sample_cost(const Blocks& blocks, std::size_t stretch, std::function<bool(const Eigen::VectorXd&)> defined)
       : blocks_(&blocks),
-        pair_(pair),
+        stretch_(stretch),
         defined_(std::move(defined)),
-        share_(1.0 / std::sqrt(static_cast<double>(blocks.pairs()))) {
-    set_num_residuals(blocks.residuals_of_pair());
+        share_(1.0 / std::sqrt(static_cast<double>(blocks.stretches()))) {
+    set_num_residuals(blocks.residuals_of_stretch());
     mutable_parameter_block_sizes()->push_back(static_cast<int>(Blocks::parameters));
   }
 
@@ -126,11 +169,11 @@ class sample_cost final : public ceres::CostFunction {
     for (std::size_t k = 0; k < count; ++k) theta[k] = at[0][k];
     if (defined_ && !defined_(column_of(theta))) return false;
     if (jacobians == nullptr || jacobians[0] == nullptr) {
-      for (const double r : blocks_->at(pair_, theta)) *residuals++ = r * share_;
+      for (const double r : blocks_->at(stretch_, theta)) *residuals++ = r * share_;
       return true;
     }
     double* slope = jacobians[0];
-    for (const auto& r : blocks_->at(pair_, Blocks::with_derivatives(at[0]))) {
+    for (const auto& r : blocks_->at(stretch_, Blocks::with_derivatives(at[0]))) {
       *residuals++ = r.value * share_;
       for (const double d : r.derivative) *slope++ = d * share_;
     }
@@ -139,7 +182,7 @@ class sample_cost final : public ceres::CostFunction {
 
  private:
   const Blocks* blocks_;
-  std::size_t pair_;
+  std::size_t stretch_;
   std::function<bool(const Eigen::VectorXd&)> defined_;
   double share_;
 };
@@ -151,8 +194,8 @@ minimum minimise_by_blocks(const Blocks& blocks, const std::function<bool(const 
                            int max_iterations) {
   minimum found{start};
   ceres::Problem problem;
-  for (std::size_t pair = 0; pair < blocks.pairs(); ++pair) {
-    problem.AddResidualBlock(new sample_cost<Blocks>(blocks, pair, defined), nullptr, found.theta.data());
+  for (std::size_t n = 0; n < blocks.stretches(); ++n) {
+    problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
   }
   found.iterations = nysalt::detail::search(problem, found.theta, free, max_iterations);
   nysalt::detail::polish(std::cref(blocks), defined, free, found);

@@ -2,6 +2,7 @@
 // The loss of a family in a bath: a step with the noise that the data hold.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/steps_in_bath.hpp"
@@ -9,7 +10,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/learning/squares.hpp"
-#include "nysalt/losses/one_step.hpp"
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -50,53 +51,66 @@ flow_map_data<2> in_parts(flow_map_data<2> data, int parts) {
   return data;
 }
 
-template <Family F, Scalar R = scalar_of_passes<F, galaxy>>
-double loss_of(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, int threads = 1) {
+template <Family F>
+double loss_of(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, int steps = 1) {
   const metric<2> measure(warm, data, coordinates::qp);
-  return loss_value(one_step<F, galaxy, R>(warm, data, measure, threads), theta);
+  const after_steps<galaxy> loss(run_time_family(F()), warm, data, measure, {.steps = steps});
+  return loss_value(loss, column_of(theta));
 }
 
-/// The formula, pair by pair over double, with letters O of which each is told its noise.
+/// The formula, stretch by stretch over double, with letters O of which each is told its noise.
 template <Family F>
-double loss_by_hand(const flow_map_data<2>& data, const parameters_of<nystrom>& theta) {
+double loss_by_hand(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, std::size_t steps) {
   const auto c = F::coefficients(theta);
   const std::string letters = F::word::letters();
   const bath& its = warm.bath();
   vector<double, 2> of_q(0.0, 0.0), of_p(0.0, 0.0), sigma_q(0.0, 0.0), sigma_p(0.0, 0.0);
-  for (std::size_t n = 0; n < data.pairs(); ++n) {
-    auto x = data.start[n];
-    auto next = n * static_cast<std::size_t>(data.noise_parts);
-    for (std::size_t i = 0; i < letters.size(); ++i) {
-      vector<double, 2> f;
-      force<double>(warm, x.q, f);
-      if (letters[i] == 'A') x.q += x.p * (c[i] * h);
-      if (letters[i] == 'B') x.p += f * (c[i] * h);
-      if (letters[i] == 'O') {
-        x.p = x.p * its.decay(c[i] * h) + data.noise[next++] * its.deviation(c[i] * h);
+  double stretches = 0.0;
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = data.first_of[m]; n + steps <= data.first_of[m + 1]; ++n) {
+      auto x = data.start[n];
+      auto next = n * static_cast<std::size_t>(data.noise_parts);
+      for (std::size_t i = 0; i < steps * letters.size(); ++i) {
+        const char letter = letters[i % letters.size()];
+        const double time = c[i % letters.size()] * h;
+        vector<double, 2> f;
+        force<double>(warm, x.q, f);
+        if (letter == 'A') x.q += x.p * time;
+        if (letter == 'B') x.p += f * time;
+        if (letter == 'O') x.p = x.p * its.decay(time) + data.noise[next++] * its.deviation(time);
       }
+      of_q += (x.q - data.finish[n + steps - 1].q).cwiseAbs2();
+      of_p += (x.p - data.finish[n + steps - 1].p).cwiseAbs2();
+      stretches += 1.0;
     }
-    of_q += (x.q - data.finish[n].q).cwiseAbs2();
-    of_p += (x.p - data.finish[n].p).cwiseAbs2();
-    sigma_q += (data.start[n].q - data.finish[n].q).cwiseAbs2();
-    sigma_p += (data.start[n].p - data.finish[n].p).cwiseAbs2();
   }
-  return of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum();
+  const auto pairs = static_cast<double>(data.pairs());
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    sigma_q += (data.start[n].q - data.finish[n].q).cwiseAbs2() / pairs;
+    sigma_p += (data.start[n].p - data.finish[n].p).cwiseAbs2() / pairs;
+  }
+  return (of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum()) / stretches;
 }
 
 template <Family F>
-void check_formula(int parts) {
+void check_formula(int parts, int steps) {
   const auto data = made<F>(parts);
-  // Some thirty operations a pair, and 200 pairs added.
-  BOOST_TEST(loss_of<F>(data, elsewhere) == loss_by_hand<F>(data, elsewhere),
-             boost::test_tools::tolerance(200 * 30 * eps));
+  // Some thirty operations a step, and 200 stretches added.
+  BOOST_TEST(loss_of<F>(data, elsewhere, steps) == loss_by_hand<F>(data, elsewhere, std::size_t(steps)),
+             boost::test_tools::tolerance(200 * 30 * steps * eps));
   // Who made the data has no loss but that of rounding; increments are .03 or more.
-  const double rounding = 30.0 * eps / 0.03;
-  BOOST_TEST(loss_of<F>(data, maker) <= 4.0 * rounding * rounding);
-  BOOST_TEST(loss_of<F>(data, elsewhere) > 1e-8);
+  const double rounding = 30.0 * steps * eps / 0.03;
+  BOOST_TEST(loss_of<F>(data, maker, steps) <= 4.0 * rounding * rounding);
+  BOOST_TEST(loss_of<F>(data, elsewhere, steps) > 1e-8);
   // With the noise of other pairs the loss is some half of the increments.
   auto shuffled = data;
   std::rotate(shuffled.noise.begin(), shuffled.noise.begin() + parts, shuffled.noise.end());
-  BOOST_TEST(loss_of<F>(shuffled, maker) > 0.1);
+  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 0.1);
+  // The noise of each step counts, the last one's too.
+  shuffled = data;
+  const auto last = shuffled.noise.end() - parts;  // of the last stretch's last step
+  std::swap(*last, *(last - parts));
+  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 1e-5);
 }
 
 /// Trajectories of different lengths, among them empty ones and one longer than what a thread takes at once.
@@ -111,17 +125,21 @@ flow_map_data<2> uneven_data() {
 }
 
 template <Scalar R>
-std::vector<Eigen::VectorXd> gradients(const flow_map_data<2>& data, int threads) {
+std::vector<Eigen::VectorXd> gradients(const flow_map_data<2>& data, int threads, int steps = 1) {
   const metric<2> measure(warm, data, coordinates::qp);
-  return trajectory_gradients(one_step<symmetric, galaxy, R>(warm, data, measure, threads), elsewhere);
+  const after_steps<galaxy, R> loss(run_time_family(symmetric()), warm, data, measure,
+                                    {.steps = steps, .threads = threads});
+  return trajectory_gradients(loss, column_of(elsewhere));
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_loss_is_that_of_a_step_with_its_noise) {
-  check_formula<family<placement::end>>(1);
-  check_formula<family<placement::middle>>(1);
-  check_formula<symmetric>(2);
+  for (const int steps : {1, 3}) {
+    check_formula<family<placement::end>>(1, steps);
+    check_formula<family<placement::middle>>(1, steps);
+    check_formula<symmetric>(2, steps);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
@@ -147,6 +165,10 @@ BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
     BOOST_TEST((gradients<pack<double, 8>>(data, threads) == expected));
     BOOST_TEST((gradients<pack<double, 16>>(data, threads) == expected));
   }
+  const auto of_three = gradients<double>(data, 1, 3);
+  BOOST_TEST((gradients<pack<double, 8>>(data, 2, 3) == of_three));
+  BOOST_TEST((gradients<pack<double, 16>>(data, 3, 3) == of_three));
+  BOOST_TEST((of_three != expected));
   auto other = data;
   other.noise.back()[1] += 1e-12;
   BOOST_TEST((gradients<double>(other, 1) != expected));

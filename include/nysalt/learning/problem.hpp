@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSL-1.0
+// All that a search must know of a system, its data and a family; no type of any of them is left.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/squares.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/losses/stationary_covariance.hpp"
+#include "nysalt/run_time_family.hpp"
+
+namespace nysalt {
+
+/// How to search. What is empty is the family's own.
+struct fit_options {
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;
+  loss_choice loss{};
+  std::optional<Eigen::VectorXd> start{};          // instead of the family's own starts
+  std::vector<named_parameters> further_starts{};  // beside them, such as the optimum at a smaller step
+  int random_starts = 0;                           // beside all these
+  std::vector<std::optional<double>> fixed{};      // a value for each parameter that is not to be learned
+  bool guarded = true;  // false: an unstable optimum is found, and said not to be usable
+  std::uint64_t seed = 1;
+  int max_iterations = 200;
+  int threads = 1;  // changes no bit of what is learned
+};
+
+/// What learn() makes of system and data, and solve() of this. Refers to the system.
+struct learning_problem {
+  run_time_family family;
+  fit_options options;
+  double step;
+  objective loss;                              // of the data; not there if a covariance is
+  std::optional<stationary_covariance> law{};  // the loss without data
+  std::function<std::vector<Eigen::VectorXd>(const Eigen::VectorXd&)> scores;  // by trajectory
+  std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;  // by trajectory
+  std::function<double(const Eigen::VectorXd&)> one_step_loss;                 // on held-out data
+  std::function<double(const Eigen::VectorXd&)> loss_at_end;                   // of held-out trajectories
+  std::function<std::int64_t()> evaluations;                                   // so far
+  stability_guard guard;
+  fit_summary facts;  // what is known before a search
+};
+
+namespace detail {
+
+/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
+/// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
+/// counts less by that part. Without this the standard errors are two to three times too small.
+template <class Loss, int N>
+std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure,
+                                    const Eigen::VectorXd& theta) {
+  const auto by_trajectory = residual_gradients(loss, theta);
+  const Eigen::MatrixXd sum = tree_sum(by_trajectory);
+  const bool is_weighted = sum.cols() == measure.residuals();  // an energy is not
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
+    result.push_back(Eigen::VectorXd::Zero(sum.rows()));
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+      result[m] += by_trajectory[m].col(k);
+      if (is_weighted) result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
+    }
+  }
+  return result;
+}
+
+/// Whether the first trajectory is the same. In a bath other noise makes another of the same start.
+template <int N>
+bool begin_alike(const flow_map_data<N>& a, const flow_map_data<N>& b) {
+  const bool other_noise = a.noise_parts > 0 && a.noise_parts == b.noise_parts && a.noise[0] != b.noise[0];
+  return a.start[0].q == b.start[0].q && a.start[0].p == b.start[0].p && !other_noise;
+}
+
+/// The root mean square error of the reference, where it was checked.
+template <int N>
+double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure) {
+  std::vector<double> squares(data.trajectories(), 0.0);
+  Eigen::VectorXd r(measure.residuals());
+  for (const auto& [pair, finish] : data.finer) {
+    const auto next = std::upper_bound(data.first_of.begin(), data.first_of.end(), pair);
+    double& of_trajectory = squares[static_cast<std::size_t>(next - data.first_of.begin()) - 1];
+    measure.residual(finish.q, finish.p, data.finish[pair], r.data());
+    for (const double x : r) of_trajectory += x * x;
+  }
+  return std::sqrt(tree_sum(squares) / static_cast<double>(data.finer.size()));
+}
+
+/// The number of steps of the shortest trajectory.
+template <int N>
+int shortest_of(const flow_map_data<N>& data) {
+  std::size_t least = data.pairs();
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    least = std::min(least, data.first_of[m + 1] - data.first_of[m]);
+  }
+  return static_cast<int>(std::max<std::size_t>(least, 1));
+}
+
+/// Some hundred states of the data, for what is asked along them.
+template <int N>
+std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data) {
+  constexpr std::size_t most = 128;
+  std::vector<phase_point<double, N>> result;
+  for (std::size_t n = 0; n < data.pairs(); n += data.pairs() / most + 1) result.push_back(data.start[n]);
+  return result;
+}
+
+}  // namespace detail
+
+/// Throws what learn() does.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+learning_problem make_learning_problem(const run_time_family& family, const S& system,
+                                       const flow_map_data<S::dimension>& data,
+                                       const flow_map_data<S::dimension>& held_out,
+                                       const fit_options& options) {
+  require_valid(data, system);
+  require_valid(held_out, system);
+  require_served<S, double>(family.letters, system);
+  if (held_out.step != data.step) {
+    throw std::invalid_argument(
+        fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
+  }
+  using loss_type = after_steps<S, R>;
+  using metric_type = metric<S::dimension>;
+  const bool has_data = options.loss.of != loss_choice::kind::covariance;
+  const auto measure = std::make_shared<const metric_type>(system, data, options.coordinates);
+  const auto loss_over = [&](const auto& pairs, const after_steps_options& how) {
+    return std::make_shared<const loss_type>(family, system, pairs, *measure, how);
+  };
+  const after_steps_options how{.steps = options.loss.steps,
+                                .energy = options.loss.of == loss_choice::kind::energy,
+                                .overlap = true,
+                                .threads = options.threads};
+  const auto loss = loss_over(data, how);
+  const auto held = loss_over(held_out, how);
+  const auto one_step = loss_over(held_out, {.threads = options.threads});
+  const auto at_end = loss_over(
+      held_out, {.steps = detail::shortest_of(held_out), .overlap = false, .threads = options.threads});
+
+  learning_problem problem{
+      .family = family,
+      .options = options,
+      .step = data.step,
+      .loss = [loss](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
+      .scores = [loss,
+                 measure](const Eigen::VectorXd& theta) { return detail::scores(*loss, *measure, theta); },
+      .held_out_losses = [held](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
+      .one_step_loss = [one_step,
+                        measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
+      .loss_at_end = [at_end](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
+      .evaluations =
+          [=, of_data = data.evaluations + held_out.evaluations] {
+            return of_data + loss->evaluations() + held->evaluations() + one_step->evaluations() +
+                   at_end->evaluations();
+          },
+      .guard = stability_guard(system, detail::some_states(data)),
+      .facts = {}};
+  if (!has_data) {
+    if constexpr (HasBath<S> && HasModes<S>) {
+      problem.law.emplace(system, family.letters, data.step);
+    } else {
+      throw std::invalid_argument(
+          fmt::format("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
+                      describe(system)));
+    }
+  }
+  fit_summary& facts = problem.facts;
+  facts.family = family.name;
+  facts.system = data.system;
+  facts.reference = data.reference;
+  facts.ensemble = data.ensemble;
+  facts.coordinates = to_string(options.coordinates);
+  facts.loss_name = options.loss.description();
+  facts.is_of_data = has_data;
+  facts.derivatives = derivative_source<S>();
+  facts.step = data.step;
+  facts.seed = data.seed;
+  facts.held_out_seed = held_out.seed;
+  facts.held_out_is_new = !detail::begin_alike(data, held_out);
+  facts.guard = problem.guard.description();
+  facts.coordinates_used = measure->residuals();
+  facts.dropped = measure->dropped();
+  facts.samples = data.pairs();
+  facts.trajectories = data.trajectories();
+  facts.held_out_samples = held_out.pairs();
+  facts.reference_checked = !data.finer.empty();
+  if (facts.reference_checked) facts.reference_error = detail::error_of_reference(data, *measure);
+  facts.data_seconds = data.seconds + held_out.seconds;
+  return problem;
+}
+
+}  // namespace nysalt

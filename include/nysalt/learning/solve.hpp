@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSL-1.0
+// From a problem of learning to a fit, judged.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nysalt/learning/objection.hpp"
+#include "nysalt/learning/problem.hpp"
+#include "nysalt/learning/search.hpp"
+#include "nysalt/tree_sum.hpp"
+
+namespace nysalt {
+
+struct fit {
+  Eigen::VectorXd theta;
+  fit_summary summary;
+};
+
+namespace detail {
+
+inline std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+                                               const std::vector<Eigen::Index>& free) {
+  std::vector<named_parameters> starts = family.starts;
+  if (options.start) starts = {{"start", *options.start}};
+  starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
+  for (auto& start : starts) {
+    for (std::size_t k = 0; k < options.fixed.size(); ++k) {
+      if (options.fixed[k]) start.theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
+    }
+  }
+  for (int n = 0; n < options.random_starts; ++n) {
+    const auto number = static_cast<std::uint64_t>(n);
+    starts.push_back({fmt::format("random {}", n + 1),
+                      random_start(family, starts.front().theta, free, options.seed, number)});
+  }
+  return starts;
+}
+
+inline void require_sound(const run_time_family& family, const fit_options& options) {
+  if (options.max_iterations < 0 || options.random_starts < 0) {
+    throw std::invalid_argument(
+        fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
+                    options.max_iterations, options.random_starts));
+  }
+  const auto count = static_cast<std::size_t>(family.parameters());
+  if ((options.start && options.start->size() != family.parameters()) ||
+      (!options.fixed.empty() && options.fixed.size() != count)) {
+    throw std::invalid_argument(fmt::format(
+        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
+  }
+  require_in_range(family, starts_of(family, options, {}).front().theta);
+}
+
+}  // namespace detail
+
+/// Throws std::invalid_argument for options that the family cannot take. Cost: see learn().
+inline fit solve(const learning_problem& problem) {
+  const auto began = std::chrono::steady_clock::now();
+  const run_time_family& family = problem.family;
+  const fit_options& options = problem.options;
+  detail::require_sound(family, options);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < family.parameters(); ++k) {
+    if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
+  }
+  const auto starts = detail::starts_of(family, options, free);
+  const bool has_data = !problem.law;
+  const auto objection_of_guard = [&](const Eigen::VectorXd& theta) {
+    return problem.guard.objection(problem.family.letters, problem.family.coefficients(theta), problem.step);
+  };
+  search_task task{.family = &problem.family,
+                   .loss = has_data ? problem.loss : objective_of(*problem.law, problem.family),
+                   .judge = problem.loss_at_end,
+                   .admits =
+                       [&](const Eigen::VectorXd& theta) {
+                         return !problem.options.guarded || objection_of_guard(theta).empty();
+                       },
+                   .free = free,
+                   .max_iterations = options.max_iterations};
+  if (!has_data) {  // it is its own judge
+    task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
+  }
+  const search_result found = search(task, starts);
+  const candidate& best = found.best;
+  const Eigen::VectorXd& theta = best.theta;
+
+  fit_summary summary = problem.facts;
+  const auto at_start = problem.held_out_losses(starts.front().theta);
+  const auto at_end = problem.held_out_losses(theta);
+  summary.loss = best.loss;
+  summary.held_out_loss = tree_sum(at_end);
+  summary.held_out_start_loss = tree_sum(at_start);
+  summary.held_out_noise = detail::noise_of_difference(at_end, at_start);
+  summary.one_step_error = std::sqrt(problem.one_step_loss(theta));
+  summary.trajectory_error = std::sqrt(problem.loss_at_end(theta));
+  summary.starts_tried = found.tried;
+  summary.from = best.from;
+  summary.iterations = best.iterations;
+  summary.is_in_valley = best.in_valley;
+  summary.is_held_by_guard = best.is_held;
+  if (found.unguarded) summary.unguarded = objection_of_guard(found.unguarded->theta);
+
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(theta.size());
+  if (!best.is_held) {  // where it is, no minimum is near
+    const curvature bend(best.hessian, best.free);
+    if (has_data) errors = bend.standard_errors(problem.scores(theta));
+    summary.condition = bend.condition();
+    for (const auto& flat : bend.flat_directions()) {
+      summary.flat_directions.emplace_back(flat.begin(), flat.end());
+    }
+  }
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    const bool is_free = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
+    summary.parameters.push_back(
+        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
+  }
+  const std::string instability = objection_of_guard(theta);
+  if (instability.empty()) {
+    for (const auto& [low, high] :
+         problem.guard.gaps(family.letters, family.coefficients(theta), problem.step)) {
+      summary.gaps.push_back({low, high});
+    }
+  }
+  summary.reason = detail::objection(summary, best.converged || best.in_valley || best.is_held, instability);
+  summary.usable = summary.reason.empty();
+  summary.learning_evaluations = problem.evaluations();
+  summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return {theta, summary};
+}
+
+}  // namespace nysalt

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSL-1.0
+// From several starts the judge takes the best minimum, and the guard has the last word.
+#include "nysalt/learning/search.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/nystrom.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+const run_time_family family{aba<2>()};  // one parameter, from -4 to 4
+
+Eigen::VectorXd number(double x) { return Eigen::VectorXd::Constant(1, x); }
+
+/// Two minima: residuals x^2 - 1 and (x - 1)/10. At 1 the loss is zero; near -1 it is some .04.
+squares two_wells(const Eigen::VectorXd& theta) {
+  const double x = theta[0];
+  const double r = x * x - 1.0;
+  const double tilt = 0.1 * (x - 1.0);
+  return {r * r + tilt * tilt, number(2.0 * x * r + 0.1 * tilt),
+          Eigen::MatrixXd::Constant(1, 1, 4.0 * x * x + 0.01)};
+}
+
+/// The left minimum: where 2 x (x^2 - 1) + (x - 1)/100 = 0, by Newton's method.
+double left_minimum() {
+  double x = -1.0;
+  for (int n = 0; n < 20; ++n) x -= (2.0 * x * (x * x - 1.0) + 0.01 * (x - 1.0)) / (6.0 * x * x - 1.99);
+  return x;
+}
+
+using judge = std::function<double(const Eigen::VectorXd&)>;
+using guard = std::function<bool(const Eigen::VectorXd&)>;
+
+bool all(const Eigen::VectorXd&) { return true; }
+double likes_left(const Eigen::VectorXd& theta) { return std::abs(theta[0] + 1.0); }
+double likes_right(const Eigen::VectorXd& theta) { return std::abs(theta[0] - 1.0); }
+
+search_result searched(const judge& judges, const guard& admits, const std::vector<double>& starts,
+                       int max_iterations = 100) {
+  std::vector<named_parameters> named;
+  for (const double x : starts) named.push_back({x < 0.0 ? "left" : "right", number(x)});
+  return search({.family = &family,
+                 .loss = two_wells,
+                 .judge = judges,
+                 .admits = admits,
+                 .free = {0},
+                 .max_iterations = max_iterations},
+                named);
+}
+
+constexpr double near_rounding = 1e-12;  // Newton's method ends at rounding, in a well of curvature 8
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_judge_decides_and_not_the_loss) {
+  const auto left = searched(likes_left, all, {1.2, -1.2});
+  BOOST_TEST(left.best.from == "left");
+  BOOST_TEST(std::abs(left.best.theta[0] - left_minimum()) <= near_rounding);
+  BOOST_TEST(left.best.loss > 0.03);
+  BOOST_TEST(left.best.converged);
+  BOOST_TEST(left.tried == 2);
+  BOOST_TEST(!left.unguarded);
+  const auto right = searched(likes_right, all, {1.2, -1.2});
+  BOOST_TEST(right.best.from == "right");
+  BOOST_TEST(std::abs(right.best.theta[0] - 1.0) <= near_rounding);
+  BOOST_TEST(right.best.loss <= 1e-24);
+}
+
+BOOST_AUTO_TEST_CASE(of_equals_the_first_is_taken) {
+  const auto equal = [](const Eigen::VectorXd&) { return 1.0; };
+  BOOST_TEST(searched(equal, all, {1.2, -1.2}).best.from == "right");
+  BOOST_TEST(searched(equal, all, {-1.2, 1.2}).best.from == "left");
+}
+
+BOOST_AUTO_TEST_CASE(what_did_not_converge_is_not_judged) {
+  // From 1 + 1e-7 Newton's steps alone are enough, from -3 they are not.
+  const auto found = searched(likes_left, all, {-3.0, 1.0 + 1e-7}, 0);
+  BOOST_TEST(found.best.from == "right");
+  BOOST_TEST(found.best.converged);
+  BOOST_TEST(searched(likes_left, all, {-3.0, 1.0 + 1e-7}).best.from == "left");
+  BOOST_TEST(!searched(likes_left, all, {-3.0}, 0).best.converged);  // a single start is what it was
+}
+
+BOOST_AUTO_TEST_CASE(what_the_guard_does_not_admit_is_not_taken) {
+  const auto positive = [](const Eigen::VectorXd& theta) { return theta[0] > 0.0; };
+  const auto found = searched(likes_left, positive, {-1.2, 1.2});
+  BOOST_TEST(found.best.from == "right");
+  BOOST_TEST(found.best.admitted);
+  BOOST_TEST(!found.best.is_held);
+  BOOST_REQUIRE(found.unguarded.has_value());
+  BOOST_TEST(found.unguarded->from == "left");
+  BOOST_TEST(!found.unguarded->admitted);
+  BOOST_TEST(!searched(likes_right, positive, {-1.2, 1.2}).unguarded.has_value());  // nothing was lost
+}
+
+BOOST_AUTO_TEST_CASE(where_no_minimum_is_admitted_the_guard_holds_what_it_admits) {
+  const auto beyond = [](const Eigen::VectorXd& theta) { return std::abs(theta[0]) > 1.5; };
+  const auto found = searched(likes_right, beyond, {0.5, 2.0});
+  BOOST_TEST(found.best.is_held);
+  BOOST_TEST(found.best.admitted);
+  BOOST_TEST(beyond(found.best.theta));
+  BOOST_TEST(two_wells(found.best.theta).value <= two_wells(number(2.0)).value);  // no worse than its start
+  BOOST_TEST(found.tried == 3);  // the start .5 is not admitted
+  BOOST_REQUIRE(found.unguarded.has_value());
+  BOOST_TEST(std::abs(found.unguarded->theta[0] - 1.0) <= near_rounding);
+}
+
+BOOST_AUTO_TEST_CASE(where_nothing_is_admitted_that_is_said) {
+  const auto none = [](const Eigen::VectorXd&) { return false; };
+  const auto found = searched(likes_right, none, {1.2, -1.2});
+  BOOST_TEST(!found.best.admitted);
+  BOOST_TEST(!found.best.is_held);
+  BOOST_TEST(found.tried == 2);
+  BOOST_TEST(found.unguarded.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(a_judge_that_knows_no_number_takes_nothing) {
+  const auto nan_on_the_right = [](const Eigen::VectorXd& theta) {
+    return theta[0] > 0.0 ? std::nan("") : 1e9;
+  };
+  BOOST_TEST(searched(nan_on_the_right, all, {1.2, -1.2}).best.from == "left");
+}
+
+BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
+  const run_time_family two{nystrom()};  // b1 in (0, 1), beta1 in [0, .5]
+  const Eigen::VectorXd middle = Eigen::Vector2d(0.5, 0.4);
+  const auto drawn = [&](std::uint64_t seed, std::uint64_t n, const std::vector<Eigen::Index>& free) {
+    return random_start(two, middle, free, seed, n);
+  };
+  BOOST_TEST((drawn(1, 0, {0, 1}) == drawn(1, 0, {0, 1})));
+  BOOST_TEST((drawn(1, 0, {0, 1}) != drawn(1, 1, {0, 1})));
+  BOOST_TEST((drawn(1, 0, {0, 1}) != drawn(2, 0, {0, 1})));
+  BOOST_TEST(drawn(1, 0, {1})[0] == 0.5);  // what is fixed stays
+  BOOST_TEST(drawn(1, 0, {1})[1] == drawn(1, 0, {0, 1})[1]);
+  int at_the_bound = 0;
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int many = 400;
+  for (std::uint64_t n = 0; n < many; ++n) {
+    const auto theta = drawn(1, n, {0, 1});
+    BOOST_CHECK_NO_THROW(require_in_range(two, theta));
+    at_the_bound += theta[1] == 0.5;
+    const double x = random_start(family, number(0.25), {0}, 1, n)[0];
+    sum += x;
+    squares += (x - 0.25) * (x - 0.25);
+  }
+  // A third of a deviation above the middle: in 37 % of all, give or take 2.4.
+  BOOST_TEST(std::abs(at_the_bound / 400.0 - 0.369) <= 4.0 * 0.024);
+  BOOST_TEST(std::abs(sum / many - 0.25) <= 4.0 * 0.3 / 20.0);
+  BOOST_TEST(std::abs(std::sqrt(squares / many) - 0.3) <= 4.0 * 0.3 / std::sqrt(2.0 * many));
+}

@@ -1,0 +1,27 @@
+// expect: the letter G needs a quadratic kinetic energy
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/stepper.hpp"
+
+struct relativistic {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const nysalt::vector<T, 1>& q) const {
+    return q[0] * q[0];
+  }
+#ifndef NYSALT_CONTROL
+  template <class T>
+  T kinetic_energy(const nysalt::vector<T, 1>& p) const {
+    using std::sqrt;
+    return sqrt(p[0] * p[0] + 1.0);
+  }
+#endif
+};
+
+int main() {
+  const relativistic system;
+  const auto coefficients = nysalt::fg_chin::coefficients(nysalt::fg_chin::start());
+  nysalt::stepper<relativistic, nysalt::fg_chin::word>(system, coefficients, 0.1);
+}

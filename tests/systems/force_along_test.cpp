@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSL-1.0
+// f'(q) v by dual numbers, by the system's own word, and by differences; and its own derivatives.
+#include <boost/test/unit_test.hpp>
+
+#include "../support/draws.hpp"
+#include "../support/rounding.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/counted.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <field F, Scalar T, System S>
+vector<T, S::dimension> along(const S& system, const vector<T, S::dimension>& q,
+                              const vector<T, S::dimension>& v) {
+  lifted_room<T, S::dimension> room(q.size());
+  auto g = make_vector<T>(system);
+  force_along<F, T>(system, q, v, g, room);
+  return g;
+}
+
+/// One that gives f'(q) v over any scalar, and says so by a factor.
+struct by_itself : potential_only {
+  template <class T>
+  void force_derivative(const vector<T, 2>&, const vector<T, 2>& v, vector<T, 2>& g) const {
+    for (Eigen::Index i = 0; i < 2; ++i) g[i] = v[i] * 7.0;
+  }
+};
+
+/// f = -sin q: f'(q) v, and its derivative along dq and dv, -cos(q) dv + sin(q) dq v.
+template <System S>
+void check_pendulum(const S& system, double tolerance, double tolerance_of_slope) {
+  using D = dual<double, 2>;
+  draws random;
+  for (int n = 0; n < 10; ++n) {
+    const double q = random.uniform(-1.0, 1.0);
+    const double v = random.uniform(-1.0, 1.0);
+    const vector<double, 1> g =
+        along<field::whole, double>(system, vector<double, 1>(q), vector<double, 1>(v));
+    BOOST_TEST(std::abs(g[0] + std::cos(q) * v) <= tolerance);
+    D lifted_q(q);
+    D lifted_v(v);
+    lifted_q.derivative = {0.3, 0.0};
+    lifted_v.derivative = {0.2, -1.1};
+    const auto lifted = along<field::whole, D>(system, vector<D, 1>(lifted_q), vector<D, 1>(lifted_v))[0];
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", q = " << q << ", v = " << v) {
+      BOOST_TEST(std::abs(lifted.value + std::cos(q) * v) <= tolerance);
+      const double first = -std::cos(q) * 0.2 + std::sin(q) * 0.3 * v;
+      BOOST_TEST(std::abs(lifted.derivative[0] - first) <= tolerance_of_slope);
+      BOOST_TEST(std::abs(lifted.derivative[1] - std::cos(q) * 1.1) <= tolerance_of_slope);
+    }
+  }
+}
+
+struct smooth_pendulum {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    using std::sin;
+    f[0] = -sin(q[0]);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(by_dual_numbers_it_is_the_hessians) {
+  draws random;
+  const auto check = [&](const auto& system) {
+    const auto [q, v] = random.state(system, 1.0);
+    const Eigen::VectorXd expected = -test::hessian(system, q) * v;
+    // Some ten products of numbers below 4 a coordinate.
+    const Eigen::VectorXd found = along<field::whole, double>(system, q, v);
+    BOOST_TEST((found - expected).norm() <= 40.0 * static_cast<double>(q.size()) * eps);
+    BOOST_TEST(expected.norm() > 1e-3);
+  };
+  check(potential_only());
+  check(dynamic_potential());
+  check(two_masses());
+  check_pendulum(smooth_pendulum(), 4.0 * eps, 8.0 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_of_ones_own_goes_first) {
+  const vector<double, 2> q(0.3, 0.2);
+  const vector<double, 2> v(1.0, -2.0);
+  BOOST_TEST((along<field::whole, double>(by_itself(), q, v) == 7.0 * v));
+  BOOST_TEST((along<field::whole, double>(potential_only(), q, v) != 7.0 * v));
+  using D = dual<double, 1>;
+  const vector<D, 2> lifted(D::variable(1.0, 0), D(-2.0));
+  const auto found = along<field::whole, D>(by_itself(), q.cast<D>(), lifted);
+  BOOST_TEST(found[0].derivative[0] == 7.0);
+  // Where it is known over double alone, its derivatives are differences of it: eps^(2/3), twice.
+  check_pendulum(black_box_with_derivative(), 4.0 * eps, 2.0 * std::pow(eps, 2.0 / 3.0));
+}
+
+BOOST_AUTO_TEST_CASE(of_a_black_box_it_is_a_difference) {
+  // eps^(2/3), twice; and a difference of differences, which err by that, over a step of eps^(1/3).
+  check_pendulum(black_box(), 2.0 * std::pow(eps, 2.0 / 3.0), 4.0 * std::pow(eps, 1.0 / 3.0));
+  const vector<double, 1> none(0.0);
+  BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
+}
+
+BOOST_AUTO_TEST_CASE(of_the_soft_part_it_is_that_of_the_soft_force) {
+  const with_quadratic_part split(two_masses(), Eigen::MatrixXd{{1.0, -1.0}, {-1.0, 1.0}});
+  draws random;
+  const auto [q, v] = random.state(split, 1.0);
+  const vector<double, 2> soft = along<field::soft, double>(split, q, v);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    BOOST_TEST(std::abs(soft[i] + 3.0 * q[i] * q[i] * v[i]) <= 16.0 * eps);  // of terms that cancel
+  }
+  BOOST_TEST((along<field::whole, double>(split, q, v) - soft).norm() > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(it_counts_one_evaluation) {
+  const auto evaluations = [](const auto& system) {
+    using S = std::decay_t<decltype(system)>;
+    const counted<S> watched(system);
+    auto q = make_vector<double>(system);
+    q.setConstant(0.3);
+    along<field::whole, double>(watched, q, q);
+    return watched.evaluations;
+  };
+  BOOST_TEST(evaluations(potential_only()) == 1);
+  BOOST_TEST(evaluations(dynamic_potential()) == 1);
+  BOOST_TEST(evaluations(by_itself()) == 1);
+  BOOST_TEST(evaluations(black_box()) == 1);
+  BOOST_TEST(evaluations(black_box_with_derivative()) == 1);
+}
