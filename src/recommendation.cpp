@@ -32,9 +32,9 @@ void recommendation::learn_and_rank() {
   } else {
     find_steps();
   }
-  std::vector<candidate*> sound;
-  for (auto& its : all_) sound.push_back(&its);
-  measure(sound, command_.trajectories, seed_for(role::test, common_.seed));
+  std::vector<candidate*> everyone;
+  for (auto& its : all_) everyone.push_back(&its);
+  measure(everyone, command_.trajectories, seed_for(role::test, common_.seed));
   measure_seconds();
   shown_.clear();
   rank();
