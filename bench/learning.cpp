@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "../tests/support/one_step.hpp"
 #include "../tests/support/sample_blocks.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -32,12 +33,12 @@ class problem {
         measure_(chain_, data_, coordinates::qp) {}
 
   minimum compressed() const {
-    const one_step<nystrom, chain_type> loss(chain_, data_, measure_);
-    return minimise(objective_of(loss), nysalt::detail::is_defined<nystrom>, start_, {0, 1}, iterations_);
+    const test::one_step<nystrom, chain_type> loss(chain_, data_, measure_);
+    return minimise(objective_of(loss), test::defined_for<nystrom>(), start_, {0, 1}, iterations_);
   }
   minimum block_per_sample() const {
     const test::sample_blocks<nystrom, chain_type> blocks(chain_, data_, measure_);
-    return test::minimise_by_blocks(blocks, nysalt::detail::is_defined<nystrom>, start_, {0, 1}, iterations_);
+    return test::minimise_by_blocks(blocks, test::defined_for<nystrom>(), start_, {0, 1}, iterations_);
   }
   double samples() const { return static_cast<double>(data_.pairs()); }
 

@@ -113,10 +113,11 @@ BOOST_AUTO_TEST_CASE(it_knows_what_the_type_knows) {
   check_type<fg4>();
 }
 
-BOOST_AUTO_TEST_CASE(classical_members_are_further_starts) {
+BOOST_AUTO_TEST_CASE(classical_members_and_points_without_a_name_are_starts_too) {
   const run_time_family four{aba<4>()};
-  BOOST_REQUIRE(four.starts.size() == 2U);
+  BOOST_REQUIRE(four.starts.size() == 3U);
   BOOST_TEST(four.starts[1].name == "pefrl");
+  BOOST_TEST(four.starts[2].name == "further start");
   const auto found = four.coefficients(four.starts[1].theta);
   const auto expected = pefrl().coefficients();
   for (std::size_t i = 0; i < found.size(); ++i) {

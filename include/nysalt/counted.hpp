@@ -32,14 +32,19 @@ struct counted : S {
     S::soft_force(q, f);
   }
 
-  /// One evaluation, however a black box comes by it.
+  /// One evaluation, however a black box comes by it; and two for each direction in which that is
+  /// differentiated.
   template <class T>
-    requires(HasForceDerivative<S, T> || (BlackBoxForce<S> && std::is_same_v<T, double>))
+    requires(HasForceDerivative<S, T> ||
+             (BlackBoxForce<S> && (std::is_same_v<T, double> || detail::is_dual_of_double<T>)))
   void force_derivative(const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
                         vector<T, S::dimension>& g) const {
     ++evaluations;
     if constexpr (HasForceDerivative<S, T>) {
       S::force_derivative(q, v, g);
+    } else if constexpr (is_dual<T>) {
+      evaluations += 2 * static_cast<std::int64_t>(T::derivatives);
+      detail::black_box_along<T>(static_cast<const S&>(*this), q, v, g);
     } else {
       directional_derivative(static_cast<const S&>(*this), q, v, g);
     }

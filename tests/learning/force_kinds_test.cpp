@@ -5,8 +5,10 @@
 #include <Eigen/Eigenvalues>
 
 #include "../support/one_step.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/fg4.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learner.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -100,4 +102,16 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   BOOST_TEST(derived.summary.derivatives == "the system's directional derivative");
   BOOST_TEST(boxed.summary.derivatives == "central differences of the force");
   BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused) {
+  const auto data = data_of(1);
+  const auto refused = [&](const auto& family, const auto& system) {
+    return refuses<std::invalid_argument>([&] { learn(run_time_family(family), system, data, data); },
+                                          {"RSRHRSR", describe(system), "quadratic part"});
+  };
+  BOOST_TEST(refused(r_fg4(), exact));
+  BOOST_TEST(refused(r_fg4(), by_black_box()));
+  // Gradient kicks ask for f'(q) v alone, which a black box has by differences.
+  BOOST_TEST(learn(run_time_family(fg4()), by_black_box(), data, data_of(2)).summary.usable);
 }

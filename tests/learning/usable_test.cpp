@@ -79,8 +79,8 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     BOOST_TEST(stable.summary.usable);
     BOOST_TEST(!diverges(stable));
     BOOST_TEST(!unstable.summary.usable);
-    BOOST_TEST(says(unstable.summary.reason, "it is unstable at z = 2.8"));
-    BOOST_TEST(says(unstable.summary.reason, "declared bands [1.96, 2.04]"));  // 2, and 2 % on either side
+    BOOST_TEST(says(unstable.summary.reason, "it is not linearly stable at z = 2.8"));
+    BOOST_TEST(says(unstable.summary.reason, "1.96 to 2.04"));  // 2, and 2 % on either side
     BOOST_TEST(diverges(unstable));
   }
 }

@@ -197,7 +197,7 @@ minimum minimise_by_blocks(const Blocks& blocks, const std::function<bool(const 
   for (std::size_t n = 0; n < blocks.stretches(); ++n) {
     problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
   }
-  found.iterations = nysalt::detail::search(problem, found.theta, free, max_iterations);
+  nysalt::detail::descend(problem, free, max_iterations, found);
   nysalt::detail::polish(std::cref(blocks), defined, free, found);
   return found;
 }

@@ -22,7 +22,7 @@ const Eigen::MatrixXd spring{{1.0, -1.0}, {-1.0, 1.0}};  // that of two_masses
 
 static_assert(HasQuadraticPart<with_quadratic_part<two_masses>>);
 static_assert(HasQuadraticPart<with_quadratic_part<potential_only>>);
-static_assert(!HasQuadraticPart<two_masses> && !HasQuadraticPart<henon_heiles>);
+static_assert(!HasQuadraticPart<two_masses> && !HasQuadraticPart<potential_only>);
 
 BOOST_AUTO_TEST_CASE(what_is_soft_is_the_force_without_the_quadratic_part) {
   const with_quadratic_part split(two_masses(), spring);

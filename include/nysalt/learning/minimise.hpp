@@ -87,7 +87,8 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
   if ((found.theta - began).norm() > 1e-6) found.hessian = hessian(loss, found.theta);
   // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
   found.converged = decrease <= 1e-6 * found.loss + 1e-24;
-  found.in_valley = found.in_valley && !found.converged;
+  constexpr double hardly = 0.1;
+  found.in_valley = !found.converged && (found.in_valley || decrease <= hardly * found.loss);
 }
 
 }  // namespace detail

@@ -36,6 +36,7 @@ inline std::string objection(const fit_summary& fit, bool settled, const std::st
   }
   if (!instability.empty()) return instability;
   if (!fit.is_of_data) return {};
+  if (fit.is_held_by_guard) return {};  // what the search began with may not be used there
   // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
   // that other data prefer now the one and now the other. Half as much again is more than chance, whatever a
   // few trajectories say of their noise. Equal to rounding is no objection either.

@@ -23,16 +23,19 @@ struct fit {
 
 namespace detail {
 
+/// Puts in the values of parameters that are not to be learned.
+inline void fix(const fit_options& options, Eigen::VectorXd& theta) {
+  for (std::size_t k = 0; k < options.fixed.size(); ++k) {
+    if (options.fixed[k]) theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
+  }
+}
+
 inline std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
                                                const std::vector<Eigen::Index>& free) {
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
   starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
-  for (auto& start : starts) {
-    for (std::size_t k = 0; k < options.fixed.size(); ++k) {
-      if (options.fixed[k]) start.theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
-    }
-  }
+  for (auto& start : starts) fix(options, start.theta);
   for (int n = 0; n < options.random_starts; ++n) {
     const auto number = static_cast<std::uint64_t>(n);
     starts.push_back({fmt::format("random {}", n + 1),
@@ -82,6 +85,10 @@ inline fit solve(const learning_problem& problem) {
                        },
                    .free = free,
                    .max_iterations = options.max_iterations};
+  if (family.refuge) {
+    task.refuge = named_parameters{"refuge", *family.refuge};
+    detail::fix(options, task.refuge->theta);
+  }
   if (!has_data) {  // it is its own judge
     task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
   }
