@@ -178,6 +178,13 @@ class bundled_model final : public bundled_system {
       reference().fine_step_for_statistics(plan.step, fine_step);
       return;
     }
+    if (metric == "acceptance") {
+      if (system_.bath().acts()) {
+        refuse("the metric acceptance says nothing in a bath, which changes H: leave --friction away");
+      }
+      require_room(options_of(plan), 1, 1);
+      return;
+    }
     const auto measure = measure_named(metric, name);
     require_room(options_of(plan), 1, measure.width);
     if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
@@ -193,6 +200,11 @@ class bundled_model final : public bundled_system {
       result = trajectory_errors(system_, its, *starts_, methods, measure, options_of(plan, progress));
     });
     return result;
+  }
+
+  acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,
+                               const counter& progress) const override {
+    return nysalt::acceptance(system_, method, *starts_, options_of(plan, progress), temperature);
   }
 
   std::array<double, 2> range_of_starts(const trajectories_plan& plan,
@@ -241,6 +253,10 @@ class bundled_model final : public bundled_system {
     its.trajectories.steps *= finer;
     its.every *= finer;
     return statistics(method_of_reference(), its, name, progress);
+  }
+  double fastest_rate() const override { return reference().fastest(); }
+  std::optional<double> fine_step_for_ranking(double step) const override {
+    return reference().fine_step_for_ranking(step);
   }
   std::string reference_of_statistics(double step, std::optional<double> fine_step) const override {
     return fmt::format("{} with step {:.12g}", method_of_reference().name(),
@@ -350,7 +366,8 @@ class bundled_model final : public bundled_system {
       return energy_measure(system_);
     }
     if (metric != "exchange") {
-      refuse("unknown metric '{}': it is one of path, state, exchange, energy, distribution, acf", metric);
+      refuse("unknown metric '{}': it is one of path, state, exchange, energy, acceptance, distribution, acf",
+             metric);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);

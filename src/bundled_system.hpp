@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
@@ -116,6 +117,10 @@ class bundled_system {
                                           const std::string& observable, std::optional<double> fine_step,
                                           const counter& progress) const = 0;
 
+  /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
+  virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,
+                                       double temperature, const counter& progress) const = 0;
+
   /// Least and largest value of an observable over the first starts of a plan.
   virtual std::array<double, 2> range_of_starts(const trajectories_plan& plan,
                                                 const std::string& observable) const = 0;
@@ -125,6 +130,10 @@ class bundled_system {
   virtual gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                                    std::optional<double> fine_step,
                                                    const counter& progress) const = 0;
+  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  virtual double fastest_rate() const = 0;
+  /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
+  virtual std::optional<double> fine_step_for_ranking(double step) const = 0;
   virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
   /// Hands the records over in the order of the trajectories; few are in memory at a time.

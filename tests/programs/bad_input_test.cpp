@@ -29,8 +29,8 @@ BOOST_AUTO_TEST_CASE(the_beginnings_are_sound) {
 
 BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
   all_refused({
-      {"nosuch", {"'nosuch'", "list, learn, run, compare, stability"}},
-      {"--nosuch", {"'--nosuch'", "list, learn, run, compare, stability"}},
+      {"nosuch", {"'nosuch'", "list, learn, run, compare, recommend, stability"}},
+      {"--nosuch", {"'--nosuch'", "list, learn, run, compare, recommend, stability"}},
       {"'' list", {"''"}},
       {"list learn", {"'learn'", "nysalt list"}},
       {"list --nosuch 3", {"'--nosuch'", "--seed"}},

@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   BOOST_TEST(names("systems") ==
              "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 ");
   BOOST_TEST(names("families") == "nystrom ");
-  BOOST_TEST(names("metrics") == "path state exchange energy distribution acf ");
+  BOOST_TEST(names("metrics") == "path state exchange energy acceptance distribution acf ");
   BOOST_TEST(
       names("methods") ==
       "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 forest_ruth pefrl mclachlan_atela4 mclachlan5 "
