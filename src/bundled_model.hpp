@@ -108,6 +108,13 @@ class bundled_model final : public bundled_system {
     }
   }
 
+  stability_guard guard(bool rotations) const override {
+    std::vector<phase_point<double, S::dimension>> states;
+    constexpr std::uint64_t enough = 64;
+    for (std::uint64_t n = 0; n < enough; ++n) states.push_back(law_(1, n));
+    return stability_guard(system_, states, rotations);
+  }
+
   void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,
                          double step) const override {
     const run_time_family family = placed(name, where);
@@ -129,7 +136,14 @@ class bundled_model final : public bundled_system {
       }
     }
     const auto options = options_for(family, how, 1);
-    if (options.loss.of == loss_choice::kind::covariance && !system_.bath().acts()) {
+    const bool of_law = options.loss.of == loss_choice::kind::covariance;
+    if (!of_law && static_cast<double>(options.loss.steps) * step > how.horizon * (1.0 + 1e-9)) {
+      refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
+             options.loss.steps, step, how.horizon);
+    }
+    if (of_law && !HasModes<S>)
+      refuse("the covariance loss needs modes, which {} does not declare", description());
+    if (of_law && !system_.bath().has_temperature()) {
       refuse(
           "the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
     }
@@ -147,6 +161,7 @@ class bundled_model final : public bundled_system {
           Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
       if (plan.from_there_alone) {
         options.start = theta;
+        options.random_starts = 0;
       } else {
         options.further_starts.push_back({"a step nearby", theta});
       }

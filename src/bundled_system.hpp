@@ -95,6 +95,8 @@ class bundled_system {
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
 
+  /// Of its bands, or of the frequencies along some starts by its law.
+  virtual stability_guard guard(bool rotations) const = 0;
   /// Throws refusal for a word that the system does not serve.
   virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.

@@ -78,27 +78,15 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
 
 namespace {
 
-/// The first band of the system on which a method is not stable. Words that rotate are exact on them.
-std::optional<frequency_band> unstable_band(const tabulated& method, const bundled_system& system,
-                                            double step) {
-  if (has_rotation(method.letters())) return std::nullopt;
-  const auto windows = stability_of(method);
-  for (const auto& band : system.frequency_bands()) {
-    if (!is_stable(windows, step * band.low, step * band.high)) return band;
-  }
-  return std::nullopt;
-}
-
 /// Between learned steps nobody has asked yet whether the method is stable.
 tabulated from_scheme(const method_source& source, const bundled_system& system, double step, bool force) {
   const tabulated method = source.learned->at(step);
   if (source.learned->is_learned_at(step) || force) return method;
-  if (const auto band = unstable_band(method, system, step)) {
-    refuse(
-        "{}: between its learned steps it is not linearly stable at step {} for the frequencies {:g} to "
-        "{:g}; "
-        "learn it there, or take --force",
-        source.typed, step, band->low, band->high);
+  const std::string objection =
+      system.guard(has_rotation(method.letters())).objection(method.letters(), method.coefficients(), step);
+  if (!objection.empty()) {
+    refuse("{}: between its learned steps, at {}: {}; learn it there, or take --force", source.typed, step,
+           objection);
   }
   return method;
 }
@@ -154,10 +142,19 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
-  if (const auto band = unstable_band(method, system, step)) {
+  if (has_rotation(method.letters())) {
+    const auto objection = system.guard(true).objection(method.letters(), method.coefficients(), step);
+    if (!objection.empty()) {
+      warnings.push_back(fmt::format("{} at step {:g}: {}", source.typed, step, objection));
+    }
+    return;
+  }
+  const auto windows = stability_of(method);
+  for (const auto& [low, high] : system.frequency_bands()) {
+    if (is_stable(windows, step * low, step * high)) continue;
     warnings.push_back(
         fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
-                    source.typed, step, band->low, band->high, system.description()));
+                    source.typed, step, low, high, system.description()));
   }
 }
 

@@ -29,6 +29,10 @@ struct parameter_range {
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
+/// Where a family has no bounds of its own: beyond it coefficients of opposite sign leave less than half of
+/// their digits of each other. A search that ends here has found nothing.
+inline constexpr double farthest_parameter = 4.0;
+
 /// A classical method that a family contains.
 template <int Parameters>
 struct classical_member {

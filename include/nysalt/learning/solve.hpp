@@ -56,7 +56,14 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
     throw std::invalid_argument(fmt::format(
         "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
   }
-  require_in_range(family, starts_of(family, options, {}).front().theta);
+  for (const auto& start : options.further_starts) {
+    if (start.theta.size() == family.parameters()) continue;
+    throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
+                                            start.theta.size(), family.name, family.parameters()));
+  }
+  Eigen::VectorXd first = options.start.value_or(family.starts.front().theta);
+  fix(options, first);
+  require_in_range(family, first);
 }
 
 }  // namespace detail
@@ -125,6 +132,10 @@ inline fit solve(const learning_problem& problem) {
     const bool is_free = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
     summary.parameters.push_back(
         {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
+  }
+  for (const Eigen::Index k : free) {
+    const bool is_held_there = std::find(best.free.begin(), best.free.end(), k) == best.free.end();
+    if (is_held_there && std::abs(theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
   }
   const std::string instability = objection_of_guard(theta);
   if (instability.empty()) {
