@@ -184,7 +184,8 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
     std::vector<std::string> words;
   };
   const std::vector<change> changes{
-      {[](json& s) { s["version"] = 3; }, {"version 3", "newer"}},
+      {[](json& s) { s["version"] = 4; }, {"version 4", "newer"}},
+      {[](json& s) { s["version"] = 3; }, {"no version 3", "without several steps"}},
       {[](json& s) { s["version"] = 0; }, {"version 0"}},
       {[](json& s) { s["version"] = "1"; }, {"\"version\"", "number"}},
       {[](json& s) { s.erase("version"); }, {"\"version\"", "missing"}},
