@@ -202,7 +202,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
       {[](json& s) {
          s["parameters"] = {0.5, 0.4};
        },
-       {"\"b1\""}},
+       {"\"parameters\"", "object"}},
       {[](json& s) { s.erase("parameters"); }, {"\"parameters\"", "missing"}},
       {[](json& s) { s["step"] = -0.02; }, {"\"step\"", "positive"}},
       {[](json& s) { s["step"] = 0; }, {"\"step\"", "positive"}},
