@@ -108,6 +108,13 @@ class bundled_model final : public bundled_system {
     }
   }
 
+  stability_guard guard(bool rotations) const override {
+    std::vector<phase_point<double, S::dimension>> states;
+    constexpr std::uint64_t enough = 64;
+    for (std::uint64_t n = 0; n < enough; ++n) states.push_back(law_(1, n));
+    return stability_guard(system_, states, rotations);
+  }
+
   void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,
                          double step) const override {
     const run_time_family family = placed(name, where);
@@ -129,7 +136,14 @@ class bundled_model final : public bundled_system {
       }
     }
     const auto options = options_for(family, how, 1);
-    if (options.loss.of == loss_choice::kind::covariance && !system_.bath().acts()) {
+    const bool of_law = options.loss.of == loss_choice::kind::covariance;
+    if (!of_law && static_cast<double>(options.loss.steps) * step > how.horizon * (1.0 + 1e-9)) {
+      refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
+             options.loss.steps, step, how.horizon);
+    }
+    if (of_law && !HasModes<S>)
+      refuse("the covariance loss needs modes, which {} does not declare", description());
+    if (of_law && !system_.bath().has_temperature()) {
       refuse(
           "the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
     }
@@ -147,6 +161,7 @@ class bundled_model final : public bundled_system {
           Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
       if (plan.from_there_alone) {
         options.start = theta;
+        options.random_starts = 0;
       } else {
         options.further_starts.push_back({"a step nearby", theta});
       }
@@ -178,6 +193,13 @@ class bundled_model final : public bundled_system {
       reference().fine_step_for_statistics(plan.step, fine_step);
       return;
     }
+    if (metric == "acceptance") {
+      if (system_.bath().acts()) {
+        refuse("the metric acceptance says nothing in a bath, which changes H: leave --friction away");
+      }
+      require_room(options_of(plan), 1, 1);
+      return;
+    }
     const auto measure = measure_named(metric, name);
     require_room(options_of(plan), 1, measure.width);
     if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
@@ -193,6 +215,11 @@ class bundled_model final : public bundled_system {
       result = trajectory_errors(system_, its, *starts_, methods, measure, options_of(plan, progress));
     });
     return result;
+  }
+
+  acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,
+                               const counter& progress) const override {
+    return nysalt::acceptance(system_, method, *starts_, options_of(plan, progress), temperature);
   }
 
   std::array<double, 2> range_of_starts(const trajectories_plan& plan,
@@ -241,6 +268,10 @@ class bundled_model final : public bundled_system {
     its.trajectories.steps *= finer;
     its.every *= finer;
     return statistics(method_of_reference(), its, name, progress);
+  }
+  double fastest_rate() const override { return reference().fastest(); }
+  std::optional<double> fine_step_for_ranking(double step) const override {
+    return reference().fine_step_for_ranking(step);
   }
   std::string reference_of_statistics(double step, std::optional<double> fine_step) const override {
     return fmt::format("{} with step {:.12g}", method_of_reference().name(),
@@ -350,7 +381,8 @@ class bundled_model final : public bundled_system {
       return energy_measure(system_);
     }
     if (metric != "exchange") {
-      refuse("unknown metric '{}': it is one of path, state, exchange, energy, distribution, acf", metric);
+      refuse("unknown metric '{}': it is one of path, state, exchange, energy, acceptance, distribution, acf",
+             metric);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);

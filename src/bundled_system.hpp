@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
@@ -94,6 +95,8 @@ class bundled_system {
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
 
+  /// Of its bands, or of the frequencies along some starts by its law.
+  virtual stability_guard guard(bool rotations) const = 0;
   /// Throws refusal for a word that the system does not serve.
   virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.
@@ -116,6 +119,10 @@ class bundled_system {
                                           const std::string& observable, std::optional<double> fine_step,
                                           const counter& progress) const = 0;
 
+  /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
+  virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,
+                                       double temperature, const counter& progress) const = 0;
+
   /// Least and largest value of an observable over the first starts of a plan.
   virtual std::array<double, 2> range_of_starts(const trajectories_plan& plan,
                                                 const std::string& observable) const = 0;
@@ -125,6 +132,10 @@ class bundled_system {
   virtual gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                                    std::optional<double> fine_step,
                                                    const counter& progress) const = 0;
+  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  virtual double fastest_rate() const = 0;
+  /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
+  virtual std::optional<double> fine_step_for_ranking(double step) const = 0;
   virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
   /// Hands the records over in the order of the trajectories; few are in memory at a time.

@@ -52,9 +52,10 @@ struct typed {
   learn_command learn;
   run_command run;
   compare_command compare;
+  recommend_command recommend;
   stability_command stability;
   system_settings stability_system;
-  std::vector<std::string> methods, steps, observables, parameters, range;
+  std::vector<std::string> methods, steps, observables, parameters, range, families;
 };
 
 template <class T>
@@ -125,17 +126,21 @@ void add_starts_and_placement(CLI::App& command, system_settings& system, std::s
                      "of O in a word that has none: end, symmetric or middle [symmetric]");
 }
 
-void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
-  add_number(command, "--fine-step", how.fine_step,
-             "of the reference; must divide the step [omega h <= 5e-3]");
+void add_search(CLI::App& command, learn_settings& how, const std::string& prefix) {
   add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
-  add_number(command, prefix + "horizon", how.horizon, "length of each");
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
   command.add_option(prefix + "loss", how.loss, "state:K, energy:K after K steps, or covariance")
       ->capture_default_str();
   add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
+}
+
+void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
+  add_number(command, "--fine-step", how.fine_step,
+             "of the reference; must divide the step [omega h <= 5e-3]");
+  add_number(command, prefix + "horizon", how.horizon, "length of each");
+  add_search(command, how, prefix);
 }
 
 void add_list(CLI::App& app, typed& to) {
@@ -197,13 +202,16 @@ void add_compare(CLI::App& app, typed& to) {
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
   add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
   add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
-  command.add_option("--metric", to.compare.metric, "path, state, exchange, energy, distribution or acf")
+  command
+      .add_option("--metric", to.compare.metric,
+                  "path, state, exchange, energy, acceptance, distribution or acf")
       ->capture_default_str();
   command.add_option("--observable", to.compare.observable,
                      "of path, distribution and acf [that of the system]");
   command.add_option("--range", to.range, "LOW,HIGH of the histogram [of the starts]");
   add_number(command, "--bins", to.compare.bins, "of the histogram");
   add_number(command, "--longest-lag", to.compare.longest_lag, "of the autocovariance, a time");
+  add_number(command, "--hmc-temperature", to.compare.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, to.compare.learning, "--learn-");
   command.add_option("--output", to.compare.output, "folder for tables and pictures");
   add_common(command, to.common);
@@ -216,6 +224,34 @@ void add_compare(CLI::App& app, typed& to) {
       "--metric state --json\n"
       "  nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --horizon 1 "
       "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric");
+}
+
+void add_recommend(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("recommend", "the best method at a cost, or for an error");
+  add_system(command, to.recommend.system);
+  add_bath(command, to.recommend.system);
+  add_starts_and_placement(command, to.recommend.system, to.recommend.placement);
+  add_number(command, "--budget", to.recommend.budget, "force evaluations per unit time");
+  add_number(command, "--error", to.recommend.error, "to stay below, at the least cost");
+  add_number(command, "--horizon", to.recommend.horizon, "length of each trajectory")
+      ->default_str("")
+      ->required();
+  add_number(command, "--trajectories", to.recommend.trajectories, "to rank on");
+  command.add_option("--metric", to.recommend.metric, "path, state, exchange, energy or acceptance")
+      ->capture_default_str();
+  command.add_option("--observable", to.recommend.observable, "of path [that of the system]");
+  add_number(command, "--hmc-temperature", to.recommend.hmc_temperature, "kT of the acceptance, an energy");
+  command.add_flag("--reversible", to.recommend.reversible, "symmetric methods alone");
+  command.add_option("--families", to.families, "to learn, joined by commas [all that suit]");
+  add_search(command, to.recommend.learning, "--learn-");
+  add_number(command, "--learn-horizon", to.recommend.learn_horizon,
+             "length of each [0.5, or ten steps if that is more]");
+  command.add_option("--output", to.recommend.output, "write the winner's scheme file");
+  add_common(command, to.common);
+  command.footer(
+      "Examples:\n"
+      "  nysalt recommend --system fpu --budget 80 --horizon 5 --output scheme.json\n"
+      "  nysalt recommend --system henon_heiles --error 1e-4 --horizon 10 --reversible");
 }
 
 void add_stability(CLI::App& app, typed& to) {
@@ -267,7 +303,18 @@ int run_parsed(const CLI::App& command, typed& to) {
     belongs("--range", {"distribution"});
     belongs("--bins", {"distribution"});
     belongs("--longest-lag", {"acf"});
+    belongs("--hmc-temperature", {"acceptance"});
     return compare(to.compare, to.common);
+  }
+  if (name == "recommend") {
+    to.recommend.families = split(to.families, "--families");
+    const auto belongs = [&](const char* option, const char* metric) {
+      if (!given(command, option) || to.recommend.metric == metric) return;
+      refuse("{} belongs to the metric {}, not to {}", option, metric, to.recommend.metric);
+    };
+    belongs("--observable", "path");
+    belongs("--hmc-temperature", "acceptance");
+    return recommend(to.recommend, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
   for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space",
@@ -327,6 +374,7 @@ int run_command_line(int argc, char** argv) {
   add_learn(app, to);
   add_run(app, to);
   add_compare(app, to);
+  add_recommend(app, to);
   add_stability(app, to);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +

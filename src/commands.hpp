@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The five subcommands. Each prints its results and returns the program's exit code.
+// The subcommands. Each prints its results and returns the program's exit code.
 #pragma once
 
 #include "settings.hpp"
@@ -14,6 +14,7 @@ int list(const common_settings& common);
 int learn(const learn_command& command, const common_settings& common);
 int run(const run_command& command, const common_settings& common);
 int compare(const compare_command& command, const common_settings& common);
+int recommend(const recommend_command& command, const common_settings& common);
 int stability(const stability_command& command, const common_settings& common);
 
 }  // namespace nysalt::program

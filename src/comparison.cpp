@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/analysis/timing.hpp"
+#include "seconds.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {
@@ -32,7 +33,7 @@ void comparison::learn_and_measure() {
 }
 
 bool comparison::has_result() const {
-  return std::any_of(rows_.begin(), rows_.end(), [](const row& its) { return !std::isnan(its.error.mean); });
+  return std::any_of(rows_.begin(), rows_.end(), [](const row& its) { return its.reason.empty(); });
 }
 
 void comparison::require_sound_command() const {
@@ -52,6 +53,7 @@ void comparison::require_sound_command() const {
   require_at_least_one("--trajectories", command_.trajectories);
   require_sound(command_.learning, "--learn-");
   if (is_statistical()) require_sound_statistics();
+  if (is_acceptance()) require_positive("--hmc-temperature", command_.hmc_temperature);
 }
 
 void comparison::plan_rows() {
@@ -82,14 +84,20 @@ void comparison::add_row(const method_source& source, double nominal) {
   row its{source.typed, nominal, step};
   const auto otherwise = placement_asked(command_.placement);
   int parts = 1;
+  bool symmetric = false;
   if (source.family) {
+    symmetric = family_named(*source.family).symmetric;
     steps_within("--learn-horizon", command_.learning.horizon, step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, command_.learning, step);
     if (where == placement::symmetric) parts = 2;
   } else {
     its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    symmetric = its.coefficients->symmetric;
     if (!is_statistical()) parts = noise_parts(*its.coefficients, *system_);
+  }
+  if (is_acceptance() && !symmetric && !system_->its_bath().acts()) {
+    refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method", source.typed);
   }
   system_->require_measure(command_.metric, command_.observable, plan_at(step), command_.learning.fine_step,
                            parts);
@@ -120,6 +128,8 @@ void comparison::measure_errors() {
   for (const auto& [step, group] : by_step) {
     if (is_statistical()) {
       measure_statistics_at(step, group);
+    } else if (is_acceptance()) {
+      measure_acceptance_at(step, group);
     } else {
       measure_at(step, group);
     }
@@ -138,6 +148,13 @@ std::vector<row*> comparison::usable(const std::vector<row*>& group, const traje
   }
   return result;
 }
+
+namespace {
+std::string all_diverged(const std::vector<diverged_trajectory>& all) {
+  const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
+  return fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+}
+}  // namespace
 
 void comparison::measure_at(double step, const std::vector<row*>& group) {
   const trajectories_plan plan = plan_at(step);
@@ -158,43 +175,32 @@ void comparison::measure_at(double step, const std::vector<row*>& group) {
     its.evaluations_per_time = found.methods[k].evaluations_per_time;
     its.diverged = found.methods[k].diverged;
     if (found.reference_error) its.reference_error = found.reference_error->mean;
-    if (its.diverged == plan.count) {
-      const auto& all = found.methods[k].diverged_at;
-      const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
-      its.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
-    }
+    if (its.diverged == plan.count) its.reason = all_diverged(found.methods[k].diverged_at);
   }
 }
 
-/// In turns, so that a machine that slows down slows all; each job is long enough for the clock, and all
-/// together take some seconds unless a single trajectory takes longer.
-void comparison::measure_seconds() {
-  constexpr double job = 1e-3;
-  constexpr double all_rounds = 4.0;
-  constexpr std::int64_t most_trajectories = 64;
-  shown_.part("timing");
-  std::vector<std::function<void()>> jobs;
-  std::vector<double> simulated;
-  double round = 0.0;
-  for (const auto& its : rows_) {
-    trajectories_plan plan = plan_at(its.step);
-    const double time = static_cast<double>(plan.steps) * its.step;
-    const double wanted = std::max(1.0, std::floor(1e5 / (its.evaluations_per_time * time)));
-    const double count = std::min(wanted, static_cast<double>(std::min(plan.count, most_trajectories)));
-    const std::int64_t lanes = system_->lanes();  // all of them full, as in a large ensemble
-    plan.count = (static_cast<std::int64_t>(count) + lanes - 1) / lanes * lanes;
-    const auto once = system_->timed_run(*its.coefficients, plan);
-    const double seconds = interleaved_seconds({once}, 1).front();
-    const double repeats = std::max(1.0, std::ceil(job / std::max(seconds, 1e-9)));
-    jobs.emplace_back([once, repeats] {
-      for (double n = 0.0; n < repeats; ++n) once();
-    });
-    simulated.push_back(time * static_cast<double>(plan.count) * repeats);
-    round += seconds * repeats;
+void comparison::measure_acceptance_at(double step, const std::vector<row*>& group) {
+  const trajectories_plan plan = plan_at(step);
+  for (row* its : usable(group, plan)) {
+    shown_.part(fmt::format("{} at step {:g}", its->method, its->nominal));
+    const auto found =
+        system_->acceptance(*its->coefficients, plan, command_.hmc_temperature, shown_.counter(plan.count));
+    its->error = found.probability;
+    its->evaluations_per_time = found.evaluations_per_time;
+    its->diverged = std::ssize(found.diverged_at);
+    if (its->diverged == plan.count) its->reason = all_diverged(found.diverged_at);
   }
-  const int rounds = static_cast<int>(std::clamp(all_rounds / round, 1.0, 15.0));
-  const auto seconds = interleaved_seconds(jobs, rounds);
-  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i] / simulated[i];
+}
+
+void comparison::measure_seconds() {
+  constexpr double all_rounds = 4.0;
+  shown_.part("timing");
+  std::vector<timed_method> methods;
+  for (const auto& its : rows_) {
+    methods.push_back({*its.coefficients, plan_at(its.step), its.evaluations_per_time});
+  }
+  const auto seconds = seconds_per_time(*system_, methods, all_rounds);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i];
 }
 
 /// A reference that errs like the method says nothing of it.

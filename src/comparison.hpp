@@ -27,7 +27,7 @@ struct row {
   std::string reason{};  // why there is no error
   double evaluations_per_time = 0.0;
   double seconds_per_time = 0.0;
-  estimate error{};
+  estimate error{};  // or, of the metric acceptance, the acceptance
   std::optional<double> reference_error{};
   std::int64_t diverged = 0;
   // Of the metrics distribution and acf.
@@ -63,6 +63,14 @@ class comparison {
   std::vector<row*> usable(const std::vector<row*>& group, const trajectories_plan& plan) const;
   void measure_seconds();
   void warn_of_reference();
+
+  bool is_acceptance() const { return command_.metric == "acceptance"; }
+  /// What the column of results is called.
+  std::string value_name() const { return is_acceptance() ? "acceptance" : "error"; }
+  bool is_better(const row& a, const row& b) const {
+    return is_acceptance() ? a.error.mean > b.error.mean : a.error.mean < b.error.mean;
+  }
+  void measure_acceptance_at(double step, const std::vector<row*>& group);
 
   bool is_statistical() const { return command_.metric == "distribution" || command_.metric == "acf"; }
   statistics_plan statistics_at(double step) const;

@@ -13,6 +13,7 @@ std::string comparison::quantity() const {
   if (command_.metric == "path") return "path error of " + command_.observable;
   if (command_.metric == "distribution") return "total variation of " + command_.observable;
   if (command_.metric == "acf") return "acf error of " + command_.observable;
+  if (is_acceptance()) return fmt::format("acceptance at kT = {:g}", command_.hmc_temperature);
   return command_.metric + " error";
 }
 
@@ -29,7 +30,9 @@ std::vector<work_precision_row> comparison::work_precision_rows() const {
 std::string comparison::at_equal_cost(bool markdown) const {
   if (!command_.equal_cost) return {};
   const auto is_learned = [&](const row& its) { return families_.contains(its.method); };
-  table result({"at equal cost", "step", "error", "best of the others", "its error", "its error / learned"});
+  const std::string value = value_name();
+  table result({"at equal cost", "step", value, "best of the others", "its " + value,
+                is_acceptance() ? "its rejections / learned" : "its error / learned"});
   bool any = false;
   for (const auto& its : rows_) {
     if (!is_learned(its)) continue;
@@ -37,15 +40,18 @@ std::string comparison::at_equal_cost(bool markdown) const {
     for (const auto& other : rows_) {
       const bool stays = other.diverged == 0 && !std::isnan(other.error.mean);
       if (is_learned(other) || other.nominal != its.nominal || !stays) continue;
-      if (best == nullptr || other.error.mean < best->error.mean) best = &other;
+      if (best == nullptr || is_better(other, *best)) best = &other;
     }
     if (best == nullptr) continue;
     any = true;
     const auto number = [](const char* format, double x) {
       return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
     };
-    result.add({its.method, number("{:g}", its.nominal), number("{:.2e}", its.error.mean), best->method,
-                number("{:.2e}", best->error.mean), number("{:.2g}", best->error.mean / its.error.mean)});
+    const char* format = is_acceptance() ? "{:.4f}" : "{:.2e}";
+    const double gain = is_acceptance() ? (1.0 - best->error.mean) / (1.0 - its.error.mean)
+                                        : best->error.mean / its.error.mean;
+    result.add({its.method, number("{:g}", its.nominal), number(format, its.error.mean), best->method,
+                number(format, best->error.mean), number("{:.2g}", gain)});
   }
   return !any ? std::string() : markdown ? result.markdown() : result.text();
 }
@@ -59,7 +65,7 @@ json comparison::document() const {
                     {"step_size", its.step},
                     {"evaluations_per_time", its.evaluations_per_time},
                     {"seconds_per_time", its.seconds_per_time},
-                    {"error", its.error.mean},
+                    {value_name(), its.error.mean},
                     {"standard_error", its.error.standard_error},
                     {"diverged", its.diverged},
                     {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)}});
@@ -87,6 +93,7 @@ json comparison::document() const {
               {"fits", fits_},
               {"warnings", warnings_}};
   if (bins_) result["histogram"] = {{"low", bins_->low}, {"high", bins_->high}, {"bins", bins_->count}};
+  if (is_acceptance()) result["hmc_temperature"] = command_.hmc_temperature;
   if (command_.metric == "acf") result["longest_lag"] = command_.longest_lag;
   return result;
 }
@@ -101,7 +108,7 @@ std::string comparison::readable() const {
                         used["error"].get<double>());
   }
   if (command_.equal_cost) text += "\nsteps are per force evaluation: equal steps, equal cost";
-  text += "\n\n" + work_precision_table(work_precision_rows()).text();
+  text += "\n\n" + work_precision_table(work_precision_rows(), value_name()).text();
   for (const auto& its : rows_) {
     if (!its.reason.empty())
       text += fmt::format("{} at step {:g}: {}\n", its.method, its.nominal, its.reason);
@@ -113,10 +120,10 @@ std::string comparison::readable() const {
 void comparison::write(const std::filesystem::path& folder) const {
   const auto rows = work_precision_rows();
   make_folder(folder);
-  write_result(folder / "table.md", work_precision_table(rows).markdown() + "\n" + at_equal_cost(true),
-               common_);
-  std::vector<std::string> columns{"method",           "step",  "step_size",      "evaluations_per_time",
-                                   "seconds_per_time", "error", "standard_error", "diverged"};
+  write_result(folder / "table.md",
+               work_precision_table(rows, value_name()).markdown() + "\n" + at_equal_cost(true), common_);
+  std::vector<std::string> columns{"method",           "step",       "step_size",      "evaluations_per_time",
+                                   "seconds_per_time", value_name(), "standard_error", "diverged"};
   if (is_statistical()) columns.emplace_back("floor");
   table all(columns);
   for (const auto& its : rows_) {
@@ -136,13 +143,14 @@ void comparison::write(const std::filesystem::path& folder) const {
   const auto learned =
       std::ranges::find_if(rows_, [&](const row& its) { return families_.contains(its.method); });
   const std::string emphasised = learned == rows_.end() ? "" : learned->method;
-  figure evaluations{"error_against_evaluations",
+  figure evaluations{value_name() + "_against_evaluations",
                      {work_precision_panel(rows, emphasised, "force evaluations per unit time",
                                            &work_precision_row::evaluations_per_time)}};
-  figure seconds{"error_against_seconds",
+  figure seconds{value_name() + "_against_seconds",
                  {work_precision_panel(rows, emphasised, "seconds per unit time",
                                        &work_precision_row::seconds_per_time)}};
   evaluations.panels[0].y_label = seconds.panels[0].y_label = quantity();
+  evaluations.panels[0].linear_y = seconds.panels[0].linear_y = is_acceptance();
   for (const auto& picture : {evaluations, seconds}) write_pictures(picture, folder, common_);
   for (const auto& picture : pictures_of_statistics()) write_pictures(picture, folder, common_);
 }

@@ -99,7 +99,7 @@ json fit_json(const fit_summary& fit) {
           {"step", fit.step},
           {"objective", fit.loss_name},
           {"loss", fit.loss},
-          {"held_out_loss", fit.held_out_loss},
+          {"held_out_loss", fit.is_of_data ? json(fit.held_out_loss) : json(nullptr)},
           {"one_step_error", fit.one_step_error},
           {"trajectory_error", fit.trajectory_error},
           {"samples", fit.samples},

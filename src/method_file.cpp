@@ -146,6 +146,9 @@ scheme scheme_in(const json& document, const reader& read) {
     if (!(steps[n] > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), steps[n]);
     if (n > 0 && !(steps[n - 1] < steps[n])) refuse("{}: \"steps\" must rise", read.file());
   }
+  if (is_curve && document.contains("step")) {
+    refuse("{}: it has both \"step\" and \"steps\": one is not meant", read.file());
+  }
   if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
   const reader of_system(read.member("system"), read.file());
   return in_file(read.file(), [&] {
@@ -226,7 +229,11 @@ tabulated table_in(const json& document, const reader& read) {
 tabulated scheme::at(double step) const {
   const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
   const run_time_family its = placed(family, where);
-  const Eigen::VectorXd theta = curve.at(inside);
+  Eigen::VectorXd theta = curve.at(inside);
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {  // a curve may swing beyond a bound that is attained
+    const auto& [low, high, open] = its.ranges[static_cast<std::size_t>(k)];
+    if (!open) theta[k] = std::clamp(theta[k], low, high);
+  }
   require_in_range(its, theta);
   return tabulated(its.name, its.letters, its.coefficients(theta),
                    {its.order, its.symmetric, its.requires_quadratic_kinetic});
@@ -269,29 +276,31 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const bundle
     energies->include(one.energies->low);
     energies->include(one.energies->high);
   }
-  json document{{"format", scheme_format},
-                {"version", is_curve     ? as_curve
-                            : plan.where ? with_placement
-                                         : known_version},
-                {"family", fit.family},
-                {"parameters", by_parameter(&fitted_parameter::value)},
-                {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
-                {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
-                {"system", of_system},
-                {"energy_range", nullptr},
-                {"objective", fit.loss_name},
-                {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
-                {"held_out_loss", at_steps([](const fit_summary& one) { return one.held_out_loss; })},
-                {"usable", not_usable == learned.end()},
-                {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
-                {"coordinates", fit.coordinates},
-                {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
-                {"starts", fit.ensemble},
-                {"trajectories", fit.trajectories},
-                {"horizon", plan.how.horizon},
-                {"seed", fit.seed},
-                {"held_out_seed", fit.held_out_seed},
-                {"versions", {{"nysalt", version}}}};
+  json document{
+      {"format", scheme_format},
+      {"version", is_curve     ? as_curve
+                  : plan.where ? with_placement
+                               : known_version},
+      {"family", fit.family},
+      {"parameters", by_parameter(&fitted_parameter::value)},
+      {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
+      {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
+      {"system", of_system},
+      {"energy_range", nullptr},
+      {"objective", fit.loss_name},
+      {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
+      {"held_out_loss",
+       fit.is_of_data ? at_steps([](const fit_summary& one) { return one.held_out_loss; }) : json(nullptr)},
+      {"usable", not_usable == learned.end()},
+      {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
+      {"coordinates", fit.coordinates},
+      {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
+      {"starts", fit.ensemble},
+      {"trajectories", fit.trajectories},
+      {"horizon", plan.how.horizon},
+      {"seed", fit.seed},
+      {"held_out_seed", fit.held_out_seed},
+      {"versions", {{"nysalt", version}}}};
   if (energies) document["energy_range"] = {energies->low, energies->high};
   if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);

@@ -78,15 +78,28 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
 
 namespace {
 
+/// Between learned steps nobody has asked yet whether the method is stable.
+tabulated from_scheme(const method_source& source, const bundled_system& system, double step, bool force) {
+  const tabulated method = source.learned->at(step);
+  if (source.learned->is_learned_at(step) || force) return method;
+  const std::string objection =
+      system.guard(has_rotation(method.letters())).objection(method.letters(), method.coefficients(), step);
+  if (!objection.empty()) {
+    refuse("{}: between its learned steps, at {}: {}; learn it there, or take --force", source.typed, step,
+           objection);
+  }
+  return method;
+}
+
 tabulated found_at(const method_source& source, const bundled_system& system, double step, bool force,
                    std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     const std::string why = out_of_place(*source.learned, system, step);
-    if (why.empty()) return source.learned->at(step);
+    if (why.empty()) return from_scheme(source, system, step, force);
     if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
-    return source.learned->at(step);
+    return from_scheme(source, system, step, force);
   }
   if (source.is_adaptive()) {
     const auto fastest = highest_frequency(system);
@@ -129,7 +142,13 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 
 void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
                          double step, std::vector<std::string>& warnings) {
-  if (has_rotation(method.letters())) return;  // exact at all frequencies of the quadratic part
+  if (has_rotation(method.letters())) {
+    const auto objection = system.guard(true).objection(method.letters(), method.coefficients(), step);
+    if (!objection.empty()) {
+      warnings.push_back(fmt::format("{} at step {:g}: {}", source.typed, step, objection));
+    }
+    return;
+  }
   const auto windows = stability_of(method);
   for (const auto& [low, high] : system.frequency_bands()) {
     if (is_stable(windows, step * low, step * high)) continue;

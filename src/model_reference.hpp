@@ -72,6 +72,14 @@ class model_reference {
     f(fine_steps<>(*fine));
   }
 
+  /// To rank methods by errors far above rounding: srkn11b at ten times the step leaves little more, and what
+  /// it leaves is measured. Nothing where the usual one is wanted.
+  std::optional<double> fine_step_for_ranking(double step) const {
+    if (is_exact() || system_->bath().acts()) return std::nullopt;
+    constexpr double angle = 0.05;
+    return fine_step_within(step, {}, angle / fastest());
+  }
+
   /// For statistics alone: their bias by BAOAB is of second order, and the floor of sampling is high. A tenth
   /// of the step at most, or a small step would be compared with itself.
   double fine_step_for_statistics(double step, std::optional<double> asked) const {
@@ -79,9 +87,10 @@ class model_reference {
     return fine_step_within(step, asked, std::min(angle / fastest(), 0.1 * step));
   }
 
+  double fastest() const { return std::max(frequency_, system_->bath().friction()); }
+
  private:
   bool is_exact() const { return has_exact_flow<S> && !system_->bath().acts(); }
-  double fastest() const { return std::max(frequency_, system_->bath().friction()); }
 
   const in_bath<S>* system_;
   double frequency_;

@@ -86,7 +86,25 @@ struct compare_command {
   std::string observable;
   std::vector<double> range;  // of the histogram; empty: that of the starts
   std::int64_t bins = 100;
-  double longest_lag = 1.0;  // of the autocovariance, a time
+  double longest_lag = 1.0;      // of the autocovariance, a time
+  double hmc_temperature = 1.0;  // kT of the acceptance
+  std::string output;
+};
+
+struct recommend_command {
+  system_settings system;
+  learn_settings learning;
+  std::optional<double> learn_horizon;
+  std::vector<std::string> families;  // empty: all that suit
+  std::string placement;
+  std::optional<double> budget;  // evaluations per unit time
+  std::optional<double> error;
+  double horizon = 0.0;
+  std::int64_t trajectories = 100;
+  std::string metric = "state";
+  std::string observable;
+  double hmc_temperature = 1.0;
+  bool reversible = false;
   std::string output;
 };
 

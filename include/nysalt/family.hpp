@@ -29,6 +29,10 @@ struct parameter_range {
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
+/// Where a family has no bounds of its own: beyond it coefficients of opposite sign leave less than half of
+/// their digits of each other. A search that ends here has found nothing.
+inline constexpr double farthest_parameter = 4.0;
+
 /// A classical method that a family contains.
 template <int Parameters>
 struct classical_member {
@@ -48,7 +52,8 @@ using theta_dual = dual<double, F::parameters>;
 ///   letters()                                      where the word is a run_time_word
 /// All but the last two are static; these may be, or depend on what the family is told when it is made.
 /// And, if wanted, further points from which a search begins: classical_members(), and further_starts(),
-/// thetas without a name.
+/// thetas without a name; and refuge(), the member that is stable farthest, for steps at which the others are
+/// not.
 template <class F>
 concept Family = std::copyable<F> && Word<typename F::word> &&
     requires(const F& family, const parameters_of<F>& theta,

@@ -2,6 +2,7 @@
 // All of nysalt but the learner (which needs Ceres) and what needs Boost.Odeint.
 #pragma once
 
+#include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/acf_error.hpp"
 #include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/convergence_order.hpp"

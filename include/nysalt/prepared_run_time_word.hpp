@@ -14,8 +14,8 @@
 
 namespace nysalt {
 
-/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined where
-/// it is used: each scalar is compiled once, and a call costs little beside the decisions.
+/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined
+/// where it is used: each scalar is compiled once, and a call costs little beside the decisions.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
@@ -65,7 +65,7 @@ class prepared_word<run_time_word, C, N> {
   }
   template <class T, System S>
   [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
-                                      auto& cursor) const {
+                                 auto& cursor) const {
     for (std::int64_t n = 1; n <= steps; ++n) {
       if (halves_meet_) cross(system, x, cursor);
       for (const auto& letter : n < steps ? loop_ : last_) apply(system, letter, x, cursor);
@@ -117,15 +117,15 @@ class prepared_word<run_time_word, C, N> {
 
   template <class T, System S>
   [[gnu::noinline]] void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
-    if constexpr (HasQuadraticPart<S>) {
+    if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
       if (reads_soft_) return force_of<field::soft, T>(system, x.q, x.f);
     }
     force<T>(system, x.q, x.f);
   }
 
   template <class T, System S>
-  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l,
-                                    flow_state<T, S::dimension>& x, auto& cursor) const {
+  [[gnu::always_inline]] void apply(const S& system, const prepared_letter& l, flow_state<T, S::dimension>& x,
+                                    auto& cursor) const {
     if (l.evaluates == evaluation::shared) evaluate<T>(system, x);
     detail::with_letter(
         l.letter, known_letters{}, [&](auto flow) __attribute__((always_inline)) {

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,10 @@ class run_time_family {
             {std::string(known.name), Eigen::Map<const Eigen::VectorXd>(known.theta.data(), F::parameters)});
       }
     }
+    if constexpr (requires { F::refuge(); }) {
+      const auto theta = F::refuge();
+      refuge = Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters);
+    }
     if constexpr (requires { F::further_starts(); }) {
       for (const auto& theta : F::further_starts()) {
         starts.push_back({"further start", Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters)});
@@ -58,7 +63,8 @@ class run_time_family {
   std::string name;
   std::vector<std::string> parameter_names;
   std::vector<parameter_range> ranges;
-  std::vector<named_parameters> starts;  // the family's own, its classical members, further ones
+  std::optional<Eigen::VectorXd> refuge;  // the member that is stable farthest
+  std::vector<named_parameters> starts;   // the family's own, its classical members, further ones
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;

@@ -15,7 +15,9 @@ namespace nysalt {
 namespace detail {
 constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
-    "nysalt/system.hpp, or with_quadratic_part(system, stiffness)";
+    "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "
+    "are "
+    "learned or H is among them";
 constexpr const char* needs_quadratic_kinetic =
     "the letter G needs a quadratic kinetic energy, and a force that can be differentiated";
 

@@ -92,7 +92,8 @@ class stepper {
   }
 
   /// THE loop. Cost: steps times the word's evaluations_per_step, and a normal number for each momentum and
-  /// letter O. Allocates nothing that the force does not; with noise, one vector if its size is dynamic.
+  /// letter O. Allocates nothing that the force does not; of a dynamic size, one vector
+  /// with noise and a few for the letters G, R, H.
   /// Throws std::invalid_argument if steps < 0. If the force throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
@@ -196,10 +197,9 @@ class stepper {
   /// Throws std::invalid_argument if the system does not serve a letter; of a type-level word that is told
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
-    using T = std::conditional_t<std::is_same_v<C, double>, double, C>;
     surroundings_of_word result;
     if constexpr (HasBath<S>) result.its_bath = &static_cast<const bath&>(system.bath());
-    require_served<S, T>(word, system);
+    require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {
       if (has_rotation(word)) result.part = quadratic_part::of(system);
     }

@@ -6,9 +6,8 @@
 //   template <class T> void force(const vector<T, N>& q, vector<T, N>& f) const;      f = -grad V
 //   void force(const vector<double, N>& q, vector<double, N>& f) const;               a black box
 // and, if wanted,
-//   void force_derivative(q, v, g) const;                          g = f'(q) v, over double or any scalar;
-//   else
-//                                          by dual numbers, and of a black box by central differences
+//   void force_derivative(q, v, g) const;                          g = f'(q) v, over double or any scalar
+//                                          (else by dual numbers, of a black box by central differences)
 //   template <class T, class C> void kick(const vector<T, N>& q, vector<T, N>& p, const C& c) const;
 //                                          p += c force(q) without storing the force, each p[i] += f[i] * c;
 //                                          written in the class of the force, or below

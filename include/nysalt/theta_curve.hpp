@@ -16,7 +16,7 @@
 namespace nysalt {
 
 /// theta(step) through learned points: at a point what was learned there, between two of them the polynomial
-/// through the four nearest, and nothing beyond the first and the last.
+/// through two on either side, and nothing beyond the first and the last.
 class theta_curve {
  public:
   /// Throws std::invalid_argument unless there is a theta for each step, all as long and finite, and the
@@ -25,7 +25,8 @@ class theta_curve {
       : steps_(std::move(steps)), thetas_(std::move(thetas)) {
     bool sound = !steps_.empty() && steps_.size() == thetas_.size();
     for (std::size_t k = 0; sound && k < steps_.size(); ++k) {
-      sound = std::isfinite(steps_[k]) && (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] < steps_[k]) &&
+      sound = std::isfinite(steps_[k]) &&
+              (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] * (1.0 + 2.0 * met) < steps_[k]) &&
               thetas_[k].allFinite() && thetas_[k].size() == thetas_[0].size();
     }
     if (sound) return;
@@ -38,6 +39,11 @@ class theta_curve {
   /// To 1e-9 relative, as steps are typed in decimals.
   bool covers(double step) const {
     return steps_.front() * (1.0 - met) <= step && step <= steps_.back() * (1.0 + met);
+  }
+
+  /// Whether it was learned there, and not between.
+  bool has(double step) const {
+    return std::any_of(steps_.begin(), steps_.end(), [&](double s) { return std::abs(step - s) <= met * s; });
   }
 
   /// Throws std::invalid_argument where it does not cover the step.

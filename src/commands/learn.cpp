@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <cmath>
 
 #include "../bundled_system.hpp"
 #include "../checks.hpp"
@@ -53,7 +54,8 @@ int learn(const learn_command& command, const common_settings& common) {
   for (const double step : steps) {
     require_positive(command.step ? "--step" : "--steps", step);
     steps_within("--horizon", command.learning.horizon, step);
-    if (std::count(steps.begin(), steps.end(), step) > 1) refuse("--steps names {} twice", step);
+    const auto is_same = [&](double other) { return std::abs(other - step) <= 1e-8 * step; };
+    if (std::count_if(steps.begin(), steps.end(), is_same) > 1) refuse("--steps names {} twice", step);
   }
   require_sound(command.learning, "--");
   const auto system = make_system(command.system);

@@ -185,6 +185,22 @@ BOOST_AUTO_TEST_CASE(a_negative_energy_is_as_good) {
   BOOST_TEST(error_of(measure, seen, start) == 0.25, near);
 }
 
+// Of the same mean and standard error as the whole, to rounding: also where that is a root.
+BOOST_AUTO_TEST_CASE(an_error_is_the_mean_of_its_parts) {
+  const std::vector<double> scores{0.5, NAN, 2.0, 0.25, 1.0};
+  const auto check = [&](const auto& measure) {
+    const auto parts = measure.parts(scores);
+    const estimate whole = measure.average(scores);
+    BOOST_TEST(mean_and_error(parts).mean == whole.mean, near);
+    BOOST_TEST(mean_and_error(parts).standard_error == whole.standard_error, near);
+    BOOST_TEST(std::isnan(parts[1]));
+    return parts;
+  };
+  BOOST_TEST(check(position)[2] == 2.0);
+  BOOST_TEST(check(energy_measure(oscillator))[2] < 1.9);  // not its root, and not itself
+  BOOST_TEST(energy_measure(oscillator).parts(std::vector<double>{0.0, 0.0})[1] == 0.0);
+}
+
 // Lane 1 is lost at the third sample; lane 2 holds nothing that counts; the others go on.
 BOOST_AUTO_TEST_CASE(a_sum_tells_where_which_lane_was_lost) {
   error_sum errors(position);

@@ -51,6 +51,23 @@ BOOST_AUTO_TEST_CASE(the_error_is_that_of_the_mean) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_two_share_of_chance_cancels) {
+  draws random;
+  numbers a;
+  numbers b;
+  for (int i = 0; i < 50; ++i) {
+    const double shared = random.uniform(-1.0, 1.0);
+    a.push_back(shared + 0.25);
+    b.push_back(shared);
+  }
+  BOOST_TEST(paired_difference(a, b).mean == 0.25, boost::test_tools::tolerance(50 * eps));
+  BOOST_TEST(paired_difference(a, b).standard_error <= 50 * eps);
+  BOOST_TEST(mean_and_error(a).standard_error > 0.05);
+  b[3] = NAN;
+  b[4] += 1.0;
+  BOOST_TEST(paired_difference(a, b).mean == 0.25 - 1.0 / 49.0, boost::test_tools::tolerance(50 * eps));
+}
+
 BOOST_AUTO_TEST_CASE(the_slope_of_a_line_is_its_slope) {
   draws random;
   numbers x;

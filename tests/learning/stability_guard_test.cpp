@@ -182,7 +182,7 @@ stability_guard guard_of_rotations(std::int64_t steps = 10'000) {
   const fpu_law law(chain);
   std::vector<phase_point<double, 6>> states;
   for (std::uint64_t n = 0; n < 20; ++n) states.push_back(law(1, n));
-  return {with_quadratic_part(chain, stiff), states, steps};
+  return {with_quadratic_part(chain, stiff), states, true, steps};
 }
 
 const run_time_word impulse("RSR");

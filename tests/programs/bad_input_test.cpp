@@ -29,8 +29,8 @@ BOOST_AUTO_TEST_CASE(the_beginnings_are_sound) {
 
 BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
   all_refused({
-      {"nosuch", {"'nosuch'", "list, learn, run, compare, stability"}},
-      {"--nosuch", {"'--nosuch'", "list, learn, run, compare, stability"}},
+      {"nosuch", {"'nosuch'", "list, learn, run, compare, recommend, stability"}},
+      {"--nosuch", {"'--nosuch'", "list, learn, run, compare, recommend, stability"}},
       {"'' list", {"''"}},
       {"list learn", {"'learn'", "nysalt list"}},
       {"list --nosuch 3", {"'--nosuch'", "--seed"}},
@@ -183,7 +183,18 @@ BOOST_AUTO_TEST_CASE(parameters_of_a_family) {
 
 BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_or_are_missing) {
   all_refused({
-      {"learn", {"--step", "required"}},
+      {"learn --step 0.02 --steps 0.01,0.02", {"--step", "--steps", "not both"}},
+      {"learn --steps 0.01,0.01", {"--steps", "0.01", "twice"}},
+      {"learn --steps 0.01,-0.02", {"--steps", "positive"}},
+      {"learn --step 0.02 --loss states", {"unknown loss", "state:K"}},
+      {"learn --step 0.02 --loss state:0", {"unknown loss", "state:0"}},
+      {"learn --step 0.2 --loss state:3", {"3 steps", "longer horizon"}},
+      {"learn --step 0.02 --loss covariance", {"covariance", "--friction"}},
+      {"learn --step 0.02 --random-starts -1", {"--random-starts", "-1"}},
+      {"learn --step 0.02 --system pendulum --family r_aba4", {"R, S, H", "quadratic part"}},
+      {"run --method impulse --step 0.02 --horizon 1 --system kepler", {"R, S, H", "quadratic part"}},
+      {"stability --method impulse", {"rotates"}},
+      {"learn", {"--step", "--steps", "not both"}},
       {"learn --step", {"--step"}},
       {"run --step 0.1 --horizon 1", {"--method", "required"}},
       {"compare --methods verlet", {"--steps", "required"}},
@@ -276,7 +287,7 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
                           {"learn --config unknown.toml", {"'nosuch'", "--fine-step"}},
                           {"learn --config section.toml", {"[nosuch]", "list, learn"}},
                           {"learn --config deep.toml", {"[nosuch]"}},
-                          {"learn --config other.toml", {"--step", "required"}},
+                          {"learn --config other.toml", {"--step", "not both"}},
                           {"learn --config broken.toml", {"step"}},
                           {"learn --config text.toml", {"--step", "'abc'"}},
                           {"learn --config negative.toml", {"--step", "positive"}},
@@ -285,7 +296,7 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
                           {"learn --config twice.toml", {"line 2", "twice"}},
                           {"learn --config flag.toml", {"--json", "maybe"}},
                           {"learn --config itself.toml", {"'config'"}},
-                          {"learn --config empty.toml", {"--step", "required"}},
+                          {"learn --config empty.toml", {"--step", "not both"}},
                           {"learn --config binary.toml", {"--config"}},
                       });
 }

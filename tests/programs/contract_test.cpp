@@ -40,8 +40,9 @@ std::string shape(const json& object) {
 }
 
 const std::string of_a_fit =
-    "family:text parameters:object standard_errors:object step:number loss:number held_out_loss:number "
-    "samples:integer usable:flag reason:null seconds:number data_seconds:number fit_seconds:number "
+    "family:text parameters:object standard_errors:object step:number objective:text loss:number "
+    "held_out_loss:number one_step_error:number trajectory_error:number samples:integer usable:flag "
+    "reason:null seconds:number data_seconds:number fit_seconds:number "
     "learning_evaluations:integer";
 
 /// Both command lines end well and print the same, times aside.
@@ -74,7 +75,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   }
   for (const auto& family : all["families"]) {
     BOOST_TEST(shape(family) ==
-               "name:text letters:text order:integer evaluations_per_step:integer parameters:list");
+               "name:text letters:text order:integer symmetric:flag evaluations_per_step:integer "
+               "parameters:list");
     for (const auto& parameter : family["parameters"])
       BOOST_TEST(shape(parameter) == "name:text low:number high:number open:flag");
   }
@@ -86,8 +88,9 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   };
   BOOST_TEST(names("systems") ==
              "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 ");
-  BOOST_TEST(names("families") == "nystrom ");
-  BOOST_TEST(names("metrics") == "path state exchange energy distribution acf ");
+  BOOST_TEST(names("families") ==
+             "nystrom aba4 aba5 aba6 bab4 bab6 aba3_free aba4_free fg_chin fg4 r_aba2 r_aba4 r_aba6 r_fg4 ");
+  BOOST_TEST(names("metrics") == "path state exchange energy acceptance distribution acf ");
   BOOST_TEST(
       names("methods") ==
       "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 forest_ruth pefrl mclachlan_atela4 mclachlan5 "
@@ -97,11 +100,13 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
   const auto fit = document("learn --step 0.02 --trajectories 4");
-  BOOST_TEST(shape(fit) == of_a_fit +
-                               " system:text coordinates:text held_out_samples:integer trajectories:integer "
-                               "one_step_error:number reference:text reference_error:number condition:number "
-                               "flat_directions:list dropped_coordinates:list iterations:integer starts:text "
-                               "energy_range:list seed:integer placement:null output:null");
+  BOOST_TEST(shape(fit) ==
+             of_a_fit +
+                 " system:text coordinates:text held_out_samples:integer trajectories:integer "
+                 "reference:text reference_error:number condition:number "
+                 "flat_directions:list dropped_coordinates:list iterations:integer "
+                 "starts_tried:integer in_valley:flag guard:text held_by_guard:flag unguarded:null "
+                 "gaps:list starts:text energy_range:list seed:integer placement:null output:null");
   BOOST_TEST(shape(fit["parameters"]) == "b1:number beta1:number");
   BOOST_TEST(shape(fit["standard_errors"]) == "b1:number beta1:number");
   BOOST_TEST(fit["samples"] == 100);  // 4 trajectories of 25 steps

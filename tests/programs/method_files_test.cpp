@@ -184,7 +184,8 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
     std::vector<std::string> words;
   };
   const std::vector<change> changes{
-      {[](json& s) { s["version"] = 3; }, {"version 3", "newer"}},
+      {[](json& s) { s["version"] = 4; }, {"version 4", "newer"}},
+      {[](json& s) { s["version"] = 3; }, {"no version 3", "without several steps"}},
       {[](json& s) { s["version"] = 0; }, {"version 0"}},
       {[](json& s) { s["version"] = "1"; }, {"\"version\"", "number"}},
       {[](json& s) { s.erase("version"); }, {"\"version\"", "missing"}},
@@ -201,7 +202,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
       {[](json& s) {
          s["parameters"] = {0.5, 0.4};
        },
-       {"\"b1\""}},
+       {"\"parameters\"", "object"}},
       {[](json& s) { s.erase("parameters"); }, {"\"parameters\"", "missing"}},
       {[](json& s) { s["step"] = -0.02; }, {"\"step\"", "positive"}},
       {[](json& s) { s["step"] = 0; }, {"\"step\"", "positive"}},

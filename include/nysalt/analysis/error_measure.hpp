@@ -57,6 +57,18 @@ struct error_measure {
     return {root, mean.standard_error / (2.0 * root)};
   }
 
+  /// What each trajectory has in that error: numbers of which it is the mean, and whose scatter makes its
+  /// standard error (linearised about the mean where it is a root). On the same trajectories two methods
+  /// differ by the mean of the differences of theirs.
+  std::vector<double> parts(std::span<const double> scores) const {
+    std::vector<double> result(scores.begin(), scores.end());
+    const double mean = mean_and_error(scores).mean;
+    if (how != averaging::root_of_all || mean == 0.0) return result;
+    const double root = std::sqrt(mean);
+    for (double& x : result) x = root + (x - mean) / (2.0 * root);
+    return result;
+  }
+
   std::vector<T> numbers_of(const phase_point<T, N>& x) const {
     std::vector<T> result(width);
     read(x, result);

@@ -21,6 +21,7 @@ struct method_error {
   std::int64_t diverged = 0;                     // trajectories
   std::vector<diverged_trajectory> diverged_at;  // in their order
   double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
+  std::vector<double> of_each{};                 // what each trajectory has in the error; NaN if it diverged
 };
 
 /// From the runs of all trajectories, in their order. What a run cost is counted elsewhere.
@@ -34,6 +35,7 @@ method_error error_of_runs(const std::vector<run_score>& runs, const error_measu
   }
   result.diverged = std::ssize(result.diverged_at);
   result.error = measure.average(scores);
+  result.of_each = measure.parts(scores);
   return result;
 }
 

@@ -32,6 +32,14 @@ inline estimate mean_and_error(std::span<const double> samples) {
   return {mean, std::sqrt(variance / n)};
 }
 
+/// Mean of a_i - b_i, of the same trajectory i each: what both share of chance cancels. Pairs in which one is
+/// NaN do not count.
+inline estimate paired_difference(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> differences(a.begin(), a.end());
+  for (std::size_t i = 0; i < a.size(); ++i) differences[i] -= b[i];
+  return mean_and_error(differences);
+}
+
 /// Slope of the least-squares line through (x_i, y_i).
 inline double slope(std::span<const double> x, std::span<const double> y) {
   const double mean_x = mean_and_error(x).mean;

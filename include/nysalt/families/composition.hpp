@@ -9,9 +9,8 @@
 
 namespace nysalt {
 
-/// What a family is unless it says otherwise: parameters theta1, theta2, ... between -4 and 4, where large
-/// coefficients of opposite sign still leave ten digits or more of each other; of order 1, not symmetric, for
-/// any kinetic energy. A family of one's own adds
+/// What a family is unless it says otherwise: parameters theta1, theta2, ... between -4 and 4; of order 1,
+/// not symmetric, for any kinetic energy. A family of one's own adds
 ///   using word = ...;  static constexpr std::string_view name = ...;  start();  coefficients(theta)
 template <int Parameters>
 struct composition {
@@ -36,7 +35,7 @@ struct composition {
 
   static std::array<parameter_range, count> ranges() {
     std::array<parameter_range, count> all;
-    all.fill({-4.0, 4.0, false});
+    all.fill({-farthest_parameter, farthest_parameter, false});
     return all;
   }
 };

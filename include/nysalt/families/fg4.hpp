@@ -23,6 +23,9 @@ struct gradient_composition : composition<3> {
   /// Chin's method 4A, where a = 0.
   static std::array<double, 3> start() { return {0.0, 1.0 / 6.0, 1.0 / 72.0}; }
 
+  /// Three equal steps of drift-kick-drift.
+  static std::array<double, 3> refuge() { return {1.0 / 6.0, 1.0 / 3.0, 0.0}; }
+
   template <Scalar C>
   static std::array<C, 8> coefficients(const std::array<C, 3>& theta) {
     const auto& [a, b, c] = theta;

@@ -29,6 +29,9 @@ struct nystrom {
   /// The optimum at small steps: beta1 = (1 - a)/2 with McLachlan's a [mclachlan_1995].
   static std::array<double, 2> start() { return {0.5, 0.5 * (1.0 - 0.19318332750378357396)}; }
 
+  /// Two equal steps of drift-kick-drift.
+  static std::array<double, 2> refuge() { return {0.5, 0.375}; }
+
   template <Scalar C>
   static std::array<C, 5> coefficients(const std::array<C, 2>& theta) {
     const C& b1 = theta[0];

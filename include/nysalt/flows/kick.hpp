@@ -16,7 +16,8 @@ struct kick_of {
   static constexpr bool additive = true;
 
   template <System S, Scalar T>
-  static constexpr bool serves = Field == field::whole || HasQuadraticPart<S>;
+  static constexpr bool serves = Field == field::whole ||
+                                 (HasQuadraticPart<S> && ForceOver<S, T, field::soft>);
 
   template <Scalar C>
   static C prepare(const C& c, double h) {

@@ -50,6 +50,7 @@ struct fit_summary {
   std::string guard;              // on which frequencies stability was asked for
   std::string unguarded;          // what the guard had against the optimum; empty: nothing
   bool is_in_valley = false;      // further iterations hardly lower the loss: other parameters do as well
+  bool is_at_no_bound = true;     // false: a search ended at farthest_parameter
   bool is_held_by_guard = false;  // no minimum was admitted: this is as far as the guard lets go
   struct gap {
     double low;
@@ -72,7 +73,9 @@ struct fit_summary {
     std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
     for (const auto& p : parameters) {
       text += fmt::format(" {} = {:.6f}", p.name, p.value);
-      text += p.free ? fmt::format(" +- {:.1e}", p.standard_error) : " (fixed)";
+      text += p.free             ? fmt::format(" +- {:.1e}", p.standard_error)
+              : is_held_by_guard ? " (held)"
+                                 : " (fixed)";
     }
     text +=
         fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
@@ -84,7 +87,9 @@ struct fit_summary {
     std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
     for (const auto& p : parameters) {
       text += fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
-                          p.free ? fmt::format("  +- {:.2e}", p.standard_error) : "  (not free)");
+                          p.free             ? fmt::format("  +- {:.2e}", p.standard_error)
+                          : is_held_by_guard ? "  (held by the guard)"
+                                             : "  (not free)");
     }
     const auto line = [&](const char* what, const std::string& value) {
       text += fmt::format("  {:<22}{}\n", what, value);

@@ -35,13 +35,16 @@ inline std::string objection(const fit_summary& fit, bool settled, const std::st
                        one_step_loss);
   }
   if (!instability.empty()) return instability;
+  if (!fit.is_at_no_bound) return "a parameter ran away to the end of its range: the data do not tell it";
   if (!fit.is_of_data) return {};
   // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
   // that other data prefer now the one and now the other. Half as much again is more than chance, whatever a
   // few trajectories say of their noise. Equal to rounding is no objection either.
   const double chance =
       std::min(3.0 * fit.held_out_noise, 0.5 * fit.held_out_start_loss) + 1e-9 * fit.held_out_start_loss;
-  if (!(fit.held_out_loss <= fit.held_out_start_loss + chance || fit.held_out_loss <= 1e-24)) {
+  const bool may_begin_there = !fit.is_held_by_guard;  // else the guard has objections to the start
+  if (may_begin_there &&
+      !(fit.held_out_loss <= fit.held_out_start_loss + chance || fit.held_out_loss <= 1e-24)) {
     return "on held-out data it is worse than the parameters that the search began with";
   }
   // A tenth would be too much: what is learned is a small correction, and the reference's error adds to it

@@ -54,21 +54,22 @@ struct learning_problem {
 
 namespace detail {
 
+inline bool rotates(const run_time_word& word) { return has_rotation(word) || word.reads == field::soft; }
+
 /// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
 /// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
 /// counts less by that part. Without this the standard errors are two to three times too small.
 template <class Loss, int N>
-std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure,
+std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, bool of_energy,
                                     const Eigen::VectorXd& theta) {
   const auto by_trajectory = residual_gradients(loss, theta);
   const Eigen::MatrixXd sum = tree_sum(by_trajectory);
-  const bool is_weighted = sum.cols() == measure.residuals();  // an energy is not
   std::vector<Eigen::VectorXd> result;
   for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
     result.push_back(Eigen::VectorXd::Zero(sum.rows()));
     for (Eigen::Index k = 0; k < sum.cols(); ++k) {
       result[m] += by_trajectory[m].col(k);
-      if (is_weighted) result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
+      if (!of_energy) result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
     }
   }
   return result;
@@ -125,6 +126,7 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
   require_valid(data, system);
   require_valid(held_out, system);
   require_served<S, double>(family.letters, system);
+  require_served<S, dual<R, directions_at_a_time>>(family.letters, system);
   if (held_out.step != data.step) {
     throw std::invalid_argument(
         fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
@@ -151,8 +153,10 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
       .options = options,
       .step = data.step,
       .loss = [loss](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
-      .scores = [loss,
-                 measure](const Eigen::VectorXd& theta) { return detail::scores(*loss, *measure, theta); },
+      .scores =
+          [loss, measure, of_energy = how.energy](const Eigen::VectorXd& theta) {
+            return detail::scores(*loss, *measure, of_energy, theta);
+          },
       .held_out_losses = [held](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
       .one_step_loss = [one_step,
                         measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
@@ -162,7 +166,7 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
             return of_data + loss->evaluations() + held->evaluations() + one_step->evaluations() +
                    at_end->evaluations();
           },
-      .guard = stability_guard(system, detail::some_states(data)),
+      .guard = stability_guard(system, detail::some_states(data), detail::rotates(family.letters)),
       .facts = {}};
   if (!has_data) {
     if constexpr (HasBath<S> && HasModes<S>) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/learning/at_edge.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -39,6 +40,14 @@ struct search_task {
   std::function<bool(const Eigen::VectorXd&)> admits;   // the guard
   std::vector<Eigen::Index> free;
   int max_iterations;
+  std::optional<named_parameters> refuge{};  // the member that is stable farthest, for where the guard acts
+
+  bool is_in_range(const Eigen::VectorXd& theta) const {
+    for (std::size_t k = 0; k < family->ranges.size(); ++k) {
+      if (!family->ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
+    }
+    return true;
+  }
 };
 
 /// Theta normal around a start, with the deviation .3 as coefficients are of order one: number n of a seed.
@@ -128,15 +137,21 @@ inline search_result search(const search_task& task, const std::vector<named_par
 
   std::vector<candidate> held;
   const auto is_allowed = [&](const Eigen::VectorXd& theta) {
-    return is_defined(theta) && task.admits(theta);
+    return is_defined(theta) && task.is_in_range(theta) && task.admits(theta);
   };
-  for (const auto& start : starts) {
+  std::vector<named_parameters> refuges = starts;
+  if (task.refuge) refuges.push_back(*task.refuge);
+  for (const auto& start : refuges) {
     if (!is_allowed(start.theta)) continue;
-    held.push_back(detail::descend(task, is_allowed, start));
-    held.back().is_held = true;
+    candidate one{
+        .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
+    one.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free);
+    one.loss = task.loss(one.theta).value;
+    one.judged = task.judge(one.theta);
+    held.push_back(one);
     ++result.tried;
   }
-  const candidate* best = detail::best_of(held, [](const candidate& c) { return c.admitted; });
+  const candidate* best = detail::best_of(held, [](const candidate&) { return true; });
   if (best != nullptr) result.best = *best;
   return result;
 }

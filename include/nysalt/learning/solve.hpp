@@ -23,16 +23,19 @@ struct fit {
 
 namespace detail {
 
+/// Puts in the values of parameters that are not to be learned.
+inline void fix(const fit_options& options, Eigen::VectorXd& theta) {
+  for (std::size_t k = 0; k < options.fixed.size(); ++k) {
+    if (options.fixed[k]) theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
+  }
+}
+
 inline std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
                                                const std::vector<Eigen::Index>& free) {
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
   starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
-  for (auto& start : starts) {
-    for (std::size_t k = 0; k < options.fixed.size(); ++k) {
-      if (options.fixed[k]) start.theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
-    }
-  }
+  for (auto& start : starts) fix(options, start.theta);
   for (int n = 0; n < options.random_starts; ++n) {
     const auto number = static_cast<std::uint64_t>(n);
     starts.push_back({fmt::format("random {}", n + 1),
@@ -53,7 +56,14 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
     throw std::invalid_argument(fmt::format(
         "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
   }
-  require_in_range(family, starts_of(family, options, {}).front().theta);
+  for (const auto& start : options.further_starts) {
+    if (start.theta.size() == family.parameters()) continue;
+    throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
+                                            start.theta.size(), family.name, family.parameters()));
+  }
+  Eigen::VectorXd first = options.start.value_or(family.starts.front().theta);
+  fix(options, first);
+  require_in_range(family, first);
 }
 
 }  // namespace detail
@@ -82,6 +92,10 @@ inline fit solve(const learning_problem& problem) {
                        },
                    .free = free,
                    .max_iterations = options.max_iterations};
+  if (family.refuge) {
+    task.refuge = named_parameters{"refuge", *family.refuge};
+    detail::fix(options, task.refuge->theta);
+  }
   if (!has_data) {  // it is its own judge
     task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
   }
@@ -118,6 +132,10 @@ inline fit solve(const learning_problem& problem) {
     const bool is_free = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
     summary.parameters.push_back(
         {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
+  }
+  for (const Eigen::Index k : free) {
+    const bool is_held_there = std::find(best.free.begin(), best.free.end(), k) == best.free.end();
+    if (is_held_there && std::abs(theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
   }
   const std::string instability = objection_of_guard(theta);
   if (instability.empty()) {

@@ -29,10 +29,12 @@ namespace nysalt {
 /// stiffness up to the largest along the states.
 class stability_guard {
  public:
-  /// Words with rotations are watched over so many steps, if there are states at all. Cost: that of
-  /// stiffness_along() where no bands are declared, and where a quadratic part is. Throws what that does.
+  /// Words with rotations, if there will be some, are watched over so many steps, if there are states. Cost:
+  /// that of stiffness_along() where no bands are declared, and where a quadratic part is. Throws what that
+  /// does.
   template <SeparableSystem S>
-  stability_guard(const S& system, const std::ranges::range auto& states, std::int64_t steps = 10'000)
+  stability_guard(const S& system, const std::ranges::range auto& states, bool rotations = true,
+                  std::int64_t steps = 10'000)
       : steps_(steps) {
     declare_bands(system);
     if (!bands_.empty()) {
@@ -46,7 +48,7 @@ class stability_guard {
       description_ = "no guard: no bands are declared, and the kinetic energy is not quadratic";
     }
     if constexpr (HasQuadraticPart<S> && ForceDerivativeOver<S, double, field::soft>) {
-      if (std::ranges::empty(states)) return;
+      if (!rotations || std::ranges::empty(states)) return;
       const auto part = quadratic_part::of(system);
       for (const double omega : part->frequencies()) add_mode(omega);
       const double highest = stiffness_along<field::soft>(system, states).highest_frequency();

@@ -31,6 +31,7 @@ struct panel {
   bool log_log = false;  // with points; else plain lines
   std::vector<curve> curves;
   std::string y_range = "[*:*]";
+  bool linear_y = false;  // where log_log would be, of what does not go to 0
 };
 
 struct figure {
@@ -85,9 +86,10 @@ inline std::string plot_script(const figure& f) {
     text += fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset yrange {}\n", quoted(panel.title),
                         quoted(panel.x_label), quoted(panel.y_label), panel.y_range);
     // Errors fall with cost, so that there is room on the right; lines may go anywhere.
-    text += panel.log_log
-                ? "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key inside right top\n"
-                : "unset logscale\nset key outside top center horizontal\n";
+    text += !panel.log_log ? "unset logscale\nset key outside top center horizontal\n"
+            : panel.linear_y
+                ? "unset logscale\nset logscale x\nset format '%g'\nset key inside right bottom\n"
+                : "set logscale xy\nset format x '%g'\nset format y '%.0e'\nset key inside right top\n";
     for (std::size_t j = 0; j < panel.curves.size(); ++j, ++block) {
       const auto& curve = panel.curves[j];
       const std::string data = fmt::format("'{}.dat' index {}", f.name, block);

@@ -29,9 +29,11 @@ struct work_precision_row {
   std::optional<double> floor = {};  // of sampling: what the error would be of a method without any
 };
 
-inline table work_precision_table(const std::vector<work_precision_row>& rows) {
+/// `value` is what the errors are called, if they are others.
+inline table work_precision_table(const std::vector<work_precision_row>& rows,
+                                  const std::string& value = "error") {
   std::vector<std::string> columns{"method", "step",           "evaluations/time", "ns/time",
-                                   "error",  "standard error", "diverged"};
+                                   value,    "standard error", "diverged"};
   const bool has_floor =
       std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.floor.has_value(); });
   if (has_floor) columns.insert(columns.end() - 1, "floor");

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+// How often a trajectory would be accepted as a proposal of Hybrid Monte Carlo.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/analysis/method_error.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/energy.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+
+namespace nysalt {
+
+struct acceptance_result {
+  estimate probability;                          // over all trajectories
+  std::vector<double> of_each;                   // trajectory; 0 if it diverged
+  std::vector<diverged_trajectory> diverged_at;  // in their order
+  double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
+};
+
+/// The probability that Metropolis' rule accepts where a trajectory of n steps leads
+/// [duane_kennedy_pendleton_roweth_1987],
+///
+///   mean over trajectories of min(1, exp(-(H(x_n) - H(x_0))/kT)),
+///
+/// with H at the two ends only. A trajectory that diverged is a rejected one. The rule keeps the law
+/// exp(-H/kT) if the map is reversible and keeps volume, so that only symmetric methods are taken; what the
+/// number tells of a sampler at work, it tells for starts of that law. Neither lanes nor threads change a
+/// bit.
+///
+/// Memory: 24 bytes a trajectory. Throws std::invalid_argument if the method is not symmetric, the system is
+/// in a bath that acts (H is not its own then), kT is not positive and finite, there is not one step or
+/// trajectory, or a start does not fit.
+template <SeparableSystem S, Method M, Ensemble<S> E>
+  requires HasEnergy<S> acceptance_result acceptance(const S& system, const M& method, const E& ensemble,
+                                                     const trajectory_options& options,
+                                                     double temperature = 1.0) {
+    using T = scalar_of_lanes<lanes_of<S>>;
+    if (!method.symmetric) {
+      throw std::invalid_argument(fmt::format(
+          "acceptance: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
+          "a symmetric method",
+          method.name()));
+    }
+    if constexpr (HasBath<S>) {
+      const bath& its = system.bath();
+      if (its.acts()) {
+        throw std::invalid_argument(fmt::format(
+            "acceptance: H is not conserved in {}; take the system without its bath", describe(system)));
+      }
+    }
+    if (!(temperature > 0.0) || !std::isfinite(temperature)) {
+      throw std::invalid_argument(
+          fmt::format("acceptance: kT must be positive and finite, got {}", temperature));
+    }
+    require_room(options, 1, 1);
+    const auto stepper = make_stepper(system, method, options.step);
+    std::vector<double> at_start(static_cast<std::size_t>(options.trajectories));
+    std::vector<double> of_each(at_start.size(), 0.0);
+    const auto read = [&](const phase_point<T, S::dimension>& x, std::span<T> number) {
+      number[0] = energy_in_lanes<T>(system, x);
+    };
+    const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> energy) {
+      const auto slot = static_cast<std::size_t>(m);
+      if (n == 0) {
+        at_start[slot] = energy[0];
+      } else {
+        const double rise = energy[0] - at_start[slot];
+        of_each[slot] = rise <= 0.0 ? 1.0 : std::exp(-rise / temperature);
+      }
+    };
+    const ensemble_options both_ends{.trajectories = options.trajectories,
+                                     .steps = options.steps,
+                                     .every = options.steps,
+                                     .seed = options.seed,
+                                     .threads = options.threads,
+                                     .progress = options.progress};
+    const auto diverged = integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take);
+
+    acceptance_result result{mean_and_error(of_each), of_each, {}};
+    for (std::size_t m = 0; m < diverged.size(); ++m) {
+      if (diverged[m]) result.diverged_at.push_back({static_cast<std::int64_t>(m), *diverged[m]});
+    }
+    const auto evaluations =
+        evaluations_of_run(system, method, options.step, options.steps, ensemble(options.seed, 0));
+    const double time = static_cast<double>(options.steps) * std::abs(options.step);
+    result.evaluations_per_time = static_cast<double>(evaluations) / time;
+    return result;
+  }
+
+}  // namespace nysalt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+// A descent among admitted points only, along the edge where it must.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "nysalt/learning/squares.hpp"
+
+namespace nysalt {
+
+/// From an admitted theta to one that no poll lowers: steps to either side along the eigenvectors of
+/// Gauss-Newton's matrix, each as long as the loss at its bottom would ask for, then shorter. What is not
+/// admitted is not taken, so that it slides along an edge. Cost: a pass with derivatives for each poll that
+/// is admitted, 400 at most.
+inline Eigen::VectorXd descend_at_edge(const objective& loss,
+                                       const std::function<bool(const Eigen::VectorXd&)>& admits,
+                                       Eigen::VectorXd theta, const std::vector<Eigen::Index>& free) {
+  constexpr int most_passes = 400;
+  constexpr double longest = 0.3;  // coefficients are of order one
+  constexpr double shortest = 1e-3;
+  squares here = loss(theta);
+  int passes = 1;
+  double length = 1.0;
+  while (length > shortest && passes < most_passes && here.is_finite() && here.value > 0.0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(here.normal_matrix(free, free));
+    const double least = 1e-12 * axes.eigenvalues().maxCoeff();
+    bool has_moved = false;
+    for (Eigen::Index k = 0; k < axes.eigenvalues().size() && passes < most_passes; ++k) {
+      const double reach = std::sqrt(here.value / std::max(axes.eigenvalues()[k], least));
+      const bool is_uphill = axes.eigenvectors().col(k).dot(here.half_gradient(free)) > 0.0;
+      for (const double sign : {is_uphill ? -1.0 : 1.0, is_uphill ? 1.0 : -1.0}) {
+        Eigen::VectorXd next = theta;
+        next(free) += sign * std::min(length * reach, longest) * axes.eigenvectors().col(k);
+        if (!admits(next)) continue;
+        const squares there = loss(next);
+        ++passes;
+        if (!(there.value < here.value)) continue;
+        theta = next;
+        here = there;
+        has_moved = true;
+        break;
+      }
+    }
+    length = has_moved ? std::min(1.0, 1.5 * length) : 0.5 * length;
+  }
+  return theta;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "../recommendation.hpp"
+
+#include "../commands.hpp"
+#include "../output.hpp"
+
+namespace nysalt::program {
+
+int recommend(const recommend_command& command, const common_settings& common) {
+  recommendation all(command, common);
+  if (!command.output.empty()) require_writable(command.output);
+  all.learn_and_rank();
+  const auto scheme = all.scheme();
+  const bool writes = scheme && !command.output.empty();
+  if (writes) write_result(command.output, *scheme, common);
+  if (common.json) {
+    json result = all.document();
+    result["output"] = writes ? json(command.output) : json(nullptr);
+    print(text_of(result));
+  } else {
+    print(all.readable());
+    for (const auto& text : all.warnings()) warn(text);
+    if (writes) print(fmt::format("Written: {}\n", command.output));
+  }
+  return all.has_result() ? done : no_result;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSL-1.0
+// What methods cost in seconds, beside each other.
+#pragma once
+
+#include <vector>
+
+#include "bundled_system.hpp"
+
+namespace nysalt::program {
+
+struct timed_method {
+  tabulated method;
+  trajectories_plan plan;
+  double evaluations_per_time;
+};
+
+/// Seconds for one unit of time of one trajectory of a large ensemble, of each method, on this thread; all
+/// take turns for some `seconds`, unless a single trajectory takes longer.
+std::vector<double> seconds_per_time(const bundled_system& system, const std::vector<timed_method>& methods,
+                                     double seconds);
+
+}  // namespace nysalt::program

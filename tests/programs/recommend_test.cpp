@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSL-1.0
+// recommend: its ranking against what learn and compare say of the same methods, and who is declared winner.
+#include <boost/test/unit_test.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "../support/bad_input.hpp"
+#include "../support/document.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+const std::string few = "--trajectories 24 --learn-trajectories 8 ";
+const std::string fpu = "recommend --system fpu --horizon 5 --families nystrom,r_fg4 " + few;
+
+const json* row_of(const json& all, const std::string& method) {
+  for (const auto& row : all["rows"]) {
+    if (row["method"] == method) return &row;
+  }
+  return nullptr;
+}
+
+bool stands(const json& row) { return !row.contains("reason") && row["diverged"] == 0; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_first) {
+  const auto all = document(fpu + "--budget 80");
+  BOOST_TEST(all["rows"].size() >= 12U);  // the classical methods are there unasked
+  double last = 0.0;
+  for (const auto& row : all["rows"]) {
+    const double step = row["step_size"];
+    const double evaluations = row["evaluations_per_step"];
+    BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
+    if (!stands(row)) continue;
+    BOOST_TEST(row["error"].get<double>() >= last);
+    last = row["error"];
+    // The budget and at most one evaluation more, to begin with.
+    BOOST_TEST(row["evaluations_per_time"].get<double>() >= 80.0 * (1.0 - 1e-12));
+    BOOST_TEST(row["evaluations_per_time"].get<double>() <= 80.0 + 1.0 / (5.0 - step));
+  }
+  BOOST_TEST(last > 0.0);
+  BOOST_TEST(all["verdict"] == "learned");
+  BOOST_TEST(all["winner"] == "learned:r_fg4");
+  const double gain = all["advantage"];
+  BOOST_TEST(gain > 2.0 * all["advantage_standard_error"].get<double>());
+  const double classical = (*row_of(all, all["best_classical"]))["error"];
+  const double learned = (*row_of(all, "learned:r_fg4"))["error"];
+  BOOST_TEST(gain == classical - learned, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(learned_rows_are_what_learn_learns_and_errors_what_compare_finds) {
+  const auto all = document(fpu + "--budget 80 --seed 3");
+  const auto fit = document("learn --family nystrom --step 0.025 --trajectories 8 --seed 3");
+  for (const auto& one : all["fits"]) {
+    if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["parameters"]);
+  }
+  // On the same trajectories, beside a finer reference: the two differ by the errors of both references.
+  const auto by_compare = document(
+      "compare --methods srkn6b --steps 0.075 --horizon 5 --trajectories 24 --metric state --seed 3");
+  const auto& row = *row_of(all, "srkn6b");
+  BOOST_TEST(row["step_size"] == 0.075);
+  const double own = row["reference_error"].get<double>() + 1e-9;
+  BOOST_TEST(std::abs(row["error"].get<double>() - by_compare["rows"][0]["error"].get<double>()) <=
+             10.0 * own);
+  BOOST_TEST(row["error"].get<double>() > 100.0 * own);
+}
+
+BOOST_AUTO_TEST_CASE(the_winners_scheme_is_written_and_used) {
+  const scratch folder("recommend");
+  const auto all = document(fpu + "--budget 80 --output scheme.json", folder);
+  BOOST_TEST(all["output"] == "scheme.json");
+  BOOST_TEST((folder.files() == std::set<std::string>{"scheme.json", "scheme.json.manifest.json"}));
+  const auto used = document(
+      "compare --methods scheme.json --steps 0.05 --horizon 5 --trajectories 24 --metric state", folder);
+  const double error = (*row_of(all, "learned:r_fg4"))["error"];
+  BOOST_TEST(used["rows"][0]["error"].get<double>() == error, boost::test_tools::tolerance(1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(where_a_classical_method_wins_it_is_named_and_nothing_is_written) {
+  const scratch folder("recommend_classical");
+  const auto done =
+      run(folder, "recommend --system henon_heiles --budget 4 --horizon 10 --families nystrom " + few +
+                      "--output scheme.json");
+  BOOST_TEST(done.code == 0);
+  BOOST_TEST(done.out.find("A classical method wins: --method ") != std::string::npos, done.out);
+  BOOST_TEST(done.out.find("no scheme to write") != std::string::npos);
+  BOOST_TEST(folder.files().empty());
+}
+
+BOOST_AUTO_TEST_CASE(one_trajectory_tells_nobody_apart) {
+  const auto all = document(
+      "recommend --system henon_heiles --budget 4 --horizon 10 --families fg4 --trajectories 1 "
+      "--learn-trajectories 8");
+  BOOST_TEST(all["verdict"] == "tie");
+  BOOST_TEST(all["winner"].is_null());
+  BOOST_TEST(all["advantage_standard_error"].is_null());
+  BOOST_TEST(!all["best_learned"].is_null());
+}
+
+BOOST_AUTO_TEST_CASE(at_one_error_the_least_cost_is_first) {
+  const std::string line = "--system henon_heiles --horizon 10 --trajectories 24 ";
+  const auto all = document("recommend --families fg4 --learn-trajectories 8 --error 1e-4 " + line);
+  double last = 0.0;
+  int standing = 0;
+  for (const auto& row : all["rows"]) {
+    if (!stands(row)) continue;
+    ++standing;
+    BOOST_TEST(row["evaluations_per_time"].get<double>() >= last);
+    last = row["evaluations_per_time"];
+    const double error = row["error"];
+    BOOST_TEST(error - 2.0 * row["standard_error"].get<double>() <= 1e-4);
+    if (row["method"] != "pefrl" && row["method"] != "verlet") continue;
+    // Two points of the grid on, a ratio of sqrt(2) in all, the error is above: of order two, by 2 or so.
+    const double beyond = row["step_size"].get<double>() * std::sqrt(2.0);
+    const auto next = document(fmt::format("compare --methods {} --steps {} --metric state {}",
+                                           row["method"].get<std::string>(), beyond, line));
+    BOOST_TEST(next["rows"][0]["error"].get<double>() > 1e-4);
+  }
+  BOOST_TEST(standing >= 8);
+  BOOST_TEST(all["budget"].is_null());
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_suit_is_left_out_and_said_why) {
+  const std::string line =
+      "recommend --system pendulum --budget 2 --horizon 20 --families r_aba2,aba3_free,nystrom,fg4 ";
+  const auto why = [&](const json& all, const std::string& method) -> std::string {
+    for (const auto& one : all["left_out"]) {
+      if (one["method"] == method) return one["reason"];
+    }
+    return row_of(all, method) != nullptr ? "takes part" : "nowhere";
+  };
+  const auto all = document(line + few);
+  BOOST_TEST(why(all, "learned:r_aba2").find("quadratic part") != std::string::npos);
+  BOOST_TEST(why(all, "learned:aba3_free") == "takes part");
+  const auto reversible = document(line + "--reversible " + few);
+  BOOST_TEST(why(reversible, "learned:aba3_free") == "it is not reversible");
+  BOOST_TEST(why(reversible, "learned:nystrom") == "it is not reversible");
+  BOOST_TEST(why(reversible, "learned:fg4") == "takes part");
+  for (const auto& row : reversible["rows"]) BOOST_TEST(row["reversible"] == true);
+  const auto sampler = document(line + "--metric acceptance --hmc-temperature 0.05 " + few);
+  BOOST_TEST(why(sampler, "learned:aba3_free") == "it is not reversible");
+  const auto fixed = document(line + "--fix b1=0.5 " + few);
+  BOOST_TEST((*row_of(fixed, "learned:nystrom"))["learned"] == true);
+  BOOST_TEST(fixed["fits"][0]["parameters"]["b1"] == 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(in_a_bath_all_have_their_letters_O) {
+  const auto all = document(
+      "recommend --system oscillator --omega 2 --friction 0.5 --temperature 1 --budget 4 --horizon 4 "
+      "--families nystrom --metric path --observable energy " +
+      few);
+  BOOST_TEST(row_of(all, "baoab") != nullptr);
+  BOOST_TEST(row_of(all, "learned:nystrom") != nullptr);
+  BOOST_TEST(
+      row_of(document("recommend --system oscillator --omega 2 --budget 4 --horizon 4 --families nystrom " +
+                      few),
+             "baoab") == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(threads_change_no_byte_and_another_seed_the_numbers) {
+  for (const std::string goal : {"--budget 60 ", "--error 0.01 "}) {
+    const std::string line =
+        "recommend --system fpu --horizon 2 --families nystrom " + few + goal + "--json ";
+    const auto printed = [&](const std::string& more) { return without_times(run(line + more).out); };
+    const auto one = printed("--threads 1");
+    BOOST_TEST(one.size() > 1000U);
+    BOOST_TEST((printed("--threads 3") == one));
+    BOOST_TEST((printed("--seed 2") != one));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const std::string sound = "--budget 60 --horizon 1 ";
+  all_refused(scratch("recommend_refused"),
+              after("recommend --trajectories 3",
+                    {{"--horizon 1", {"--budget", "--error"}},
+                     {"--horizon 1 --budget 60 --error 0.1", {"one of --budget", "--error"}},
+                     {"--horizon 1 --budget 0", {"--budget", "positive"}},
+                     {"--horizon 1 --error -1", {"--error", "positive"}},
+                     {"--budget 60 --horizon 0", {"--horizon", "positive"}},
+                     {"--budget 60", {"--horizon"}},
+                     {"--budget 0.1 --horizon 1", {"--horizon", "shorter than one step"}},
+                     {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
+                     {sound + "--metric nosuch", {"nosuch", "path, state, exchange, energy"}},
+                     {sound + "--observable energy", {"--observable", "path", "not to state"}},
+                     {sound + "--families nosuch", {"family 'nosuch'", "nystrom"}},
+                     {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
+                     {sound + "--families aba3_free --reversible", {"aba3_free", "not reversible"}},
+                     {sound + "--fix nosuch=1", {"--fix", "nosuch"}},
+                     {sound + "--fix b1", {"--fix", "name=number"}},
+                     {sound + "--learn-trajectories 0", {"--learn-trajectories", "at least 1"}},
+                     {sound + "--metric acceptance --friction 1 --temperature 1", {"acceptance", "bath"}},
+                     {sound + "--output nowhere/scheme.json", {"no folder nowhere"}}}));
+}
