@@ -154,14 +154,15 @@ draw phi4 'state error on [0, 10]' phi4_range
 
 say "Laws that were not learned from"
 learn() { # SYSTEM LEARN_HORIZON FAMILY STEP
-  "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" --output "$folder/$1.$3.json" >"$folder/$1.$3.log"
+  "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" \
+    --output "$folder/$1.$3.json" >"$folder/$1.$3.log"
 }
 other_law() { # NAME SYSTEM LEARN_HORIZON STEP OPTION...
-  name=$1 system=$2 learn_horizon=$3 step=$4
+  name=$1 system=$2 learn_horizon=$3 step=$4 old=$folder/$2
   shift 4
   compare "$name" --system "$system" "$@" $equal_cost --metric state --horizon 10 --steps "$step" \
-    --learn-horizon "$learn_horizon" --methods \
-    "$folder/$system.fg4.json,$folder/$system.fg_chin.json,$folder/$system.aba3_free.json,learned:fg4,verlet,mclachlan2,$fourth"
+    --learn-horizon "$learn_horizon" \
+    --methods "$old.fg4.json,$old.fg_chin.json,$old.aba3_free.json,learned:fg4,verlet,mclachlan2,$fourth"
 }
 learn phi4 8 fg4 0.4
 learn phi4 8 fg_chin 0.3
