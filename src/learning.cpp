@@ -2,6 +2,7 @@
 #include "learning.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -38,8 +39,12 @@ learned_scheme bundled_system::learn(const learn_plan& plan, const counter& prog
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
   learn_plan its = plan;
-  // Where landscapes are hard, the optimum at a smaller step is near that at the next.
-  const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && !plan.how.fine_step;
+  // Where landscapes are hard, the optimum at a smaller step is near that at the next. A fine step that was
+  // asked for must divide these steps too.
+  const double quarter = plan.how.fine_step ? 0.25 * plan.step / *plan.how.fine_step : 1.0;
+  const bool is_divided =
+      std::round(quarter) >= 1.0 && std::abs(quarter - std::round(quarter)) <= 1e-9 * quarter;
+  const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && is_divided;
   for (const double part : {0.5, 0.75, 1.0}) {
     if (part < 1.0 && !is_hard) continue;
     its.step = part * plan.step;
