@@ -73,9 +73,13 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     return integrate(oscillator, fit.method, fit.method.step(), start, 10000).diverged_at.has_value();
   };
   const auto stable = fit_oscillator(1.25, {.coordinates = coordinates::energy});
-  // z = 2.8, where the start is unstable too, and nothing but the optimum is to be had.
-  const auto unstable = fit_oscillator(1.4, {.coordinates = coordinates::energy});
-  BOOST_TEST_CONTEXT(stable.summary.full() << unstable.summary.full()) {
+  // z = 2.8, where the start is unstable too; the guard has a refuge there, and without it the optimum is
+  // found.
+  const auto guarded = fit_oscillator(1.4, {.coordinates = coordinates::energy});
+  const auto unstable = fit_oscillator(1.4, {.coordinates = coordinates::energy, .guarded = false});
+  BOOST_TEST_CONTEXT(stable.summary.full() << guarded.summary.full() << unstable.summary.full()) {
+    BOOST_TEST(guarded.summary.is_held_by_guard);
+    BOOST_TEST(!diverges(guarded));
     BOOST_TEST(stable.summary.usable);
     BOOST_TEST(!diverges(stable));
     BOOST_TEST(!unstable.summary.usable);
