@@ -18,7 +18,7 @@ using namespace nysalt::test;
 namespace {
 
 using O = ornstein_uhlenbeck;
-using cursor = noise_cursor<counter_noise, double, 2>;
+using cursor = noise_cursor<counter_noise, double, 2, no_room>;
 using state = flow_state<double, 2>;
 
 const counter_noise source(1);
@@ -33,7 +33,7 @@ struct meeting {
 };
 
 cursor at(std::uint64_t trajectory, std::int64_t step, bool bath_is_warm = true) {
-  return {&source, trajectory, step, 2, bath_is_warm, {}};
+  return {&source, trajectory, step, 2, bath_is_warm, {}, {}};
 }
 state moving(double p) { return {{{0.1, 0.2}, {p, p}}, {0.0, 0.0}}; }
 
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(before_the_first_step_there_is_only_the_half_that_begins_it
 BOOST_AUTO_TEST_CASE(a_cold_bath_damps_and_draws_nothing) {
   const meeting two{bath::of_sigma(0.8, 0.0)};
   auto x = moving(1.0);
-  noise_cursor<counter_noise, double, 2> where{nullptr, 0, 3, 2, false, {}};  // a draw would crash
+  cursor where{nullptr, 0, 3, 2, false, {}, {}};  // a draw would crash
   two.seam.cross(system_of_unit_masses, where, x);
   BOOST_TEST(x.p[0] == two.begin.decay * two.end.decay);
   x = moving(1.0);
