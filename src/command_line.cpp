@@ -55,7 +55,7 @@ struct typed {
   recommend_command recommend;
   stability_command stability;
   system_settings stability_system;
-  std::vector<std::string> methods, steps, observables, parameters, range, families;
+  std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families;
 };
 
 template <class T>
@@ -156,7 +156,7 @@ void add_learn(CLI::App& app, typed& to) {
   add_starts_and_placement(command, to.learn.system, to.learn.placement);
   command.add_option("--family", to.learn.family, "to learn")->capture_default_str();
   add_number(command, "--step", to.learn.step, "to learn for");
-  command.add_option("--steps", to.steps, "joined by commas: a curve of parameters");
+  command.add_option("--steps", to.learn_steps, "joined by commas: a curve of parameters");
   add_learning(command, to.learn.learning, "--");
   command.add_option("--output", to.learn.output, "write a scheme file");
   add_common(command, to.common);
@@ -283,7 +283,7 @@ int run_parsed(const CLI::App& command, typed& to) {
   }
   if (name == "list") return list(to.common);
   if (name == "learn") {
-    to.learn.steps = numbers(to.steps, "--steps");
+    to.learn.steps = numbers(to.learn_steps, "--steps");
     return learn(to.learn, to.common);
   }
   if (name == "run") {

@@ -29,6 +29,7 @@ bool refused(const finished& done, const std::vector<std::string>& words) {
 double error_at(const scratch& folder, const std::string& method, const std::string& step) {
   const finished done = run(folder,
                             "compare --system henon_heiles --trajectories 16 --horizon 8 --metric state "
+                            "--learn-horizon 8 --learn-trajectories 20 "
                             "--json --methods verlet," +
                                 method + " --steps " + step);
   BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);

@@ -53,7 +53,8 @@ std::vector<std::string> shell_lines(const std::string& markdown) {
 }
 
 void must_end_well(const scratch& folder, const std::string& arguments) {
-  const auto done = run(folder, arguments);
+  constexpr int patience = 300;  // s: `recommend` learns and times all that there is, here beside other tests
+  const auto done = shell(folder, "\"$nysalt\" " + arguments, patience);
   BOOST_TEST(done.code == 0, "nysalt " << arguments << ": " << done.code << ", " << done.err);
 }
 

@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(schemes_of_a_bath_have_version_2_and_a_placement) {
   };
   forge("same.json", [](json&) {});
   forge("old.json", [](json& d) { d["version"] = 1; });
-  forge("new.json", [](json& d) { d["version"] = 3; });
+  forge("new.json", [](json& d) { d["version"] = 4; });
   forge("bare.json", [](json& d) { d.erase("placement"); });
   forge("nowhere.json", [](json& d) { d["placement"] = "nosuch"; });
   forge("number.json", [](json& d) { d["placement"] = 1; });
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(schemes_of_a_bath_have_version_2_and_a_placement) {
   const std::string line = in_the_bath + " --force";  // whatever the fit was
   all_refused(folder,
               {{run_it + "old.json" + line, {"old.json", "version 1", "placement"}},
-               {run_it + "new.json" + line, {"new.json", "version 3", "2 at most"}},
+               {run_it + "new.json" + line, {"new.json", "version 4", "3 at most"}},
                {run_it + "bare.json" + line, {"bare.json", "version 2", "placement"}},
                {run_it + "nowhere.json" + line, {"nowhere.json", "'nosuch'", "end, symmetric, middle"}},
                {run_it + "number.json" + line, {"number.json", "placement", "text"}},
