@@ -87,7 +87,7 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
   if ((found.theta - began).norm() > 1e-6) found.hessian = hessian(loss, found.theta);
   // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
   found.converged = decrease <= 1e-6 * found.loss + 1e-24;
-  constexpr double hardly = 0.1;
+  constexpr double hardly = 0.005;  // so that the loss is within a hundredth of the least
   found.in_valley = !found.converged && (found.in_valley || decrease <= hardly * found.loss);
 }
 
