@@ -33,7 +33,8 @@ double error_at(const scratch& folder, const std::string& method, const std::str
                             "--json --methods verlet," +
                                 method + " --steps " + step);
   BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
-  for (const auto& row : json_of(done)["rows"]) {
+  const auto all = json_of(done);
+  for (const auto& row : all["rows"]) {
     if (row["method"] == method) return row["error"];
   }
   return std::nan("");

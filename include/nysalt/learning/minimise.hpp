@@ -22,6 +22,7 @@ struct minimum {
   Eigen::MatrixXd hessian{};
   int iterations = 0;
   bool converged = false;
+  bool has_ended = false;  // the search by itself, and not cut short
   bool in_valley = false;  // not converged, but further iterations hardly lower the loss
 };
 
@@ -50,6 +51,7 @@ inline void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& fr
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   found.iterations = static_cast<int>(summary.iterations.size());
+  found.has_ended = summary.termination_type == ceres::CONVERGENCE;
   const auto& steps = summary.iterations;
   constexpr double hardly = 1.1;  // by a tenth
   constexpr std::size_t enough = 50;
@@ -88,7 +90,8 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
   // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
   found.converged = decrease <= 1e-6 * found.loss + 1e-24;
   constexpr double hardly = 0.005;  // so that the loss is within a hundredth of the least
-  found.in_valley = !found.converged && (found.in_valley || decrease <= hardly * found.loss);
+  found.in_valley =
+      !found.converged && (found.in_valley || (found.has_ended && decrease <= hardly * found.loss));
 }
 
 }  // namespace detail
