@@ -83,6 +83,13 @@ class run_time_family {
     return true;
   }
 
+  bool is_in_range(const Eigen::VectorXd& theta) const {
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+      if (!ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
+    }
+    return true;
+  }
+
   /// The same with letters O at a placement. Throws std::invalid_argument if it has some already, or no
   /// central letter to split.
   friend run_time_family thermostatted(const run_time_family& plain, placement where) {

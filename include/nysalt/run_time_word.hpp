@@ -101,7 +101,6 @@ class run_time_word {
   std::size_t slots_of(std::size_t i) const {
     return (i + 1 < length ? first_slots_[i + 1] : slots) - first_slots_[i];
   }
-  bool has(char letter) const { return letters_.find(letter) != std::string::npos; }
 
   const std::string& letters() const { return letters_; }
   std::size_t first_in_loop() const { return merges ? 1 : 0; }

@@ -5,12 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/families/symmetric_composition.hpp"
+#include "nysalt/families/classical_palindromes.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/pefrl.hpp"
 
 namespace nysalt {
 
@@ -26,11 +23,7 @@ struct aba : symmetric_composition<drift, kick, 2 * Kicks + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
-    if constexpr (Kicks == 2) return {{"mclachlan2", base::of(mclachlan2())}};
-    if constexpr (Kicks == 3) return {{"forest_ruth", base::of(forest_ruth())}};
-    if constexpr (Kicks == 4) return {{"pefrl", base::of(pefrl())}};
-    if constexpr (Kicks == 5) return {{"mclachlan5", base::of(mclachlan5())}};
-    return {};
+    return classical_palindromes<base, Kicks>();
   }
 
   /// Where searches from forty random starts on the FPU chain (omega = 50, step .011 an evaluation) ended:

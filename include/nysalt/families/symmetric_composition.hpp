@@ -38,7 +38,6 @@ struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
     return palindrome<Length, C>(theta);
   }
 
- protected:
   /// The parameters that a classical method of this word has.
   template <class M>
   static std::array<double, free> of(const M& method) {

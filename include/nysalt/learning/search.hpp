@@ -41,13 +41,6 @@ struct search_task {
   std::vector<Eigen::Index> free;
   int max_iterations;
   std::optional<named_parameters> refuge{};  // the member that is stable farthest, for where the guard acts
-
-  bool is_in_range(const Eigen::VectorXd& theta) const {
-    for (std::size_t k = 0; k < family->ranges.size(); ++k) {
-      if (!family->ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
-    }
-    return true;
-  }
 };
 
 /// Theta normal around a start, with the deviation .3 as coefficients are of order one: number n of a seed.
@@ -114,9 +107,9 @@ struct search_result {
 };
 
 /// From each start to its minimum; the judge takes the best that the guard admits, of those that converged or
-/// ended in a valley. Where it admits none, the starts that it admits are followed as far as it does: what is
-/// found then lies at the edge, or is such a start. A single start is what it was, whatever the judge thinks.
-/// Cost: a search for each start, twice where the guard acts.
+/// ended in a valley. Where it admits none, the search goes on among admitted points only, from the starts
+/// that are and from the refuge: what it finds lies at the edge mostly. A single start is what it was,
+/// whatever the judge thinks. Cost: a search for each start, twice where the guard acts.
 inline search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
@@ -137,7 +130,7 @@ inline search_result search(const search_task& task, const std::vector<named_par
 
   std::vector<candidate> held;
   const auto is_allowed = [&](const Eigen::VectorXd& theta) {
-    return is_defined(theta) && task.is_in_range(theta) && task.admits(theta);
+    return is_defined(theta) && task.family->is_in_range(theta) && task.admits(theta);
   };
   std::vector<named_parameters> refuges = starts;
   if (task.refuge) refuges.push_back(*task.refuge);
