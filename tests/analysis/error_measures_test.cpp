@@ -8,7 +8,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/analysis/error_along.hpp"
+#include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/analysis/error_along.hpp"
+#include "nysalt/analysis/compared_reference.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
@@ -27,11 +25,12 @@ struct shared_noise {
 };
 
 /// Methods of one type beside the reference, from the same starts and with its noise; one trajectory in each
-/// lane.
+/// lane. All measures look at the same runs.
 template <Method M, SeparableSystem S, Reference<S> R>
 class compared_block {
  public:
-  using measure_type = error_measure<S::dimension, lanes_of<S>>;
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
+  using measure_type = typename measures_type::measure_type;
   using T = typename measure_type::T;
   using state = phase_point<T, S::dimension>;
   using errors_type = error_sum<S::dimension, lanes_of<S>>;
@@ -40,28 +39,17 @@ class compared_block {
 
   /// Refers to all but the start, and partly to itself.
   compared_block(const S& system, const R& reference, std::span<const M> methods, double step,
-                 const measure_type& measure, const state& start, int count, int to_check,
-                 const shared_noise& noise)
-      : measure_(&measure),
+                 std::span<const measure_type> measures, const state& start, int count,
+                 const reference_checks& checks, const shared_noise& noise)
+      : measures_(measures),
         step_(step),
-        at_start_(measure.numbers_of(start)),
-        live_(first_lanes<T>(count)),
-        path_(path_in(system, step, noise)) {
-    const path_place at{noise.seed, static_cast<std::uint64_t>(noise.first), 0};
-    if (measure.needs_reference || noise.parts > 0) {
-      reference_.emplace(system, reference, measure, start, count, at, &path_, noise.parts);
-    }
-    if (measure.needs_reference && to_check > 0) {
-      its_finer_self_.emplace(reference.finer());
-      finer_.emplace(system, *its_finer_self_, measure, start, to_check, at);
-      check_.emplace(measure);
-    }
+        path_(path_in(system, step, noise)),
+        reference_(system, reference, measures, step, start, count, checks,
+                   {noise.seed, static_cast<std::uint64_t>(noise.first), 0}, path_, noise.parts) {
     for (const M& method : methods)
       steppers_.push_back(make_stepper(system, method, step, noise_of(method, noise)));
-    for (const auto& stepper : steppers_) {
-      runs_.push_back({{stepper, start, count, noise.first}, errors_type(measure)});
-    }
-    if (!measure.needs_reference && measure.scale) require_scale(count);
+    const std::vector<errors_type> none(measures.begin(), measures.end());
+    for (const auto& stepper : steppers_) runs_.push_back({{stepper, start, count, noise.first}, none});
   }
 
   compared_block(const compared_block&) = delete;
@@ -69,39 +57,31 @@ class compared_block {
 
   /// All of them, a stretch after the other, so that no path is kept.
   void run(std::int64_t steps) {
+    const auto read = [&](const state& x, std::span<T> numbers) { measures_.read(x, numbers); };
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
       const std::int64_t next = std::min(done + steps_between_checks, steps);
-      if (reference_) reference_->go_on(step_, next - done);
-      if (finer_) finer_->go_on(step_, next - done);
-      const auto expected = [&](std::int64_t n) {
-        return measure_->needs_reference ? reference_->at(n - done - 1) : std::span<const T>(at_start_);
-      };
-      for (std::int64_t n = done + 1; finer_ && n <= next; ++n) {
-        check_->add(n, expected(n), finer_->at(n - done - 1), live_);
-      }
+      reference_.go_on(done, next);
       for (watched_run& its : runs_) {
-        its.run.go_on(next, 1, measure_->width, measure_->read,
+        its.run.go_on(next, 1, measures_.width(), read,
                       [&](std::int64_t n, std::span<const T> seen, const auto& live) {
-                        its.errors.add(n, seen, expected(n), live);
+                        for (std::size_t i = 0; i < measures_.size(); ++i) {
+                          its.errors[i].add(n, measures_.part(i, seen), reference_.expected(i, n), live);
+                        }
                       });
       }
     }
   }
 
-  void require_sound(std::int64_t first) const {
-    if (reference_) reference_->require_sound(first);
-    if (finer_) finer_->require_sound(first);
+  const compared_reference<S, R>& reference() const { return reference_; }
+  run_score score(std::size_t measure, std::size_t method, int k) const {
+    return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
   }
-  run_score score(std::size_t method, int k) const {
-    return runs_[method].errors.score(k, runs_[method].run.diverged_at(k));
-  }
-  double check(int k) const { return check_->score(k).value; }
 
  private:
   using stepper_type = stepper<S, typename M::word, double, noise_type>;
   struct watched_run {
     lockstep<stepper_type, T> run;
-    errors_type errors;
+    std::vector<errors_type> errors;  // one a measure
   };
 
   /// Held in parts of a step.
@@ -119,22 +99,10 @@ class compared_block {
     }
   }
 
-  void require_scale(int count) const {
-    const T scale = measure_->scale(at_start_);
-    for (int k = 0; k < count; ++k) {
-      if (lane(scale, k) == 0.0) throw std::invalid_argument(measure_->no_scale);
-    }
-  }
-
-  const measure_type* measure_;
+  measures_type measures_;
   double step_;
-  std::vector<T> at_start_;
-  condition_of<T> live_;
   path_type path_;  // of the stretch at hand
-  std::optional<reference_along<S, R>> reference_;
-  std::optional<R> its_finer_self_;
-  std::optional<reference_along<S, R>> finer_;
-  std::optional<errors_type> check_;  // of the reference against its finer self
+  compared_reference<S, R> reference_;
   std::vector<stepper_type> steppers_;
   std::vector<watched_run> runs_;
 };

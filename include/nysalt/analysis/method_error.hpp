@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "nysalt/analysis/error_along.hpp"
+#include "nysalt/analysis/error_sum.hpp"
 
 namespace nysalt {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -38,6 +39,15 @@ inline estimate paired_difference(std::span<const double> a, std::span<const dou
   std::vector<double> differences(a.begin(), a.end());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] -= b[i];
   return mean_and_error(differences);
+}
+
+/// The middle one, or the mean of the two in the middle; infinities are allowed. NaN if there is none.
+inline double median(std::vector<double> samples) {
+  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(samples);
+  const double upper = samples[samples.size() / 2];
+  const double lower = samples[(samples.size() - 1) / 2];
+  return lower == upper ? upper : 0.5 * (lower + upper);
 }
 
 /// Slope of the least-squares line through (x_i, y_i).

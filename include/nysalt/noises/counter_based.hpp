@@ -28,7 +28,8 @@ enum class noise_purpose : std::uint8_t {
   finer_path = 4,   // which tell the halves of a step of a path apart
   burn_in = 5,      // of the run that makes an initial state
   burn_in_halves = 6,
-  search = 7  // from where one begins
+  search = 7,       // from where one begins
+  perturbation = 8  // of a start
 };
 
 /// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives

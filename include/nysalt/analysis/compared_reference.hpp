@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSL-1.0
+// The reference that methods are compared with, and what it is compared with itself.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/error_sum.hpp"
+#include "nysalt/analysis/predictability.hpp"
+#include "nysalt/analysis/reference_along.hpp"
+
+namespace nysalt {
+
+/// On how many of the trajectories at hand, from the first on, a reference is compared with itself.
+struct reference_checks {
+  int finer = 0;                            // with its finer self
+  int perturbed = 0;                        // with itself from perturbed starts
+  std::optional<double> perturbation = {};  // relative
+  bool null_model = false;                  // of all of them
+};
+
+/// What measures expect along trajectories side by side: the numbers of the reference, or those at the start.
+/// Beside them go the reference's finer self, one from perturbed starts on the same noise, and the null model
+/// in which all stays as it was at the start; each only as far as it is wanted.
+template <SeparableSystem S, Reference<S> R>
+class compared_reference {
+ public:
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
+  using measure_type = typename measures_type::measure_type;
+  using T = typename measure_type::T;
+  using state = phase_point<T, S::dimension>;
+  using errors_type = error_sum<S::dimension, lanes_of<S>>;
+  using path_type = recorded_path<T, S::dimension>;
+
+  /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
+  compared_reference(const S& system, const R& reference, std::span<const measure_type> measures, double step,
+                     const state& start, int count, const reference_checks& checks, const path_place& at,
+                     path_type& path, int noise_parts)
+      : measures_(measures, measures_type::which::of_reference),
+        step_(step),
+        checks_(checks),
+        live_(first_lanes<T>(count)) {
+    for (const measure_type& measure : measures) {
+      at_start_.push_back(measure.numbers_of(start));
+      if (!measure.needs_reference && measure.scale) require_scale(measure, at_start_.back(), count);
+      errors_.push_back({errors_type(measure), errors_type(measure), errors_type(measure),
+                         predictable_samples<lanes_of<S>>(measure.how)});
+    }
+    const bool needed = measures_.width() > 0;
+    if (needed || noise_parts > 0) {
+      reference_.emplace(system, reference, measures_, start, count, at, &path, noise_parts);
+    }
+    if (needed && checks.finer > 0) {
+      its_finer_self_.emplace(reference.finer());
+      finer_.emplace(system, *its_finer_self_, measures_, start, checks.finer, at);
+    }
+    if (needed && checks.perturbed > 0 && checks.perturbation) {
+      const auto from = nysalt::perturbed(start, *checks.perturbation, at.seed, at.trajectory);
+      perturbed_.emplace(system, reference, measures_, from, checks.perturbed, at);
+    }
+  }
+
+  compared_reference(const compared_reference&) = delete;
+  compared_reference& operator=(const compared_reference&) = delete;
+
+  /// The samples from + 1 .. to.
+  void go_on(std::int64_t from, std::int64_t to) {
+    from_ = from;
+    if (reference_) reference_->go_on(step_, to - from);
+    if (finer_) finer_->go_on(step_, to - from);
+    if (perturbed_) perturbed_->go_on(step_, to - from);
+    for (std::size_t i = 0; i < measures_.size(); ++i) {
+      if (measures_.reads(i)) compare(i, to);
+    }
+  }
+
+  /// What measure i expects at sample n of the last stretch.
+  std::span<const T> expected(std::size_t i, std::int64_t n) const {
+    return measures_.reads(i) ? seen_by(*reference_, i, n) : std::span<const T>(at_start_[i]);
+  }
+
+  void require_sound(std::int64_t first) const {
+    if (reference_) reference_->require_sound(first);
+    if (finer_) finer_->require_sound(first);
+  }
+  /// By measure i in lane k, of what was wanted.
+  double finer_error(std::size_t i, int k) const { return errors_[i].finer.score(k).value; }
+  double null_error(std::size_t i, int k) const { return errors_[i].null_model.score(k).value; }
+  double predictable_until(std::size_t i, int k) const {
+    return errors_[i].predictable.until(k) * std::abs(step_);
+  }
+
+ private:
+  struct errors_of_measure {
+    errors_type finer;
+    errors_type null_model;
+    errors_type perturbed;
+    predictable_samples<lanes_of<S>> predictable;
+  };
+
+  std::span<const T> seen_by(const reference_along<S, R>& run, std::size_t i, std::int64_t n) const {
+    return measures_.part(i, run.at(n - from_ - 1));
+  }
+
+  void compare(std::size_t i, std::int64_t to) {
+    errors_of_measure& its = errors_[i];
+    for (std::int64_t n = from_ + 1; n <= to; ++n) {
+      const auto exact = expected(i, n);
+      if (finer_) its.finer.add(n, exact, seen_by(*finer_, i, n), live_);
+      if (checks_.null_model || perturbed_) its.null_model.add(n, at_start_[i], exact, live_);
+      if (!perturbed_) continue;
+      its.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_);
+      its.predictable.add(n, its.perturbed.sum(), its.null_model.sum());
+    }
+  }
+
+  static void require_scale(const measure_type& measure, std::span<const T> at_start, int count) {
+    const T scale = measure.scale(at_start);
+    for (int k = 0; k < count; ++k) {
+      if (lane(scale, k) == 0.0) throw std::invalid_argument(measure.no_scale);
+    }
+  }
+
+  measures_type measures_;  // those that need a reference
+  double step_;
+  reference_checks checks_;
+  condition_of<T> live_;
+  std::int64_t from_ = 0;
+  std::vector<std::vector<T>> at_start_;
+  std::vector<errors_of_measure> errors_;
+  std::optional<reference_along<S, R>> reference_;
+  std::optional<R> its_finer_self_;
+  std::optional<reference_along<S, R>> finer_;
+  std::optional<reference_along<S, R>> perturbed_;
+};
+
+}  // namespace nysalt

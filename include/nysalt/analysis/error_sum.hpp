@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+// The errors along trajectories side by side, added up.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "nysalt/analysis/error_measure.hpp"
+
+namespace nysalt {
+
+/// What is left of a run: its score, or NaN and the step at which it diverged.
+struct run_score {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::optional<std::int64_t> diverged_at = {};
+};
+
+/// The errors of one trajectory in each lane, added up in the order of time. None is kept.
+template <int N, int W>
+class error_sum {
+ public:
+  using T = scalar_of_lanes<W>;
+  using numbers = std::span<const T>;
+
+  /// Refers to the measure.
+  explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}
+
+  /// Sample i = 1, 2, ..., in this order, of the lanes that are live.
+  void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live) {
+    sum_ = select(live, sum_ + measure_->error(seen, reference), sum_);
+    samples_ = i;
+    const auto lost = both(!(sum_ - sum_ == T(0.0)), live);
+    if (!any(lost)) return;
+    for (int k = 0; k < W; ++k) {
+      auto& at = lost_at_[static_cast<std::size_t>(k)];
+      if (lane(lost, k) && !at) at = i;
+    }
+  }
+
+  /// Of the samples so far.
+  const T& sum() const { return sum_; }
+
+  /// That of lane k, which diverged where its state did, or where the error was no longer finite.
+  run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
+    const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
+    if (lost_at) return {.diverged_at = lost_at};
+    if (diverged_at) return {.diverged_at = diverged_at};
+    return {.value = measure_->score(lane(sum_, k), static_cast<double>(samples_))};
+  }
+
+ private:
+  const error_measure<N, W>* measure_;
+  T sum_{0.0};
+  std::int64_t samples_ = 0;
+  std::array<std::optional<std::int64_t>, W> lost_at_{};
+};
+
+}  // namespace nysalt

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+// How long a trajectory can be told at all: until a slightly wrong start is hardly better than no model.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/noises/counter_based.hpp"
+
+namespace nysalt {
+
+/// All coordinates times 1 + relative * (normal numbers of their own), each a pure function of seed and
+/// trajectory; lane 0 holds number `first`. What is 0 stays so.
+template <class T, int N>
+phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t seed, std::int64_t first) {
+  phase_point<T, N> normals = x;
+  noise_counter at = {.trajectory = static_cast<std::uint64_t>(first),
+                      .purpose = noise_purpose::perturbation};
+  standard_normals(seed, at, normals.q);
+  at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
+  standard_normals(seed, at, normals.p);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    x.q[i] = x.q[i] * (normals.q[i] * relative + 1.0);
+    x.p[i] = x.p[i] * (normals.p[i] * relative + 1.0);
+  }
+  return x;
+}
+
+/// In each lane, since which sample the errors of perturbed starts so far exceed half of the null model's, to
+/// the end: a quarter of them where they are squares, so that roots are halved. A sum that falls behind again
+/// begins anew: what hardly moves at first leaves the null model without errors for a few samples.
+template <int W>
+class predictable_samples {
+ public:
+  using T = scalar_of_lanes<W>;
+
+  explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
+
+  /// The sums over the samples up to i = 1, 2, ..., in this order.
+  void add(std::int64_t i, const T& perturbed, const T& null_model) {
+    const auto within = perturbed <= null_model * share_;  // not if it has gone to NaN
+    for (int k = 0; k < W; ++k) {
+      auto& its = until_[static_cast<std::size_t>(k)];
+      if (lane(within, k)) {
+        its.reset();
+      } else if (!its) {
+        its = i;
+      }
+    }
+  }
+
+  /// In lane k; infinite if it is within to the end.
+  double until(int k) const {
+    const auto& its = until_[static_cast<std::size_t>(k)];
+    return its ? static_cast<double>(*its) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  double share_;
+  std::array<std::optional<std::int64_t>, W> until_{};
+};
+
+}  // namespace nysalt

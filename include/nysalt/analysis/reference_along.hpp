@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSL-1.0
+// What measures read along a reference.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/analysis/joined_measures.hpp"
+#include "nysalt/noises/recorded_path.hpp"
+#include "nysalt/reference.hpp"
+
+namespace nysalt {
+
+/// What measures read along a reference, a stretch of samples at a time; one trajectory in each lane. In a
+/// bath the noise of that stretch is kept for those who follow.
+template <SeparableSystem S, Reference<S> R>
+class reference_along {
+ public:
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
+  using T = typename measures_type::T;
+  using state = phase_point<T, S::dimension>;
+  using path_type = recorded_path<T, S::dimension>;
+
+  /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
+  /// place's. The noise of each step is added to the path in so many parts.
+  reference_along(const S& system, const R& reference, const measures_type& measures, const state& start,
+                  int count, const path_place& at = {}, path_type* path = nullptr, int noise_parts = 0)
+      : system_(&system),
+        reference_(&reference),
+        measures_(&measures),
+        x_(start),
+        count_(count),
+        at_(at),
+        path_(path),
+        noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)) {}
+
+  /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
+  void go_on(double step, std::int64_t samples) {
+    const std::size_t width = measures_->width();
+    numbers_.resize(static_cast<std::size_t>(samples) * width);
+    // A letter O that ends the step before the stretch is still to come.
+    if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
+    for (std::int64_t i = 0; i < samples; ++i) {
+      advance_lanes(*system_, *reference_, x_, step, count_, at_, std::span(noise_));
+      for (const auto& xi : noise_) path_->add(xi);
+      ++at_.step;
+      const auto here = std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
+      measures_->read(x_, here);
+      inspect(here);
+    }
+  }
+
+  /// Sample i of the last stretch.
+  std::span<const T> at(std::int64_t i) const {
+    const std::size_t width = measures_->width();
+    return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
+  }
+
+  /// Throws for the first trajectory that came to grief: std::runtime_error where the reference, or what is
+  /// read of it, is not finite; std::invalid_argument where a measure has no scale. `first` is in lane 0.
+  void require_sound(std::int64_t first) const {
+    for (int k = 0; k < count_; ++k) {
+      const auto& its = failures_[static_cast<std::size_t>(k)];
+      if (!its) continue;
+      const auto& measure = (*measures_)[its->measure];
+      if (its->without_scale) throw std::invalid_argument(measure.no_scale);
+      throw std::runtime_error(fmt::format(
+          "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
+          "take other starts, a finer reference or a shorter horizon",
+          first + k, reference_->description(), measure.name, its->step));
+    }
+  }
+
+ private:
+  struct failure {
+    std::int64_t step;
+    std::size_t measure;
+    bool without_scale;
+  };
+
+  void inspect(std::span<const T> all) {
+    const auto finite = is_finite(x_);
+    for (std::size_t i = 0; i < measures_->size(); ++i) {
+      const auto here = measures_->part(i, all);
+      auto sound = finite;
+      for (const T& number : here) sound = both(sound, number - number == T(0.0));
+      std::optional<T> scale;
+      if (measures_->reads(i) && (*measures_)[i].scale) scale = (*measures_)[i].scale(here);
+      for (int k = 0; k < count_; ++k) {
+        auto& its = failures_[static_cast<std::size_t>(k)];
+        const bool without_scale = scale && lane(*scale, k) == 0.0;
+        if (its || (lane(sound, k) && !without_scale)) continue;
+        its = failure{at_.step, i, lane(sound, k)};
+      }
+    }
+  }
+
+  const S* system_;
+  const R* reference_;
+  const measures_type* measures_;
+  state x_;
+  int count_;
+  path_place at_;
+  path_type* path_;
+  std::vector<vector<T, S::dimension>> noise_;
+  std::vector<T> numbers_;
+  std::array<std::optional<failure>, lanes_of<S>> failures_{};
+};
+
+}  // namespace nysalt

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+// What methods, and their reference, come to along many trajectories by one measure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/method_error.hpp"
+
+namespace nysalt {
+
+struct trajectory_errors_result {
+  std::vector<method_error> methods;        // in the order in which they were given
+  std::optional<estimate> reference_error;  // against its finer self; nothing if no reference was needed
+  std::string reference;                    // its description, or empty
+  std::optional<estimate> null_model;       // of what stays as it was at the start, if asked for
+  std::optional<double> predictable_until;  // a time, perhaps infinite, if asked for
+};
+
+namespace detail {
+
+/// What is left of all trajectories by one measure.
+struct measured_trajectories {
+  std::vector<std::vector<run_score>> runs;  // of each method
+  std::vector<double> checks;                // of the reference against its finer self
+  std::vector<double> null_model;
+  std::vector<double> predictable_until;
+};
+
+template <int N, int W>
+trajectory_errors_result summary(const measured_trajectories& all, const error_measure<N, W>& measure,
+                                 const auto& reference) {
+  trajectory_errors_result result;
+  for (const auto& runs : all.runs) result.methods.push_back(error_of_runs(runs, measure));
+  if (!measure.needs_reference) return result;
+  result.reference_error = measure.average(all.checks);
+  result.reference = reference.description();
+  if (!all.null_model.empty()) result.null_model = measure.average(all.null_model);
+  if (!all.predictable_until.empty()) result.predictable_until = median(all.predictable_until);
+  return result;
+}
+
+}  // namespace detail
+
+}  // namespace nysalt
