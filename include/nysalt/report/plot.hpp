@@ -21,7 +21,17 @@ struct curve {
   std::vector<double> x;
   std::vector<double> y;
   std::vector<double> error{};  // of y, drawn as bars if given
-  bool emphasised = false;
+  bool emphasised = false;      // solid and thick; what is learned
+  std::vector<bool> hollow{};   // points that are shown but do not count, as beyond a limit
+  bool dashed = false;
+  bool points_only = false;  // not joined
+  bool front = false;        // a Pareto front, from cheap to dear: dotted black steps behind the others
+};
+
+/// A horizontal line to compare with: the null model, the floor of sampling.
+struct level {
+  std::string label;
+  double y;
 };
 
 struct panel {
@@ -32,12 +42,14 @@ struct panel {
   std::vector<curve> curves;
   std::string y_range = "[*:*]";
   bool linear_y = false;  // where log_log would be, of what does not go to 0
+  bool points = false;    // where axes are plain: points with bars as well as lines
+  std::vector<level> levels{};
 };
 
 struct figure {
   std::string name;           // of the files: letters, digits, _ and -
   std::vector<panel> panels;  // side by side
-  int width = 800;
+  int width = 800;            // a key that stands beside a panel is added to it
   int height = 520;
 };
 
