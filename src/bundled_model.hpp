@@ -186,33 +186,37 @@ class bundled_model final : public bundled_system {
     return std::move(*result);
   }
 
-  void require_measure(const std::string& metric, const std::string& name, const trajectories_plan& plan,
+  void require_measure(const asked_metric& metric, const trajectories_plan& plan,
                        std::optional<double> fine_step, int noise_parts) const override {
-    if (metric == "distribution" || metric == "acf") {
-      observable<T>(system_, name);
+    if (metric.is_of_law()) {
+      observable<T>(system_, metric.observable);
       reference().fine_step_for_statistics(plan.step, fine_step);
       return;
     }
-    if (metric == "acceptance") {
+    if (metric.is_acceptance()) {
       if (system_.bath().acts()) {
         refuse("the metric acceptance says nothing in a bath, which changes H: leave --friction away");
       }
       require_room(options_of(plan), 1, 1);
       return;
     }
-    const auto measure = measure_named(metric, name);
+    const auto measure = measure_named(metric);
     require_room(options_of(plan), 1, measure.width);
     if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
   }
 
-  trajectory_errors_result errors(const std::vector<tabulated>& methods, const trajectories_plan& plan,
-                                  const std::string& metric, const std::string& name,
-                                  std::optional<double> fine_step, const counter& progress) const override {
-    const auto measure = measure_named(metric, name);
-    trajectory_errors_result result;
+  std::vector<trajectory_errors_result> errors(const std::vector<tabulated>& methods, const errors_plan& plan,
+                                               const counter& progress) const override {
+    std::vector<measure_type> measures;
+    for (const auto& metric : plan.metrics) measures.push_back(measure_named(metric));
+    trajectory_options options = options_of(plan.trajectories, progress);
+    options.null_model = plan.null_model;
+    options.perturbation = plan.perturbation;
+    std::vector<trajectory_errors_result> result;
     const int parts = parts_of_noise(system_, std::span<const tabulated>(methods));
-    reference().at(plan.step, fine_step, parts, [&](const auto& its) {
-      result = trajectory_errors(system_, its, *starts_, methods, measure, options_of(plan, progress));
+    reference().at(plan.trajectories.step, plan.fine_step, parts, [&](const auto& its) {
+      result = trajectory_errors(system_, its, *starts_, methods, std::span<const measure_type>(measures),
+                                 options);
     });
     return result;
   }
@@ -262,7 +266,7 @@ class bundled_model final : public bundled_system {
                                            std::optional<double> fine_step,
                                            const counter& progress) const override {
     const double fine = reference().fine_step_for_statistics(plan.trajectories.step, fine_step);
-    const auto finer = std::llround(plan.trajectories.step / fine);
+    const auto finer = std::llround(plan.trajectories.step / fine) * plan.finer;
     statistics_plan its = plan;
     its.trajectories.step = plan.trajectories.step / static_cast<double>(finer);
     its.trajectories.steps *= finer;
@@ -372,17 +376,17 @@ class bundled_model final : public bundled_system {
     return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
   }
 
-  measure_type measure_named(const std::string& metric, const std::string& name) const {
-    if (metric == "path") return path_measure(system_, observable<T>(system_, name));
-    if (metric == "state") return state_measure(system_);
-    if (metric == "energy") {
+  measure_type measure_named(const asked_metric& metric) const {
+    if (metric.name == "path") return path_measure(system_, observable<T>(system_, metric.observable));
+    if (metric.name == "state") return state_measure(system_);
+    if (metric.name == "energy") {
       if (system_.bath().acts())
         refuse("the metric energy says nothing in a bath, which changes H: take path");
       return energy_measure(system_);
     }
-    if (metric != "exchange") {
+    if (metric.name != "exchange") {
       refuse("unknown metric '{}': it is one of path, state, exchange, energy, acceptance, distribution, acf",
-             metric);
+             metric.name);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);

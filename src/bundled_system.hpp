@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "asked_metric.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
@@ -71,6 +72,16 @@ struct statistics_plan {
   std::int64_t first = 0;  // number of the first trajectory
   std::optional<equal_bins> bins = {};
   std::optional<int> lags = {};
+  int finer = 1;  // the reference takes so many fine steps for each of its usual
+};
+
+/// Errors along the trajectories of a plan.
+struct errors_plan {
+  trajectories_plan trajectories;
+  std::vector<asked_metric> metrics;
+  std::optional<double> fine_step = {};  // of the reference; nothing: the usual
+  bool null_model = false;
+  std::optional<double> perturbation = {};  // of the starts, to see how far they can be followed
 };
 
 class bundled_system {
@@ -109,15 +120,13 @@ class bundled_system {
 
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
   /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.
-  virtual void require_measure(const std::string& metric, const std::string& observable,
-                               const trajectories_plan& plan, std::optional<double> fine_step,
-                               int noise_parts) const = 0;
+  virtual void require_measure(const asked_metric& metric, const trajectories_plan& plan,
+                               std::optional<double> fine_step, int noise_parts) const = 0;
 
-  /// Errors of several methods at one step against one reference.
-  virtual trajectory_errors_result errors(const std::vector<tabulated>& methods,
-                                          const trajectories_plan& plan, const std::string& metric,
-                                          const std::string& observable, std::optional<double> fine_step,
-                                          const counter& progress) const = 0;
+  /// Errors of several methods at one step against one reference, by each metric.
+  virtual std::vector<trajectory_errors_result> errors(const std::vector<tabulated>& methods,
+                                                       const errors_plan& plan,
+                                                       const counter& progress) const = 0;
 
   /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
   virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,

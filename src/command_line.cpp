@@ -55,7 +55,7 @@ struct typed {
   recommend_command recommend;
   stability_command stability;
   system_settings stability_system;
-  std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families;
+  std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics, levels;
 };
 
 template <class T>
@@ -203,17 +203,19 @@ void add_compare(CLI::App& app, typed& to) {
   add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
   add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
   command
-      .add_option("--metric", to.compare.metric,
-                  "path, state, exchange, energy, acceptance, distribution or acf")
-      ->capture_default_str();
+      .add_option("--metric", to.metrics,
+                  "path, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
+                  "path:OBSERVABLE names that of one [path]");
   command.add_option("--observable", to.compare.observable,
                      "of path, distribution and acf [that of the system]");
   command.add_option("--range", to.range, "LOW,HIGH of the histogram [of the starts]");
   add_number(command, "--bins", to.compare.bins, "of the histogram");
+  command.add_option("--levels", to.levels, "errors, joined by commas, whose cost the report tells [0.01]");
   add_number(command, "--longest-lag", to.compare.longest_lag, "of the autocovariance, a time");
   add_number(command, "--hmc-temperature", to.compare.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, to.compare.learning, "--learn-");
-  command.add_option("--output", to.compare.output, "folder for tables and pictures");
+  command.add_option("--output", to.compare.output, "folder for the report, its tables and pictures");
+  command.add_flag("--resume", to.compare.resume, "go on where a run into the same folder was stopped");
   add_common(command, to.common);
   add_force(command, to.common, "use a scheme at another step or system than it was learned for");
   command.footer(
@@ -223,7 +225,9 @@ void add_compare(CLI::App& app, typed& to) {
       "  nysalt compare --system fpu --methods verlet,mclachlan2,srkn6b --steps 0.005,0.01 --equal-cost "
       "--metric state --json\n"
       "  nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --horizon 1 "
-      "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric");
+      "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric\n"
+      "  nysalt compare --system henon_heiles --methods verlet,srkn6b,learned:fg4 --steps 0.2,0.4 --equal-cost "
+      "--horizon 10 --learn-horizon 20 --trajectories 48 --metric state,energy --output report");
 }
 
 void add_recommend(CLI::App& app, typed& to) {
@@ -294,10 +298,14 @@ int run_parsed(const CLI::App& command, typed& to) {
     to.compare.methods = split(to.methods, "--methods");
     to.compare.steps = numbers(to.steps, "--steps");
     to.compare.range = numbers(to.range, "--range");
+    if (given(command, "--metric")) to.compare.metrics = split(to.metrics, "--metric");
+    if (given(command, "--levels")) to.compare.levels = numbers(to.levels, "--levels");
     const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
-      const bool fits = std::find(metrics.begin(), metrics.end(), to.compare.metric) != metrics.end();
-      if (fits || !given(command, option)) return;
-      refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), to.compare.metric);
+      const auto is_of_these = [&](const std::string& text) {
+        return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0;
+      };
+      if (!given(command, option) || std::ranges::any_of(to.compare.metrics, is_of_these)) return;
+      refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(to.compare.metrics));
     };
     belongs("--observable", {"path", "distribution", "acf"});
     belongs("--range", {"distribution"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Methods beside each other: which at which step, how far they err, and what they cost.
+// Methods beside each other: which at which step, how far they err by each metric, and what they cost.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "asked_metric.hpp"
 #include "bundled_system.hpp"
+#include "finding.hpp"
+#include "journal.hpp"
 #include "json.hpp"
 #include "method_source.hpp"
-#include "nysalt/report/work_precision.hpp"
+#include "nysalt/analysis/timing.hpp"
 #include "progress.hpp"
 
 namespace nysalt::program {
@@ -23,78 +26,89 @@ struct row {
   std::string method;  // as typed
   double nominal;      // the step as typed: of a whole step, or (equal cost) of an evaluation
   double step;         // that is taken
+  bool is_learned = false;
   std::optional<tabulated> coefficients{};
-  std::string reason{};  // why there is no error
+  std::string reason{};  // why it could not be used
   double evaluations_per_time = 0.0;
-  double seconds_per_time = 0.0;
-  estimate error{};  // or, of the metric acceptance, the acceptance
-  std::optional<double> reference_error{};
-  std::int64_t diverged = 0;
-  // Of the metrics distribution and acf.
-  std::optional<double> floor{};  // what sampling alone would make of the error
-  std::optional<gathered_statistics> statistics{};
+  timed_job seconds_per_time{};
+  std::vector<finding> findings{};  // by each metric
 };
 
+/// Plans, learns and measures. Each part that is finished goes into a journal; what is there is not done again.
 class comparison {
  public:
   /// Plans the rows. Throws refusal for whatever cannot be, before any work is done.
   comparison(const compare_command& command, const common_settings& common);
 
-  void learn_and_measure();
+  /// What is asked, whatever it is computed by: two of one question have the same results to the bit.
+  json question() const;
+  void learn_and_measure(journal& kept);
 
-  bool has_result() const;
+  const compare_command& command() const { return command_; }
+  const common_settings& common() const { return common_; }
+  const bundled_system& system() const { return *system_; }
+  const std::vector<asked_metric>& metrics() const { return metrics_; }
+  const std::vector<row>& rows() const { return rows_; }
+  const json& fits() const { return fits_; }
+  const backdrops& behind() const { return behind_; }
+  const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-
-  json document() const;
-  std::string readable() const;
-  /// Tables and pictures.
-  void write(const std::filesystem::path& folder) const;
+  bool has_result() const;
 
  private:
+  using group = std::vector<row*>;  // of one step size
+
+  static constexpr double reference_evaluations = 11.0;  // of srkn11b, a step
+  static constexpr double fine_angle = 0.05;             // usual of such a step, of the fastest motion
+
+  void name_metrics();
   void require_sound_command() const;
+  void require_sound_statistics() const;
   void plan_rows();
   void add_row(const method_source& source, double nominal);
   trajectories_plan plan_at(double step) const;
-  void require_sound_statistics() const;
-  void learn_for(row& its, const method_source& source);
-  void measure_errors();
-  void measure_at(double step, const std::vector<row*>& group);
-  /// Those with coefficients that may be used; of the others only the cost is told.
-  std::vector<row*> usable(const std::vector<row*>& group, const trajectories_plan& plan) const;
+  void expect_work();
+  double work_of_learning(const row& its) const;
+  double work_of_paths(const group& all) const;
+  double work_of_law(double evaluations_per_time) const;
+  double evaluations_of(const row& its) const;  // by unit time, without the start
+
+  void learn(row& its, journal& kept);
+  void measure_paths(double step, const group& all, journal& kept);
+  std::vector<asked_metric> along_paths() const;
+  /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
+  std::optional<double> fine_step_for(double step, const std::vector<tabulated>& methods) const;
+  void take(std::size_t metric, double step, const group& all, const json& found);
+  void measure_acceptance(std::size_t metric, double step, const group& all, journal& kept);
+  void measure_law(std::size_t metric, double step, const group& all, journal& kept);
+  statistics_plan statistics_at(std::size_t metric, double step) const;
+  void prepare_bins(std::size_t metric);
+  double step_of_reference(std::size_t metric, double step) const;
+  gathered_statistics reference(std::size_t metric, double step, int number, int finer);
+  const std::vector<gathered_statistics>& references_at(std::size_t metric, double step);
+  backdrop behind_law(std::size_t metric, double step);
+  finding law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all);
+  void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
   void measure_seconds();
-  void warn_of_reference();
-
-  bool is_acceptance() const { return command_.metric == "acceptance"; }
-  /// What the column of results is called.
-  std::string value_name() const { return is_acceptance() ? "acceptance" : "error"; }
-  bool is_better(const row& a, const row& b) const {
-    return is_acceptance() ? a.error.mean > b.error.mean : a.error.mean < b.error.mean;
-  }
-  void measure_acceptance_at(double step, const std::vector<row*>& group);
-
-  bool is_statistical() const { return command_.metric == "distribution" || command_.metric == "acf"; }
-  statistics_plan statistics_at(double step) const;
-  void prepare_bins();
-  void measure_statistics_at(double step, const std::vector<row*>& group);
-  std::vector<gathered_statistics> references_at(double step);
-  void require_samples_in_range(std::span<const gathered_statistics> all) const;
-
-  std::string quantity() const;
-  std::vector<work_precision_row> work_precision_rows() const;
-  std::string at_equal_cost(bool markdown) const;
-  std::vector<figure> pictures_of_statistics() const;
 
   compare_command command_;
   common_settings common_;
   std::unique_ptr<bundled_system> system_;
+  std::vector<asked_metric> metrics_;
   std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed
   std::vector<row> rows_;
   json fits_ = json::array();
-  json references_ = json::array();
+  backdrops behind_;
   std::vector<std::string> warnings_;
-  std::optional<equal_bins> bins_;
-  std::map<double, std::vector<gathered_statistics>> reference_statistics_;  // by step
+  std::vector<std::optional<equal_bins>> bins_;  // by metric
+  std::map<std::pair<std::size_t, double>, std::vector<gathered_statistics>> references_;
   progress shown_;
 };
+
+/// The results of a comparison for machines, and for people.
+json document_of(const comparison& its);
+std::string readable(const comparison& its);
+/// Report, table and pictures in a folder.
+void write_report(const comparison& its, const std::filesystem::path& folder);
 
 }  // namespace nysalt::program

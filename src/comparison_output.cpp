@@ -1,158 +1,273 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a comparison found, for machines and for people.
+// What a comparison found: a document for machines, text and tables for people.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "comparison.hpp"
-#include "output.hpp"
+#include "comparison_output.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
 
-std::string comparison::quantity() const {
-  if (command_.metric == "path") return "path error of " + command_.observable;
-  if (command_.metric == "distribution") return "total variation of " + command_.observable;
-  if (command_.metric == "acf") return "acf error of " + command_.observable;
-  if (is_acceptance()) return fmt::format("acceptance at kT = {:g}", command_.hmc_temperature);
-  return command_.metric + " error";
+std::int64_t peak_memory() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return 1024 * static_cast<std::int64_t>(used.ru_maxrss);
 }
 
-std::vector<work_precision_row> comparison::work_precision_rows() const {
-  std::vector<work_precision_row> result;
-  for (const auto& its : rows_) {
-    result.push_back({its.method, its.nominal, its.evaluations_per_time, its.seconds_per_time, its.error,
-                      its.diverged, command_.trajectories, its.floor});
-  }
-  return result;
+std::string quantity(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  if (metric.name == "path") return "path error of " + metric.observable;
+  if (metric.name == "distribution") return "total variation of " + metric.observable;
+  if (metric.name == "acf") return "acf error of " + metric.observable;
+  if (metric.is_acceptance()) return fmt::format("acceptance at kT = {:g}", all.command().hmc_temperature);
+  return metric.name + " error";
 }
 
-/// Each learned method beside the best of the others at its cost; empty if that is not the question.
-std::string comparison::at_equal_cost(bool markdown) const {
-  if (!command_.equal_cost) return {};
-  const auto is_learned = [&](const row& its) { return families_.contains(its.method); };
-  const std::string value = value_name();
-  table result({"at equal cost", "step", value, "best of the others", "its " + value,
-                is_acceptance() ? "its rejections / learned" : "its error / learned"});
-  bool any = false;
-  for (const auto& its : rows_) {
-    if (!is_learned(its)) continue;
-    const row* best = nullptr;
-    for (const auto& other : rows_) {
-      const bool stays = other.diverged == 0 && !std::isnan(other.error.mean);
-      if (is_learned(other) || other.nominal != its.nominal || !stays) continue;
-      if (best == nullptr || is_better(other, *best)) best = &other;
-    }
-    if (best == nullptr) continue;
-    any = true;
-    const auto number = [](const char* format, double x) {
-      return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
-    };
-    const char* format = is_acceptance() ? "{:.4f}" : "{:.2e}";
-    const double gain = is_acceptance() ? (1.0 - best->error.mean) / (1.0 - its.error.mean)
-                                        : best->error.mean / its.error.mean;
-    result.add({its.method, number("{:g}", its.nominal), number(format, its.error.mean), best->method,
-                number(format, best->error.mean), number("{:.2g}", gain)});
-  }
-  return !any ? std::string() : markdown ? result.markdown() : result.text();
-}
+namespace {
 
-json comparison::document() const {
-  const bool has_observable = command_.metric == "path" || is_statistical();
-  json rows = json::array();
-  for (const auto& its : rows_) {
-    rows.push_back({{"method", its.method},
-                    {"step", its.nominal},
-                    {"step_size", its.step},
-                    {"evaluations_per_time", its.evaluations_per_time},
-                    {"seconds_per_time", its.seconds_per_time},
-                    {value_name(), its.error.mean},
-                    {"standard_error", its.error.standard_error},
-                    {"diverged", its.diverged},
-                    {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)}});
-    if (!its.reason.empty()) rows.back()["reason"] = its.reason;
-    if (its.floor) rows.back()["floor"] = *its.floor;
-    if (!its.statistics) continue;
-    const auto& found = *its.statistics;
-    rows.back()["mean"] = found.mean.mean;
-    rows.back()["mean_standard_error"] = found.mean.standard_error;
-    rows.back()["effective_sample_size"] = found.effective_sample_size;
-    if (!found.histogram) continue;
-    rows.back()["kinetic_temperature"] = found.kinetic_temperature.mean;
-    rows.back()["half_step_kinetic_temperature"] = found.half_step_kinetic_temperature.mean;
-  }
-  json result{{"system", system_->description()},
-              {"starts", system_->starts()},
-              {"metric", command_.metric},
-              {"observable", has_observable ? json(command_.observable) : json(nullptr)},
-              {"horizon", command_.horizon},
-              {"trajectories", command_.trajectories},
-              {"equal_cost", command_.equal_cost},
-              {"seed", common_.seed},
-              {"references", references_},
-              {"rows", rows},
-              {"fits", fits_},
-              {"warnings", warnings_}};
-  if (bins_) result["histogram"] = {{"low", bins_->low}, {"high", bins_->high}, {"bins", bins_->count}};
-  if (is_acceptance()) result["hmc_temperature"] = command_.hmc_temperature;
-  if (command_.metric == "acf") result["longest_lag"] = command_.longest_lag;
-  return result;
-}
+std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
+std::string in_full(double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); }
+std::string in_full(const std::optional<double>& x) { return x ? in_full(*x) : std::string(); }
 
-std::string comparison::readable() const {
-  std::string text = fmt::format("{}, {} trajectories over {:g}, {}", system_->description(),
-                                 command_.trajectories, command_.horizon, quantity());
-  text += fmt::format("\nstarts: {}", system_->starts());
-  for (const auto& used : references_) {
-    text += fmt::format("\nreference at {:g}: {}, {} {:.1e}", used["step_size"].get<double>(),
-                        used["reference"].get<std::string>(), is_statistical() ? "floor" : "own error",
-                        used["error"].get<double>());
+std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
+  std::string text;
+  for (const mark one : marks_of(all, m, its)) {
+    if (!text.empty()) text += ' ';
+    text += to_string(one);
   }
-  if (command_.equal_cost) text += "\nsteps are per force evaluation: equal steps, equal cost";
-  text += "\n\n" + work_precision_table(work_precision_rows(), value_name()).text();
-  for (const auto& its : rows_) {
-    if (!its.reason.empty())
-      text += fmt::format("{} at step {:g}: {}\n", its.method, its.nominal, its.reason);
-  }
-  if (const std::string beside = at_equal_cost(false); !beside.empty()) text += "\n" + beside;
   return text;
 }
 
-void comparison::write(const std::filesystem::path& folder) const {
-  const auto rows = work_precision_rows();
-  make_folder(folder);
-  write_result(folder / "table.md",
-               work_precision_table(rows, value_name()).markdown() + "\n" + at_equal_cost(true), common_);
-  std::vector<std::string> columns{"method",           "step",       "step_size",      "evaluations_per_time",
-                                   "seconds_per_time", value_name(), "standard_error", "diverged"};
-  if (is_statistical()) columns.emplace_back("floor");
-  table all(columns);
-  for (const auto& its : rows_) {
-    const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); };
-    std::vector<std::string> cells{its.method,
-                                   number(its.nominal),
-                                   number(its.step),
-                                   number(its.evaluations_per_time),
-                                   number(its.seconds_per_time),
-                                   number(its.error.mean),
-                                   number(its.error.standard_error),
-                                   fmt::format("{}", its.diverged)};
-    if (is_statistical()) cells.push_back(its.floor ? number(*its.floor) : std::string());
-    all.add(cells);
+}  // namespace
+
+table rows_of(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  table result({"method", "step", "evaluations/time", "ns/time", "median +", metric.value(), "standard error",
+                "diverged", "marks"});
+  for (const row& its : all.rows()) {
+    const finding& one = its.findings[m];
+    const timed_job& seconds = its.seconds_per_time;
+    result.add({its.method, fmt::format("{:g}", its.nominal), fmt::format("{:.1f}", its.evaluations_per_time),
+                fmt::format("{:.0f}", 1e9 * seconds.least),
+                fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
+                in_short(one.value.mean), in_short(one.value.standard_error),
+                fmt::format("{}/{}", one.diverged, all.command().trajectories), joined_marks(all, m, its)});
   }
-  write_result(folder / "rows.csv", all.csv(), common_);
-  const auto learned =
-      std::ranges::find_if(rows_, [&](const row& its) { return families_.contains(its.method); });
-  const std::string emphasised = learned == rows_.end() ? "" : learned->method;
-  figure evaluations{value_name() + "_against_evaluations",
-                     {work_precision_panel(rows, emphasised, "force evaluations per unit time",
-                                           &work_precision_row::evaluations_per_time)}};
-  figure seconds{value_name() + "_against_seconds",
-                 {work_precision_panel(rows, emphasised, "seconds per unit time",
-                                       &work_precision_row::seconds_per_time)}};
-  evaluations.panels[0].y_label = seconds.panels[0].y_label = quantity();
-  evaluations.panels[0].linear_y = seconds.panels[0].linear_y = is_acceptance();
-  for (const auto& picture : {evaluations, seconds}) write_pictures(picture, folder, common_);
-  for (const auto& picture : pictures_of_statistics()) write_pictures(picture, folder, common_);
+  return result;
+}
+
+std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m) {
+  std::vector<std::string> result;
+  for (const mark one : {mark::reference, mark::null, mark::floor, mark::horizon, mark::diverged}) {
+    const bool is_there = std::ranges::any_of(
+        all.rows(), [&](const row& its) { return std::ranges::count(marks_of(all, m, its), one) > 0; });
+    if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));
+  }
+  return result;
+}
+
+table backdrops_of(const comparison& all, std::size_t m) {
+  const bool is_of_law = all.metrics()[m].is_of_law();
+  table result({"step size", "reference", "its own error", "null model",
+                is_of_law ? "floor of sampling" : "predictable until"},
+               2);
+  const auto shown = [](const std::optional<double>& x) { return x ? in_short(*x) : std::string("-"); };
+  for (const auto& [key, its] : all.behind()) {
+    if (key.first != m || its.reference.empty()) continue;
+    const auto until = its.predictable_until;
+    const std::string horizon = !until ? "-" : std::isinf(*until) ? "the end" : fmt::format("{:g}", *until);
+    result.add({fmt::format("{:g}", key.second), its.reference, shown(its.reference_error),
+                shown(its.null_model), is_of_law ? shown(its.floor) : horizon});
+  }
+  return result;
+}
+
+table equal_cost_table(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  const bool accepts = metric.is_acceptance();
+  const std::string value = metric.value();
+  table result({"at equal cost", "step", value, "best of the others", "its " + value,
+                accepts ? "its rejections / learned" : "its error / learned", "its ns / learned"});
+  const char* format = accepts ? "{:.4f}" : "{:.2e}";
+  for (const at_equal_cost& pair : side_by_side(all, m)) {
+    const double seconds = pair.best->seconds_per_time.least / pair.learned->seconds_per_time.least;
+    result.add({pair.learned->method, fmt::format("{:g}", pair.learned->nominal),
+                fmt::format(fmt::runtime(format), pair.learned->findings[m].value.mean), pair.best->method,
+                fmt::format(fmt::runtime(format), pair.best->findings[m].value.mean),
+                fmt::format("{:.2g}", gain(all, m, pair)), fmt::format("{:.2g}", seconds)});
+  }
+  return result;
+}
+
+std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
+  std::vector<std::string> result;
+  for (const row& its : all.rows()) {
+    const std::string& reason = its.findings[m].reason;
+    if (!reason.empty()) result.push_back(fmt::format("{} at step {:g}: {}", its.method, its.nominal, reason));
+  }
+  return result;
+}
+
+namespace {
+
+json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? json(*x) : json(nullptr); }
+
+json row_json(const comparison& all, std::size_t m, const row& its) {
+  const asked_metric& metric = all.metrics()[m];
+  const finding& one = its.findings[m];
+  const auto behind = all.behind().find({m, its.step});
+  const backdrop none;
+  const backdrop& against = behind == all.behind().end() ? none : behind->second;
+  json marks = json::array();
+  for (const mark found : marks_of(all, m, its)) marks.push_back(to_string(found));
+  json result{{"metric", metric.text()},
+              {"method", its.method},
+              {"step", its.nominal},
+              {"step_size", its.step},
+              {"evaluations_per_time", its.evaluations_per_time},
+              {"seconds_per_time", its.seconds_per_time.least},
+              {"seconds_per_time_median", its.seconds_per_time.median},
+              {metric.value(), one.value.mean},
+              {"standard_error", one.value.standard_error},
+              {"diverged", one.diverged},
+              {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
+              {"marks", marks}};
+  if (!one.reason.empty()) result["reason"] = one.reason;
+  if (!metric.is_of_law() || !one.law) return result;
+  if (against.floor) result["floor"] = *against.floor;
+  result["mean"] = one.law->mean.mean;
+  result["mean_standard_error"] = one.law->mean.standard_error;
+  result["effective_sample_size"] = one.law->effective_sample_size;
+  if (!one.law->kinetic_temperature) return result;
+  result["kinetic_temperature"] = *one.law->kinetic_temperature;
+  result["half_step_kinetic_temperature"] = *one.law->half_step_kinetic_temperature;
+  return result;
+}
+
+json references_json(const comparison& all) {
+  json result = json::array();
+  for (const auto& [key, its] : all.behind()) {
+    if (its.reference.empty()) continue;
+    json one{{"metric", all.metrics()[key.first].text()},
+             {"step_size", key.second},
+             {"reference", its.reference},
+             {"error", number(its.reference_error)},
+             {"null_model", number(its.null_model)}};
+    if (its.predictable_until) one["predictable_until"] = number(its.predictable_until);
+    if (its.floor) one["floor"] = *its.floor;
+    if (its.law) one["mean"] = its.law->mean.mean;
+    if (its.law && its.law->kinetic_temperature) {
+      one["kinetic_temperature"] = *its.law->kinetic_temperature;
+      one["half_step_kinetic_temperature"] = *its.law->half_step_kinetic_temperature;
+    }
+    result.push_back(one);
+  }
+  return result;
+}
+
+json threshold_json(const threshold& its) {
+  return {{"at", number(its.at)},
+          {"standard_error", number(its.standard_error)},
+          {"low", number(its.low)},
+          {"high", number(its.high)}};
+}
+
+json rankings_json(const comparison& all) {
+  json result = json::array();
+  const auto named = [](const std::vector<const row*>& rows) {
+    json names = json::array();
+    for (const row* its : rows) names.push_back({{"method", its->method}, {"step", its->nominal}});
+    return names;
+  };
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    json levels = json::array();
+    for (const double level : all.command().levels) {
+      if (all.metrics()[m].is_acceptance()) break;
+      json costs = json::array();
+      for (const cost_at_level& its : costs_at(all, m, level)) {
+        costs.push_back({{"method", its.method},
+                         {"time_per_evaluation", threshold_json(its.evaluations)},
+                         {"time_per_second", threshold_json(its.seconds)}});
+      }
+      levels.push_back({{"level", level}, {"methods", costs}});
+    }
+    result.push_back({{"metric", all.metrics()[m].text()},
+                      {"front_by_evaluations", named(pareto_front(all, m, evaluations_of))},
+                      {"front_by_seconds", named(pareto_front(all, m, seconds_of))},
+                      {"levels", levels}});
+  }
+  return result;
+}
+
+}  // namespace
+
+json document_of(const comparison& all) {
+  const compare_command& command = all.command();
+  json metrics = json::array();
+  json rows = json::array();
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    metrics.push_back(all.metrics()[m].text());
+    for (const row& its : all.rows()) rows.push_back(row_json(all, m, its));
+  }
+  json result{{"system", all.system().description()},
+              {"starts", all.system().starts()},
+              {"metrics", metrics},
+              {"horizon", command.horizon},
+              {"trajectories", command.trajectories},
+              {"equal_cost", command.equal_cost},
+              {"seed", all.common().seed},
+              {"references", references_json(all)},
+              {"rows", rows},
+              {"rankings", rankings_json(all)},
+              {"fits", all.fits()},
+              {"warnings", all.warnings()},
+              {"peak_memory", peak_memory()}};
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    const auto& bins = all.bins(m);
+    if (bins) result["histogram"] = {{"low", bins->low}, {"high", bins->high}, {"bins", bins->count}};
+    if (all.metrics()[m].is_acceptance()) result["hmc_temperature"] = command.hmc_temperature;
+    if (all.metrics()[m].name == "acf") result["longest_lag"] = command.longest_lag;
+  }
+  return result;
+}
+
+std::string csv_of(const comparison& all) {
+  table result({"metric", "method", "step", "step_size", "evaluations_per_time", "seconds_per_time",
+                "seconds_per_time_median", "value", "standard_error", "diverged", "reference_error",
+                "null_model", "floor", "predictable_until", "marks", "reason"});
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    for (const row& its : all.rows()) {
+      const finding& one = its.findings[m];
+      const auto at = all.behind().find({m, its.step});
+      const backdrop against = at == all.behind().end() ? backdrop{} : at->second;
+      result.add({all.metrics()[m].text(), its.method, in_full(its.nominal), in_full(its.step),
+                  in_full(its.evaluations_per_time), in_full(its.seconds_per_time.least),
+                  in_full(its.seconds_per_time.median), in_full(one.value.mean),
+                  in_full(one.value.standard_error), fmt::format("{}", one.diverged),
+                  in_full(against.reference_error), in_full(against.null_model), in_full(against.floor),
+                  in_full(against.predictable_until), joined_marks(all, m, its), one.reason});
+    }
+  }
+  return result.csv();
+}
+
+std::string readable(const comparison& all) {
+  const compare_command& command = all.command();
+  std::string text = fmt::format("{}, {} trajectories over {:g}", all.system().description(),
+                                 command.trajectories, command.horizon);
+  text += fmt::format("\nstarts: {}\n", all.system().starts());
+  if (command.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    text += fmt::format("\n{}\n\n", quantity(all, m));
+    if (const table against = backdrops_of(all, m); !against.empty()) text += against.text() + "\n";
+    text += rows_of(all, m).text();
+    for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
+    for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";
+    if (const table beside = equal_cost_table(all, m); !beside.empty()) text += "\n" + beside.text();
+  }
+  return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }
 
 }  // namespace nysalt::program

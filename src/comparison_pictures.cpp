@@ -1,70 +1,113 @@
 // SPDX-License-Identifier: BSL-1.0
-// Laws and autocovariances, drawn beside those of the reference.
-#include <algorithm>
+// Errors against costs, and laws beside that of the reference, as they are drawn.
+#include "comparison_pictures.hpp"
 
-#include "comparison.hpp"
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "comparison_output.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-curve density_curve(const std::string& label, const histogram& its) {
-  curve result{.label = label, .x = {}, .y = its.density()};
-  const equal_bins bins = its.bins();
-  for (int i = 0; i < bins.count; ++i) result.x.push_back(bins.low + (i + 0.5) * bins.width());
-  return result;
+/// Of letters, digits and _, as files are called.
+std::string plain(std::string text) {
+  const auto is_other = [](unsigned char c) { return std::isalnum(c) == 0; };
+  std::replace_if(text.begin(), text.end(), is_other, '_');
+  return text;
 }
 
-curve acf_curve(const std::string& label, const autocovariance& its) {
-  curve result{.label = label, .x = {}, .y = its.normalised()};
-  for (std::size_t k = 0; k < result.y.size(); ++k) {
-    result.x.push_back(static_cast<double>(k) * its.interval());
+/// One curve a method, from cheap to dear; what does not count is hollow.
+std::vector<curve> curves_of(const comparison& all, std::size_t m, double (*cost)(const row&)) {
+  std::vector<curve> result;
+  for (const auto& method : all.command().methods) {
+    curve its{.label = method, .x = {}, .y = {}};
+    std::vector<const row*> rows;
+    for (const row& one : all.rows()) {
+      if (one.method == method) rows.push_back(&one);
+    }
+    std::ranges::sort(rows, {}, [&](const row* one) { return cost(*one); });
+    for (const row* one : rows) {
+      const estimate& value = one->findings[m].value;
+      its.x.push_back(cost(*one));
+      its.y.push_back(value.mean);
+      its.error.push_back(value.standard_error);
+      its.hollow.push_back(!is_ranked(all, m, *one));
+      its.emphasised = one->is_learned;
+    }
+    result.push_back(its);
   }
   return result;
 }
 
-/// Of independent ensembles, with less noise than each has; they share their x.
-curve mean_curve(const std::vector<curve>& all) {
-  curve result = all.front();
-  for (std::size_t i = 0; i < result.y.size(); ++i) {
-    double sum = 0.0;
-    for (const curve& one : all) sum += one.y[i];
-    result.y[i] = sum / static_cast<double>(all.size());
+curve front_of(const comparison& all, std::size_t m, double (*cost)(const row&)) {
+  curve its{.label = "best at its cost", .x = {}, .y = {}};
+  its.front = true;
+  for (const row* one : pareto_front(all, m, cost)) {
+    its.x.push_back(cost(*one));
+    its.y.push_back(one->findings[m].value.mean);
   }
+  return its;
+}
+
+/// One that stands for all steps, as they differ little: the least.
+std::vector<level> levels_of(const comparison& all, std::size_t m) {
+  std::vector<level> result;
+  const auto add = [&](const char* label, std::optional<double> backdrop::*field) {
+    std::optional<double> least;
+    for (const auto& [key, its] : all.behind()) {
+      if (key.first == m && its.*field && std::isfinite(*(its.*field))) {
+        least = std::min(least.value_or(*(its.*field)), *(its.*field));
+      }
+    }
+    if (least && *least > 0.0) result.push_back({label, *least});
+  };
+  add("null model", &backdrop::null_model);
+  add("floor of sampling", &backdrop::floor);
   return result;
+}
+
+figure against_cost(const comparison& all, std::size_t m, const char* name, const char* label,
+                    double (*cost)(const row&)) {
+  panel its{.title = {}, .x_label = label, .y_label = quantity(all, m), .log_log = true, .curves = {}};
+  its.linear_y = all.metrics()[m].is_acceptance();
+  its.curves = curves_of(all, m, cost);
+  if (const curve front = front_of(all, m, cost); front.x.size() > 1) its.curves.push_back(front);
+  its.levels = levels_of(all, m);
+  return {.name = plain(all.metrics()[m].text()) + name, .panels = {its}};
 }
 
 }  // namespace
 
-std::vector<figure> comparison::pictures_of_statistics() const {
+std::vector<figure> pictures_of_errors(const comparison& all, std::size_t m) {
+  return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time", evaluations_of),
+          against_cost(all, m, "_against_seconds", "seconds per unit time", seconds_of)};
+}
+
+std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
   std::vector<figure> result;
-  const bool of_law = command_.metric == "distribution";
-  const auto curve_of = [&](const std::string& label, const gathered_statistics& its) {
-    return of_law ? density_curve(label, *its.histogram) : acf_curve(label, *its.autocovariance);
-  };
-  for (const double nominal : command_.steps) {
-    panel its{fmt::format("step {:g}", nominal),
-              of_law ? command_.observable : "lag",
-              of_law ? "density" : "normalised autocovariance of " + command_.observable,
-              false,
-              {}};
-    for (const auto& one : rows_) {
-      if (one.nominal != nominal || !one.statistics || one.statistics->counted == 0) continue;
+  const asked_metric& metric = all.metrics()[m];
+  if (!metric.is_of_law()) return result;
+  const bool is_density = metric.name == "distribution";
+  for (const double nominal : all.command().steps) {
+    panel its{.title = fmt::format("step {:g}", nominal),
+              .x_label = is_density ? metric.observable : "lag",
+              .y_label = is_density ? "density" : "normalised autocovariance of " + metric.observable,
+              .curves = {}};
+    for (const row& one : all.rows()) {
+      const auto& law = one.findings[m].law;
+      if (one.nominal != nominal || !law || law->y.empty()) continue;
       if (its.curves.empty()) {
-        const auto at = reference_statistics_.find(one.step);
-        const auto& all = at == reference_statistics_.end() ? *reference_statistics_.begin() : *at;
-        std::vector<curve> of_ensembles;
-        for (const auto& ensemble : all.second) of_ensembles.push_back(curve_of("reference", ensemble));
-        its.curves.push_back(mean_curve(of_ensembles));
-        its.curves.back().emphasised = true;
+        const auto& reference = *all.behind().at({m, one.step}).law;
+        its.curves.push_back(
+            {.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
       }
-      its.curves.push_back(curve_of(one.method, *one.statistics));
+      its.curves.push_back({.label = one.method, .x = law->x, .y = law->y});
     }
     if (its.curves.empty()) continue;
-    std::string name = fmt::format("{}_at_{:g}", command_.metric, nominal);
-    std::replace(name.begin(), name.end(), '.', '_');
-    std::replace(name.begin(), name.end(), '+', '_');
-    result.push_back({name, {its}});
+    result.push_back({.name = plain(fmt::format("{}_at_{:g}", metric.text(), nominal)), .panels = {its}});
   }
   return result;
 }

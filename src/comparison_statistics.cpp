@@ -17,11 +17,6 @@ namespace {
 
 constexpr int references = 4;  // independent ensembles: six pairs for the floor
 
-struct distance {
-  double value;
-  double standard_error;
-};
-
 std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
   std::vector<histogram> result;
   for (const auto& one : all) result.push_back(*one.histogram);
@@ -29,16 +24,16 @@ std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
 }
 
 /// Of one ensemble from the law of several: the mean over these.
-distance distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
+estimate distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
   if (its.histogram) {
     return {mean_total_variation(*its.histogram, histograms_of(others)),
             std::numeric_limits<double>::quiet_NaN()};
   }
-  distance result{0.0, 0.0};
+  estimate result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());
   for (const auto& other : others) {
     const acf_distance found = acf_error(*its.autocovariance, *other.autocovariance);
-    result.value += found.rms * share;
+    result.mean += found.rms * share;
     result.standard_error += found.standard_error * share;
   }
   return result;
@@ -50,24 +45,40 @@ double floor_of(std::span<const gathered_statistics> all) {
   double sum = 0.0;
   double pairs = 0.0;
   for (std::size_t i = 1; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).value;
+    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).mean;
   }
   return sum / pairs;
+}
+
+/// Of independent ensembles, with less noise than each has; they share their x.
+drawn_law mean_law(std::span<const gathered_statistics> all) {
+  drawn_law result = drawn(all.front());
+  for (double& y : result.y) y /= static_cast<double>(all.size());
+  for (const auto& other : all.subspan(1)) {
+    const auto y = drawn(other).y;
+    for (std::size_t i = 0; i < y.size(); ++i) result.y[i] += y[i] / static_cast<double>(all.size());
+  }
+  return result;
 }
 
 }  // namespace
 
 void comparison::require_sound_statistics() const {
   const bath& its = system_->its_bath();
+  const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
   if (its.acts() && its.sigma() == 0.0) {
-    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", command_.metric);
+    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", of_law->name);
   }
   if (its.acts() && !its.has_temperature()) {
     refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
-           command_.metric);
+           of_law->name);
   }
+  const auto is_distribution = [](const asked_metric& one) { return one.name == "distribution"; };
   if (!command_.range.empty() && command_.range.size() != 2) {
     refuse("--range takes two numbers, such as 0,1, got {}", command_.range.size());
+  }
+  if (!command_.range.empty() && std::ranges::count_if(metrics_, is_distribution) > 1) {
+    refuse("--range is of one histogram: ask for one distribution, or leave it away");
   }
   if (command_.bins < 1 || command_.bins > 100'000) {
     refuse("--bins must be at least 1 and at most 100000, got {}", command_.bins);
@@ -82,10 +93,10 @@ void comparison::require_sound_statistics() const {
 }
 
 /// Autocovariances take some 50 lags, whatever the step: a product a lag and sample is all their cost.
-statistics_plan comparison::statistics_at(double step) const {
-  statistics_plan plan{.trajectories = plan_at(step), .every = 1, .first = 0, .bins = {}, .lags = {}};
-  if (command_.metric == "distribution") {
-    plan.bins = bins_;
+statistics_plan comparison::statistics_at(std::size_t metric, double step) const {
+  statistics_plan plan{.trajectories = plan_at(step)};
+  if (metrics_[metric].name == "distribution") {
+    plan.bins = bins_[metric];
     return plan;
   }
   const std::int64_t longest = steps_within("--longest-lag", command_.longest_lag, step);
@@ -98,90 +109,117 @@ statistics_plan comparison::statistics_at(double step) const {
 }
 
 /// The same for all steps.
-void comparison::prepare_bins() {
-  if (command_.metric != "distribution" || bins_) return;
-  std::array range{0.0, 0.0};
+void comparison::prepare_bins(std::size_t metric) {
+  if (metrics_[metric].name != "distribution" || bins_[metric]) return;
+  const std::string& observable = metrics_[metric].observable;
+  std::array<double, 2> range{};
   if (command_.range.empty()) {
-    range = system_->range_of_starts(plan_at(rows_.front().step), command_.observable);
+    range = system_->range_of_starts(plan_at(rows_.front().step), observable);
     if (!(range[0] < range[1])) {
-      refuse("the observable {} is {} at all starts: say the --range of its histogram", command_.observable,
-             range[0]);
+      refuse("the observable {} is {} at all starts: say the --range of its histogram", observable, range[0]);
     }
   } else {
     range = {command_.range[0], command_.range[1]};
   }
-  bins_ = equal_bins{range[0], range[1], static_cast<int>(command_.bins)};
+  bins_[metric] = equal_bins{range[0], range[1], static_cast<int>(command_.bins)};
 }
 
 /// Else all laws would be the same: none of them is seen.
-void comparison::require_samples_in_range(std::span<const gathered_statistics> all) const {
+void comparison::require_samples_in_range(std::size_t metric,
+                                          std::span<const gathered_statistics> all) const {
+  const auto& bins = bins_[metric];
+  if (!bins) return;
   for (const auto& its : all) {
-    if (!its.histogram) return;
-    const auto inside = its.histogram->counts().subspan(1, static_cast<std::size_t>(bins_->count));
+    const auto inside = its.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
     if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
   }
-  refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins_->low,
-         bins_->high, command_.observable, all.front().mean.mean);
+  refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins->low,
+         bins->high, metrics_[metric].observable, all.front().mean.mean);
 }
 
 /// Their trajectories have numbers of their own, hence starts and noise of their own. The law does not depend
 /// on the step of those who are compared with it: one set serves all, at the smallest.
-std::vector<gathered_statistics> comparison::references_at(double step) {
-  if (command_.metric == "distribution" && !reference_statistics_.empty()) {
-    return reference_statistics_.begin()->second;
-  }
-  std::vector<gathered_statistics> all;
+double comparison::step_of_reference(std::size_t metric, double step) const {
+  if (metrics_[metric].name == "acf") return step;
+  return std::ranges::min(rows_, {}, &row::step).step;
+}
+
+gathered_statistics comparison::reference(std::size_t metric, double step, int number, int finer) {
+  statistics_plan plan = statistics_at(metric, step);
+  plan.trajectories.seed = seed_for(role::reference, common_.seed);
+  plan.first = number * plan.trajectories.count;
+  plan.finer = finer;
+  shown_.part(fmt::format("reference {} of {} at step {:g}", number + 1, references + 1, step),
+              work_of_law(finer * reference_evaluations * system_->fastest_rate() / fine_angle));
+  auto found = system_->reference_statistics(plan, metrics_[metric].observable, command_.learning.fine_step,
+                                             shown_.counter(plan.trajectories.count));
+  if (found.lost.empty()) return found;
+  const auto [trajectory, at] = found.lost.front();
+  refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step or another system",
+         trajectory, at);
+}
+
+const std::vector<gathered_statistics>& comparison::references_at(std::size_t metric, double step) {
+  auto& all = references_[{metric, step_of_reference(metric, step)}];
+  if (!all.empty()) return all;
   for (int k = 0; k < references; ++k) {
-    statistics_plan plan = statistics_at(step);
-    plan.trajectories.seed = seed_for(role::reference, common_.seed);
-    plan.first = k * plan.trajectories.count;
-    shown_.part(fmt::format("reference {} of {} at step {:g}", k + 1, references, step));
-    all.push_back(system_->reference_statistics(plan, command_.observable, command_.learning.fine_step,
-                                                shown_.counter(plan.trajectories.count)));
-    if (all.back().lost.empty()) continue;
-    const auto [trajectory, at] = all.back().lost.front();
-    refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step or another system",
-           trajectory, at);
+    all.push_back(reference(metric, step_of_reference(metric, step), k, 1));
   }
-  require_samples_in_range(all);
-  json used{{"step_size", step},
-            {"reference", system_->reference_of_statistics(step, command_.learning.fine_step)},
-            {"ensembles", references},
-            {"mean", all.front().mean.mean},
-            {"error", floor_of(all)}};
-  if (all.front().histogram) {
-    used["kinetic_temperature"] = all.front().kinetic_temperature.mean;
-    used["half_step_kinetic_temperature"] = all.front().half_step_kinetic_temperature.mean;
-  }
-  references_.push_back(used);
-  reference_statistics_[step] = all;
+  require_samples_in_range(metric, all);
   return all;
 }
 
-void comparison::measure_statistics_at(double step, const std::vector<row*>& group) {
-  prepare_bins();
-  const std::vector<row*> measured = usable(group, plan_at(step));
-  if (measured.empty()) return;
-  const auto all = references_at(step);
-  const double floor = floor_of(all);
-  for (row* its : measured) {
-    const statistics_plan plan = statistics_at(step);
-    shown_.part(fmt::format("{} at step {:g}", its->method, its->nominal));
-    its->statistics = system_->statistics(*its->coefficients, plan, command_.observable,
-                                          shown_.counter(plan.trajectories.count));
-    const auto evaluations =
-        static_cast<double>(system_->count_evaluations(*its->coefficients, plan.trajectories));
-    its->evaluations_per_time = evaluations / (static_cast<double>(plan.trajectories.steps) * step);
-    its->diverged = std::ssize(its->statistics->lost);
-    its->floor = floor;
-    if (its->statistics->counted == 0) {
-      const auto earliest = std::ranges::min(its->statistics->lost, {}, &lost_trajectory::step);
-      its->reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
-      continue;
-    }
-    const auto [value, standard_error] = distance_to(*its->statistics, all);
-    its->error = {value, standard_error};
+/// The null model stays where it starts: its law is that of the starts, and it forgets nothing.
+backdrop comparison::behind_law(std::size_t metric, double step) {
+  const auto& all = references_at(metric, step);
+  const double at = step_of_reference(metric, step);
+  const auto finer = reference(metric, at, references, 2);
+  backdrop its{.reference = system_->reference_of_statistics(at, command_.learning.fine_step),
+               .reference_error = distance_to(finer, all).mean,
+               .floor = floor_of(all),
+               .law = mean_law(all)};
+  if (metrics_[metric].name == "distribution") {
+    statistics_plan frozen = statistics_at(metric, at);
+    frozen.trajectories.steps = 0;
+    frozen.trajectories.seed = seed_for(role::reference, common_.seed);
+    its.null_model =
+        distance_to(system_->reference_statistics(frozen, metrics_[metric].observable, {}, {}), all).mean;
+  } else {
+    double sum = 0.0;
+    for (const double rho : its.law->y) sum += (1.0 - rho) * (1.0 - rho);
+    its.null_model = std::sqrt(sum / static_cast<double>(its.law->y.size() - 1));
   }
+  return its;
+}
+
+finding comparison::law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all) {
+  const statistics_plan plan = statistics_at(metric, its.step);
+  shown_.part(fmt::format("{} at step {:g}", its.method, its.nominal), work_of_law(its.evaluations_per_time));
+  const auto found = system_->statistics(*its.coefficients, plan, metrics_[metric].observable,
+                                         shown_.counter(plan.trajectories.count));
+  finding one{.diverged = std::ssize(found.lost), .law = drawn(found)};
+  if (found.counted > 0) {
+    one.value = distance_to(found, all);
+    return one;
+  }
+  const auto earliest = std::ranges::min(found.lost, {}, &lost_trajectory::step);
+  one.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+  return one;
+}
+
+void comparison::measure_law(std::size_t metric, double step, const group& all, journal& kept) {
+  prepare_bins(metric);
+  const std::string name = metrics_[metric].text();
+  json found{{"findings", json::array()}};
+  if (all.empty()) return;
+  found["behind"] = kept.once(fmt::format("reference of {} at {}", name, step),
+                              [&] { return to_json(behind_law(metric, step)); });
+  for (const row* its : all) {
+    found["findings"].push_back(kept.once(fmt::format("{} of {} at {}", name, its->method, step), [&] {
+      return to_json(law_of(metric, *its, references_at(metric, step)));
+    }));
+  }
+  take(metric, step, all, found);
 }
 
 }  // namespace nysalt::program

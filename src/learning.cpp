@@ -36,7 +36,8 @@ learned_scheme bundled_system::learn(const learn_plan& plan, const counter& prog
   return {std::move(fit), method, energies};
 }
 
-learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown) {
+learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown,
+                          double work) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
   learn_plan its = plan;
   // Where landscapes are hard, the optimum at a smaller step is near that at the next. A fine step that was
@@ -48,7 +49,7 @@ learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, 
   for (const double part : {0.5, 0.75, 1.0}) {
     if (part < 1.0 && !is_hard) continue;
     its.step = part * plan.step;
-    shown.part(fmt::format("learning {} at step {:g}", plan.family, its.step));
+    shown.part(fmt::format("learning {} at step {:g}", plan.family, its.step), is_hard ? work / 3.0 : work);
     learned_scheme learned = system.learn(its, shown.counter(plan.how.trajectories));
     if (part == 1.0) return learned;
     its.from = theta_of(learned.fit);

@@ -17,7 +17,8 @@ void require_sound(const learn_settings& how, const std::string& prefix);
 
 /// Families of more than two parameters are learned at half the step and at three quarters before. Throws
 /// refusal for what cannot be learned, before any work is done.
-learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown);
+learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown,
+                          double work = 0.0);
 
 /// At each of several steps: from the largest down, where the search is the plan's own, each from the optimum
 /// at the one before, so that theta goes along one branch. In the order of the steps.

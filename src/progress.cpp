@@ -14,9 +14,17 @@ namespace nysalt::program {
 progress::progress() : visible_(isatty(STDERR_FILENO) != 0) {}
 progress::~progress() { clear(); }
 
-void progress::part(std::string what) {
+void progress::expect(double work) {
+  expected_ = work;
+  done_ = part_ = 0.0;
+  began_ = clock::now();
+}
+
+void progress::part(std::string what, double work) {
   what_ = std::move(what);
-  show(what_ + " ...");
+  done_ += part_;
+  part_ = work;
+  show(fmt::format("{} ...{}", what_, time_left(0.0)));
 }
 
 std::function<void(std::int64_t)> progress::counter(std::int64_t total) {
@@ -24,8 +32,20 @@ std::function<void(std::int64_t)> progress::counter(std::int64_t total) {
   auto last = std::make_shared<std::atomic<std::int64_t>>(0);
   return [this, last, total](std::int64_t done) {
     const std::int64_t percent = 100 * done / total;
-    if (last->exchange(percent) < percent) show(fmt::format("{}: {} %", what_, percent));
+    if (last->exchange(percent) >= percent) return;
+    show(fmt::format("{}: {} %{}", what_, percent, time_left(0.01 * static_cast<double>(percent))));
   };
+}
+
+std::string progress::time_left(double share_of_part) const {
+  const double done = done_ + share_of_part * part_;
+  const double seconds = std::chrono::duration<double>(clock::now() - began_).count();
+  constexpr double too_early = 2.0;
+  if (!(done > 0.0) || !(expected_ > done) || seconds < too_early) return {};
+  const double left = seconds * (expected_ / done - 1.0);
+  if (left < 60.0) return fmt::format(" ({:.0f} s left)", left);
+  if (left < 7200.0) return fmt::format(" ({:.0f} min left)", left / 60.0);
+  return fmt::format(" ({:.1f} h left)", left / 3600.0);
 }
 
 void progress::clear() {

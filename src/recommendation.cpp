@@ -60,7 +60,7 @@ void recommendation::require_sound_command() const {
         command_.metric);
   }
   const double nominal = 1e-3 * command_.horizon;
-  system_->require_measure(command_.metric, command_.observable,
+  system_->require_measure(metric(),
                            plan_at(nominal, command_.trajectories, seed_for(role::test, common_.seed)), {},
                            1);
 }
@@ -208,8 +208,10 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   }
   std::vector<tabulated> methods;
   for (const candidate* its : group) methods.push_back(*its->method);
-  const auto found = system_->errors(methods, plan, command_.metric, command_.observable,
-                                     system_->fine_step_for_ranking(step), shown_.counter(plan.count));
+  const errors_plan asked{.trajectories = plan,
+                          .metrics = {metric()},
+                          .fine_step = system_->fine_step_for_ranking(step)};
+  const auto found = system_->errors(methods, asked, shown_.counter(plan.count)).front();
   for (std::size_t k = 0; k < group.size(); ++k) {
     candidate& its = *group[k];
     const method_error& its_error = found.methods[k];
@@ -236,7 +238,7 @@ void recommendation::measure_seconds() {
   if (methods.empty()) return;
   constexpr double all_rounds = 2.0;
   const auto seconds = seconds_per_time(*system_, methods, all_rounds);
-  for (std::size_t i = 0; i < timed.size(); ++i) timed[i]->seconds_per_time = seconds[i];
+  for (std::size_t i = 0; i < timed.size(); ++i) timed[i]->seconds_per_time = seconds[i].least;
 }
 
 /// A reference that errs like the method says nothing of it.

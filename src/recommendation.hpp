@@ -85,6 +85,7 @@ class recommendation {
   void probe(candidate& its, int k);
   void judge(candidate& its, int k) const;
 
+  asked_metric metric() const { return {command_.metric, command_.observable}; }
   learn_settings learning_at(double step) const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Coefficients at its step; of a family with the optimum of a step nearby as one more start, or the only.

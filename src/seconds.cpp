@@ -9,8 +9,8 @@
 namespace nysalt::program {
 
 /// In turns, so that a machine that slows down slows all; each job is long enough for the clock.
-std::vector<double> seconds_per_time(const bundled_system& system, const std::vector<timed_method>& methods,
-                                     double seconds) {
+std::vector<timed_job> seconds_per_time(const bundled_system& system,
+                                        const std::vector<timed_method>& methods, double seconds) {
   constexpr double job = 1e-3;
   constexpr std::int64_t most_trajectories = 64;
   std::vector<std::function<void()>> jobs;
@@ -24,7 +24,7 @@ std::vector<double> seconds_per_time(const bundled_system& system, const std::ve
     const std::int64_t lanes = system.lanes();  // all of them full, as in a large ensemble
     plan.count = (static_cast<std::int64_t>(count) + lanes - 1) / lanes * lanes;
     const auto once = system.timed_run(method, plan);
-    const double taken = interleaved_seconds({once}, 1).front();
+    const double taken = interleaved_seconds({once}, 1).front().least;
     const double repeats = std::max(1.0, std::ceil(job / std::max(taken, 1e-9)));
     jobs.emplace_back([once, repeats] {
       for (double n = 0.0; n < repeats; ++n) once();
@@ -34,7 +34,10 @@ std::vector<double> seconds_per_time(const bundled_system& system, const std::ve
   }
   const int rounds = static_cast<int>(std::clamp(seconds / round, 1.0, 15.0));
   auto result = interleaved_seconds(jobs, rounds);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= simulated[i];
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i].least /= simulated[i];
+    result[i].median /= simulated[i];
+  }
   return result;
 }
 

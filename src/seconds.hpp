@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bundled_system.hpp"
+#include "nysalt/analysis/timing.hpp"
 
 namespace nysalt::program {
 
@@ -16,7 +17,7 @@ struct timed_method {
 
 /// Seconds for one unit of time of one trajectory of a large ensemble, of each method, on this thread; all
 /// take turns for some `seconds`, unless a single trajectory takes longer.
-std::vector<double> seconds_per_time(const bundled_system& system, const std::vector<timed_method>& methods,
+std::vector<timed_job> seconds_per_time(const bundled_system& system, const std::vector<timed_method>& methods,
                                      double seconds);
 
 }  // namespace nysalt::program

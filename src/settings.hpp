@@ -82,13 +82,15 @@ struct compare_command {
   bool equal_cost = false;
   double horizon = 0.5;
   std::int64_t trajectories = 400;
-  std::string metric = "path";
+  std::vector<std::string> metrics{"path"};
   std::string observable;
+  std::vector<double> levels{0.01};  // of errors, at which costs are compared
   std::vector<double> range;  // of the histogram; empty: that of the starts
   std::int64_t bins = 100;
   double longest_lag = 1.0;      // of the autocovariance, a time
   double hmc_temperature = 1.0;  // kT of the acceptance
   std::string output;
+  bool resume = false;
 };
 
 struct recommend_command {

@@ -5,19 +5,30 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
+#include "../ranking.hpp"
+#include "../refusal.hpp"
 
 namespace nysalt::program {
 
 int compare(const compare_command& command, const common_settings& common) {
   comparison all(command, common);
   const std::filesystem::path folder(command.output);
-  if (!command.output.empty()) require_folder(folder);
-  all.learn_and_measure();
-  if (!command.output.empty()) all.write(folder);
-  if (common.json) {
-    print(text_of(all.document()));
+  journal kept;
+  if (command.output.empty()) {
+    if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");
   } else {
-    print(all.readable());
+    require_folder(folder);
+    make_folder(folder);
+    kept = journal(folder / "journal.jsonl", all.question(), command.resume);
+    if (kept.found() > 0) warn(fmt::format("{} finished parts are taken from the journal", kept.found()));
+  }
+  all.learn_and_measure(kept);
+  if (!command.output.empty()) write_report(all, folder);
+  kept.remove();
+  if (common.json) {
+    print(text_of(document_of(all)));
+  } else {
+    print(readable(all));
     for (const auto& text : all.warnings()) warn(text);
     if (!command.output.empty()) print(fmt::format("Written: {}\n", command.output));
   }

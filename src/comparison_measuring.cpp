@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSL-1.0
+// The work of a comparison, part by part: learning, errors along paths, acceptance, seconds.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "catalogue.hpp"
+#include "comparison.hpp"
+#include "learning.hpp"
+#include "refusal.hpp"
+#include "seconds.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+std::string all_diverged(const std::vector<diverged_trajectory>& all) {
+  const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
+  return fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+}
+
+std::vector<row*> usable(const std::vector<row*>& all) {
+  std::vector<row*> result;
+  for (row* its : all) {
+    if (its->reason.empty()) result.push_back(its);
+  }
+  return result;
+}
+
+}  // namespace
+
+void comparison::learn_and_measure(journal& kept) {
+  prepare_starts(*system_, common_, shown_);
+  expect_work();
+  for (auto& its : rows_) {
+    if (families_.contains(its.method)) learn(its, kept);
+  }
+  std::map<double, group> by_step;  // rows at one step share the reference
+  for (auto& its : rows_) {
+    by_step[its.step].push_back(&its);
+    const auto plan = plan_at(its.step);
+    const auto evaluations = static_cast<double>(system_->count_evaluations(*its.coefficients, plan));
+    its.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
+    for (finding& one : its.findings) one.reason = its.reason;
+  }
+  for (const auto& [step, all] : by_step) {
+    if (!along_paths().empty()) measure_paths(step, usable(all), kept);
+    for (std::size_t m = 0; m < metrics_.size(); ++m) {
+      if (metrics_[m].is_acceptance()) measure_acceptance(m, step, usable(all), kept);
+      if (metrics_[m].is_of_law()) measure_law(m, step, usable(all), kept);
+    }
+  }
+  measure_seconds();
+  shown_.clear();
+}
+
+/// In force evaluations, roughly: what is left of the time is told by it.
+void comparison::expect_work() {
+  double work = 0.0;
+  std::map<double, group> by_step;
+  for (auto& its : rows_) {
+    by_step[its.step].push_back(&its);
+    if (families_.contains(its.method)) work += work_of_learning(its);
+  }
+  for (const auto& [step, all] : by_step) {
+    if (!along_paths().empty()) work += work_of_paths(all);
+    for (const asked_metric& metric : metrics_) {
+      if (!metric.is_of_law()) continue;
+      const double reference = system_->fastest_rate() / fine_angle * reference_evaluations;
+      work += 6.0 * work_of_law(reference);
+      for (const row* its : all) work += work_of_law(evaluations_of(*its));
+    }
+  }
+  shown_.expect(work);
+}
+
+double comparison::evaluations_of(const row& its) const {
+  const auto family = families_.find(its.method);
+  const int each = family != families_.end() ? family->second.evaluations_per_step
+                                             : its.coefficients->letters().evaluations_per_step;
+  return each / its.step;
+}
+
+double comparison::work_of_learning(const row& its) const {
+  const learn_settings& how = command_.learning;
+  const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon;
+  const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
+  return time * (reference + 100.0 * evaluations_of(its));
+}
+
+double comparison::work_of_paths(const group& all) const {
+  double each = 2.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
+  for (const row* its : all) each += evaluations_of(*its);
+  return each * command_.horizon * static_cast<double>(command_.trajectories);
+}
+
+double comparison::work_of_law(double evaluations_per_time) const {
+  return evaluations_per_time * command_.horizon * static_cast<double>(command_.trajectories);
+}
+
+void comparison::learn(row& its, journal& kept) {
+  const method_source& source = families_.at(its.method);
+  const auto where = placement_in(source, *system_, placement_asked(command_.placement));
+  const json found = kept.once(fmt::format("{} learned at {}", its.method, its.step), [&] {
+    const learn_plan plan = plan_for(*source.family, where, its.step, command_.learning, common_);
+    const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(its));
+    json fit{{"method", its.method}};
+    fit.update(fit_json(learned.fit));
+    return json{{"fit", fit}, {"theta", theta_of(learned.fit)}};
+  });
+  fits_.push_back(found["fit"]);
+  const run_time_family family = placed(*source.family, where);
+  const auto theta = found["theta"].get<std::vector<double>>();
+  const Eigen::VectorXd its_theta = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  its.coefficients.emplace(
+      family.name, family.letters, family.coefficients(its_theta),
+      method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
+  if (found["fit"]["usable"].get<bool>()) return;
+  its.reason = "the fit is not usable: ";
+  its.reason += found["fit"]["reason"].get<std::string>();
+}
+
+std::vector<asked_metric> comparison::along_paths() const {
+  std::vector<asked_metric> result;
+  std::ranges::copy_if(metrics_, std::back_inserter(result), &asked_metric::is_along_paths);
+  return result;
+}
+
+/// A pilot on a few trajectories tells the errors of the rows and of a coarse reference. That takes what keeps
+/// it a hundred times below them, as its error falls with the sixth power of its step.
+std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
+  if (command_.learning.fine_step) return command_.learning.fine_step;
+  const auto coarse = system_->fine_step_for_ranking(step);
+  if (!coarse) return std::nullopt;
+  constexpr std::int64_t few = 16;
+  constexpr double share = 0.01;
+  constexpr double order = 6.0;
+  errors_plan pilot{.trajectories = plan_at(step), .metrics = along_paths(), .fine_step = coarse};
+  pilot.trajectories.count = std::min(few, command_.trajectories);
+  double finer = 1.0;
+  for (const auto& found : system_->errors(methods, pilot, {})) {
+    if (!found.reference_error) continue;
+    for (const method_error& its : found.methods) {
+      if (std::isnan(its.error.mean)) continue;
+      const double ratio = found.reference_error->mean / (share * its.error.mean);
+      finer = std::max(finer, std::pow(ratio, 1.0 / order));
+    }
+  }
+  constexpr double usual = 10.0;
+  if (!(finer < usual)) return std::nullopt;
+  return step / std::ceil(finer * step / *coarse - 1e-9);
+}
+
+namespace {
+
+json findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
+  json result = json::array();
+  for (const method_error& its : all) {
+    finding one{.value = its.error, .diverged = its.diverged};
+    if (its.diverged == trajectories) one.reason = all_diverged(its.diverged_at);
+    result.push_back(to_json(one));
+  }
+  return result;
+}
+
+json behind(const trajectory_errors_result& found) {
+  backdrop its{.reference = found.reference};
+  if (found.reference_error) its.reference_error = found.reference_error->mean;
+  if (found.null_model) its.null_model = found.null_model->mean;
+  its.predictable_until = found.predictable_until;
+  return to_json(its);
+}
+
+}  // namespace
+
+/// What a part of the journal says of one metric at one step.
+void comparison::take(std::size_t metric, double step, const group& all, const json& found) {
+  behind_[{metric, step}] = backdrop_from(found["behind"]);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = finding_from(found["findings"][k]);
+}
+
+void comparison::measure_paths(double step, const group& all, journal& kept) {
+  if (all.empty()) return;
+  shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
+  const json found = kept.once(fmt::format("paths at {}", step), [&] {
+    std::vector<tabulated> methods;
+    for (const row* its : all) methods.push_back(*its->coefficients);
+    constexpr double perturbation = 1e-6;
+    const errors_plan plan{.trajectories = plan_at(step),
+                           .metrics = along_paths(),
+                           .fine_step = fine_step_for(step, methods),
+                           .null_model = true,
+                           .perturbation = perturbation};
+    json result = json::array();
+    for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
+      result.push_back({{"behind", behind(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
+    }
+    return result;
+  });
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < metrics_.size(); ++m) {
+    if (metrics_[m].is_along_paths()) take(m, step, all, found[next++]);
+  }
+}
+
+void comparison::measure_acceptance(std::size_t metric, double step, const group& all, journal& kept) {
+  shown_.part(fmt::format("acceptance at step {:g}", step));
+  const json found = kept.once(fmt::format("{} at {}", metrics_[metric].text(), step), [&] {
+    json findings = json::array();
+    for (const row* its : all) {
+      const auto accepted = system_->acceptance(*its->coefficients, plan_at(step), command_.hmc_temperature,
+                                                shown_.counter(command_.trajectories));
+      finding one{.value = accepted.probability, .diverged = std::ssize(accepted.diverged_at)};
+      if (one.diverged == command_.trajectories) one.reason = all_diverged(accepted.diverged_at);
+      findings.push_back(to_json(one));
+    }
+    return json{{"behind", to_json(backdrop{})}, {"findings", findings}};
+  });
+  take(metric, step, all, found);
+}
+
+void comparison::measure_seconds() {
+  constexpr double all_rounds = 4.0;
+  shown_.part("timing");
+  std::vector<timed_method> methods;
+  for (const auto& its : rows_) {
+    methods.push_back({*its.coefficients, plan_at(its.step), its.evaluations_per_time});
+  }
+  const auto seconds = seconds_per_time(*system_, methods, all_rounds);
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i];
+}
+
+}  // namespace nysalt::program

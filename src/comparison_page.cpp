@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSL-1.0
+// The report of a comparison: a page, its pictures, and the tables for machines.
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "build_info.hpp"
+#include "comparison_output.hpp"
+#include "comparison_pictures.hpp"
+#include "machine.hpp"
+#include "nysalt/report/page.hpp"
+#include "output.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+void add_question(page& report, const comparison& all) {
+  const compare_command& command = all.command();
+  report.text(fmt::format("{} trajectories of {}, each over {:g}; starts: {}; seed {}.", command.trajectories,
+                          all.system().description(), command.horizon, all.system().starts(),
+                          all.common().seed));
+  if (command.equal_cost) {
+    report.text("Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
+                "steps are equal cost.");
+  }
+  report.code(all.common().command);
+}
+
+std::string listed_front(const std::vector<const row*>& front) {
+  std::string text;
+  for (const row* its : front) {
+    text += fmt::format("{}`{}` at {:g}", text.empty() ? "" : ", ", its->method, its->nominal);
+  }
+  return text.empty() ? "none" : text;
+}
+
+
+/// What it costs to come to a level.
+table level_table(const comparison& all, std::size_t m, double level) {
+  table result({"method", "evaluations/time", "ns/time", "to the cheapest not learned"});
+  const auto costs = costs_at(all, m, level);
+  const auto classical = std::ranges::find_if(
+      costs, [](const cost_at_level& its) { return !its.is_learned && its.evaluations.is_crossing(); });
+  for (const cost_at_level& its : costs) {
+    std::string ratio = "-";
+    if (classical != costs.end() && its.evaluations.is_crossing()) {
+      ratio = fmt::format("{:.2f}", classical->evaluations.at / its.evaluations.at);
+    }
+    result.add({its.method, text_of_cost(its.evaluations, 1.0), text_of_cost(its.seconds, 1e9), ratio});
+  }
+  return result;
+}
+
+void add_ranking(page& report, const comparison& all, std::size_t m) {
+  const bool is_ranked_at_all =
+      std::ranges::any_of(all.rows(), [&](const row& its) { return is_ranked(all, m, its); });
+  if (!is_ranked_at_all) {
+    report.text("**No row is ranked**: none has a value of all trajectories within the time for which paths can "
+                "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
+    return;
+  }
+  if (table beside = equal_cost_table(all, m); !beside.empty()) {
+    report.subheading("What is learned, beside the best of the others that cost no more");
+    report.table(std::move(beside));
+  }
+  for (const double level : all.command().levels) {
+    if (all.metrics()[m].is_acceptance()) break;
+    report.subheading(fmt::format("The cost of an error of {:g}", level));
+    report.table(level_table(all, m, level));
+  }
+  report.subheading("Best at its cost");
+  report.list({"in evaluations: " + listed_front(pareto_front(all, m, evaluations_of)),
+               "in seconds: " + listed_front(pareto_front(all, m, seconds_of))});
+}
+
+void add_metric(page& report, const comparison& all, std::size_t m) {
+  std::string title = quantity(all, m);
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  report.heading(title);
+  for (auto& picture : pictures_of_errors(all, m)) {
+    const std::string caption = quantity(all, m) + " against " + picture.panels.front().x_label +
+                                "; bars are standard errors, hollow points are not ranked";
+    report.picture(std::move(picture), caption);
+  }
+  if (table against = backdrops_of(all, m); !against.empty()) report.table(std::move(against));
+  report.table(rows_of(all, m));
+  std::vector<std::string> sentences = meanings_of_marks(all, m);
+  for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
+  if (!sentences.empty()) report.list(sentences);
+  add_ranking(report, all, m);
+  for (auto& picture : pictures_of_laws(all, m)) {
+    const std::string caption = quantity(all, m) + ", " + picture.panels.front().title;
+    report.picture(std::move(picture), caption);
+  }
+}
+
+void add_fits(page& report, const comparison& all) {
+  if (all.fits().empty()) return;
+  report.heading("What was learned");
+  table fits({"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds",
+              "usable"});
+  for (const auto& fit : all.fits()) {
+    std::string parameters;
+    for (const auto& [name, value] : fit["parameters"].items()) {
+      parameters += fmt::format("{}{} = {:.6g}", parameters.empty() ? "" : ", ", name, value.get<double>());
+    }
+    const auto number = [](const json& x) {
+      return x.is_number() ? fmt::format("{:.3g}", x.get<double>()) : std::string("-");
+    };
+    fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters, number(fit["one_step_error"]),
+              number(fit["learning_evaluations"]), number(fit["seconds"]),
+              fit["usable"].get<bool>() ? "yes" : "no"});
+  }
+  report.table(std::move(fits));
+}
+
+page report_of(const comparison& all) {
+  page report("Speed against error: " + all.system().description());
+  add_question(report, all);
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) add_metric(report, all, m);
+  add_fits(report, all);
+  report.heading("How it was measured");
+  std::vector<std::string> notes{
+      "evaluations are force evaluations of one trajectory per unit time, counted while running, the first one "
+      "included",
+      "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "
+      "interleaved rounds; `median +` says how much more the median of the rounds is",
+      "standard errors are over trajectories, which all methods share; those of laws over groups of "
+      "trajectories",
+      fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
+      fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
+                  fmt::gmtime(std::time(nullptr)))};
+  for (const auto& text : all.warnings()) notes.push_back("warning: " + text);
+  report.list(notes);
+  return report;
+}
+
+}  // namespace
+
+void write_report(const comparison& all, const std::filesystem::path& folder) {
+  const page report = report_of(all);
+  for (const figure& picture : report.figures()) write_pictures(picture, folder, all.common());
+  write_result(folder / "rows.csv", csv_of(all), all.common());
+  write_result(folder / "report.json", text_of(document_of(all)), all.common());
+  write_result(folder / "report.md", report.markdown(), all.common());
+  write_result(folder / "report.html", report.html(folder), all.common());
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+// Errors against costs, and laws beside that of the reference, as they are drawn.
+#pragma once
+
+#include <vector>
+
+#include "nysalt/report/plot.hpp"
+#include "ranking.hpp"
+
+namespace nysalt::program {
+
+/// Against evaluations, and against seconds.
+std::vector<figure> pictures_of_errors(const comparison& all, std::size_t metric);
+/// One for each step; none if the metric is of no law.
+std::vector<figure> pictures_of_laws(const comparison& all, std::size_t metric);
+
+}  // namespace nysalt::program

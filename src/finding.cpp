@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "finding.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace nysalt::program {
+
+namespace {
+
+/// JSON has no number that is not finite: null is NaN, a text infinity.
+json number(double x) { return std::isinf(x) ? json("infinite") : std::isnan(x) ? json(nullptr) : json(x); }
+double number_from(const json& text) {
+  if (text.is_number()) return text.get<double>();
+  return text.is_string() ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+}
+
+void put(json& into, const char* name, const std::optional<double>& value) {
+  if (value) into[name] = number(*value);
+}
+std::optional<double> taken(const json& from, const char* name) {
+  if (!from.contains(name)) return std::nullopt;
+  return number_from(from[name]);
+}
+
+json to_json(const estimate& its) { return {number(its.mean), number(its.standard_error)}; }
+estimate estimate_from(const json& text) { return {number_from(text[0]), number_from(text[1])}; }
+
+json numbers(const std::vector<double>& all) {
+  json result = json::array();
+  for (const double x : all) result.push_back(number(x));
+  return result;
+}
+std::vector<double> numbers_from(const json& text) {
+  std::vector<double> result;
+  for (const auto& x : text) result.push_back(number_from(x));
+  return result;
+}
+
+json to_json(const drawn_law& its) {
+  json result{{"x", numbers(its.x)},
+              {"y", numbers(its.y)},
+              {"mean", to_json(its.mean)},
+              {"effective_sample_size", number(its.effective_sample_size)}};
+  put(result, "kinetic_temperature", its.kinetic_temperature);
+  put(result, "half_step_kinetic_temperature", its.half_step_kinetic_temperature);
+  return result;
+}
+drawn_law law_from(const json& text) {
+  return {.x = numbers_from(text["x"]),
+          .y = numbers_from(text["y"]),
+          .mean = estimate_from(text["mean"]),
+          .effective_sample_size = number_from(text["effective_sample_size"]),
+          .kinetic_temperature = taken(text, "kinetic_temperature"),
+          .half_step_kinetic_temperature = taken(text, "half_step_kinetic_temperature")};
+}
+
+}  // namespace
+
+drawn_law drawn(const gathered_statistics& found) {
+  drawn_law result{.x = {},
+                   .y = {},
+                   .mean = found.mean,
+                   .effective_sample_size = found.effective_sample_size};
+  if (found.counted == 0) return result;
+  if (found.histogram) {
+    const equal_bins bins = found.histogram->bins();
+    for (int i = 0; i < bins.count; ++i) result.x.push_back(bins.low + (i + 0.5) * bins.width());
+    result.y = found.histogram->density();
+    result.kinetic_temperature = found.kinetic_temperature.mean;
+    result.half_step_kinetic_temperature = found.half_step_kinetic_temperature.mean;
+  }
+  if (found.autocovariance) {
+    result.y = found.autocovariance->normalised();
+    for (std::size_t k = 0; k < result.y.size(); ++k) {
+      result.x.push_back(static_cast<double>(k) * found.autocovariance->interval());
+    }
+  }
+  return result;
+}
+
+json to_json(const finding& its) {
+  json result{{"value", to_json(its.value)}, {"reason", its.reason}, {"diverged", its.diverged}};
+  if (its.law) result["law"] = to_json(*its.law);
+  return result;
+}
+
+finding finding_from(const json& text) {
+  finding its{.value = estimate_from(text["value"]),
+              .reason = text["reason"].get<std::string>(),
+              .diverged = text["diverged"].get<std::int64_t>()};
+  if (text.contains("law")) its.law = law_from(text["law"]);
+  return its;
+}
+
+json to_json(const backdrop& its) {
+  json result{{"reference", its.reference}};
+  put(result, "reference_error", its.reference_error);
+  put(result, "null_model", its.null_model);
+  put(result, "predictable_until", its.predictable_until);
+  put(result, "floor", its.floor);
+  if (its.law) result["law"] = to_json(*its.law);
+  return result;
+}
+
+backdrop backdrop_from(const json& text) {
+  backdrop its{.reference = text["reference"].get<std::string>(),
+               .reference_error = taken(text, "reference_error"),
+               .null_model = taken(text, "null_model"),
+               .predictable_until = taken(text, "predictable_until"),
+               .floor = taken(text, "floor")};
+  if (text.contains("law")) its.law = law_from(text["law"]);
+  return its;
+}
+
+}  // namespace nysalt::program

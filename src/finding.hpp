@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a comparison finds: plain numbers, which a journal keeps and a report shows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "json.hpp"
+#include "nysalt/analysis/gathered_statistics.hpp"
+#include "nysalt/analysis/statistics.hpp"
+
+namespace nysalt::program {
+
+/// The law of an observable, or how it is correlated, as it is drawn.
+struct drawn_law {
+  std::vector<double> x;  // values, or lags
+  std::vector<double> y;  // density, or normalised autocovariance
+  estimate mean{};
+  double effective_sample_size = 0.0;
+  std::optional<double> kinetic_temperature{};  // these two of a histogram alone
+  std::optional<double> half_step_kinetic_temperature{};
+};
+drawn_law drawn(const gathered_statistics& found);
+
+/// What one method at one step came to, by one metric.
+struct finding {
+  estimate value{};         // an error; of the metric acceptance that
+  std::string reason = {};  // why there is none
+  std::int64_t diverged = 0;
+  std::optional<drawn_law> law{};
+};
+
+/// What the findings at one step are seen against, by one metric. What a metric has not is left out.
+struct backdrop {
+  std::string reference = {};                // what it is
+  std::optional<double> reference_error{};   // its own
+  std::optional<double> null_model{};        // the error of what stays as it was at the start
+  std::optional<double> predictable_until{}; // infinite: to the end
+  std::optional<double> floor{};             // the distance that sampling alone makes
+  std::optional<drawn_law> law{};            // of the reference
+};
+
+/// By the index of the metric, and the size of the step.
+using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
+
+json to_json(const finding& its);
+json to_json(const backdrop& its);
+finding finding_from(const json& text);
+backdrop backdrop_from(const json& text);
+
+}  // namespace nysalt::program

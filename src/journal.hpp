@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a long computation has finished, so that it can go on where it was stopped.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "json.hpp"
+
+namespace nysalt::program {
+
+/// A file of one line a finished part, each written as soon as it is there. Numbers in it come back to the
+/// bit. A last line that was cut off does not count. Without a file nothing is kept.
+class journal {
+ public:
+  /// Nowhere.
+  journal() = default;
+  /// In `file`, of the `question`: parts that were finished for the same question count if `resume`. Throws
+  /// refusal if there is a journal and not `resume`, if it is of another question or no journal, if another
+  /// process writes it, or if it cannot be written.
+  journal(const std::filesystem::path& file, const json& question, bool resume);
+
+  /// How many parts were there at the start.
+  std::size_t found() const { return found_.size(); }
+  /// What a part came to, by its name: if it is not there, work() tells, and that is kept. Throws refusal if
+  /// it cannot be written.
+  json once(const std::string& part, const auto& work) {
+    if (const auto at = found_.find(part); at != found_.end()) return at->second;
+    const json result = work();
+    keep(part, result);
+    return result;
+  }
+  /// Takes the file away: all is finished, and written elsewhere.
+  void remove();
+
+ private:
+  struct close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::size_t read(const json& question);
+  void keep(const std::string& part, const json& result);
+  void write(const json& line);
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, close> file_;
+  std::map<std::string, json> found_;
+};
+
+}  // namespace nysalt::program

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+// What may be said of the rows of a comparison: which count, who wins at which cost.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison.hpp"
+#include "nysalt/analysis/threshold.hpp"
+
+namespace nysalt::program {
+
+/// Why a value is to be taken with care, in the words of the report.
+enum class mark {
+  reference,  // the reference's own error is more than a tenth of it
+  null,       // no better than what stays as it was at the start
+  floor,      // no more than sampling makes
+  horizon,    // beyond the time for which a path can be followed
+  diverged    // of those trajectories alone that did not diverge
+};
+std::string to_string(mark which);
+std::string meaning(mark which);
+
+/// The marks of one finding; none where there is no value.
+std::vector<mark> marks_of(const comparison& all, std::size_t metric, const row& its);
+
+/// Whether it has a value of all trajectories, that says something of the method and not of chaos.
+bool is_ranked(const comparison& all, std::size_t metric, const row& its);
+
+/// A learned method, and the best of the others that cost no more evaluations.
+struct at_equal_cost {
+  const row* learned;
+  const row* best;
+};
+std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metric);
+
+/// How many times smaller the error of the learned one is; of acceptances, what is rejected.
+double gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
+
+/// Those that none of the ranked beats in cost and error, from the cheapest on.
+std::vector<const row*> pareto_front(const comparison& all, std::size_t metric, double (*cost)(const row&));
+double evaluations_of(const row& its);
+double seconds_of(const row& its);
+
+/// The cost at which a method's error comes to a level.
+struct cost_at_level {
+  std::string method;
+  bool is_learned;
+  threshold evaluations;  // in unit time for one evaluation
+  threshold seconds;      // in unit time for one second
+};
+/// By what it costs in evaluations, the cheapest first.
+std::vector<cost_at_level> costs_at(const comparison& all, std::size_t metric, double level);
+
+/// A reference that errs like a method says nothing of it, as one sentence each.
+std::vector<std::string> warnings_of_reference(const comparison& all);
+
+}  // namespace nysalt::program
