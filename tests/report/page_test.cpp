@@ -18,7 +18,7 @@ namespace {
 const std::string nasty = "<b>&\"'";
 
 /// As gnuplot writes: a prolog, titles, empty groups, ids that are used, one that is not and stands twice.
-const std::string svg = R"(<?xml version="1.0"?>
+const std::string svg = R"svg(<?xml version="1.0"?>
 <!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">
 <svg width="8" viewBox="0 0 8 5" xmlns="http://www.w3.org/2000/svg">
 <title>Gnuplot</title>
@@ -29,11 +29,9 @@ const std::string svg = R"(<?xml version="1.0"?>
 <use xlink:href='#dot'/><path clip-path="url(#clip)"/><text> #dot</text></g>
 <g id="plot_1"><path/></g>
 </svg>
-)";
+)svg";
 
-figure named(const std::string& name) {
-  return {name, {}};
-}
+figure named(const std::string& name) { return {name, {}}; }
 
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
