@@ -24,7 +24,7 @@ std::vector<double> seconds_per_time(const bundled_system& system, const std::ve
     const std::int64_t lanes = system.lanes();  // all of them full, as in a large ensemble
     plan.count = (static_cast<std::int64_t>(count) + lanes - 1) / lanes * lanes;
     const auto once = system.timed_run(method, plan);
-    const double taken = interleaved_seconds({once}, 1).front();
+    const double taken = interleaved_seconds({once}, 1).front().least;
     const double repeats = std::max(1.0, std::ceil(job / std::max(taken, 1e-9)));
     jobs.emplace_back([once, repeats] {
       for (double n = 0.0; n < repeats; ++n) once();
@@ -33,8 +33,9 @@ std::vector<double> seconds_per_time(const bundled_system& system, const std::ve
     round += taken * repeats;
   }
   const int rounds = static_cast<int>(std::clamp(seconds / round, 1.0, 15.0));
-  auto result = interleaved_seconds(jobs, rounds);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= simulated[i];
+  const auto timed = interleaved_seconds(jobs, rounds);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < timed.size(); ++i) result.push_back(timed[i].least / simulated[i]);
   return result;
 }
 
