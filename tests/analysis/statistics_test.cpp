@@ -26,6 +26,15 @@ BOOST_AUTO_TEST_CASE(too_few_samples_give_no_number) {
   BOOST_TEST(std::isnan(estimate{}.mean));
 }
 
+BOOST_AUTO_TEST_CASE(the_median_is_in_the_middle) {
+  BOOST_TEST(median({3.0, 1.0, 2.0}) == 2.0);
+  BOOST_TEST(median({4.0, 1.0, 3.0, 2.0}) == 2.5);
+  BOOST_TEST(median({INFINITY, 1.0, 2.0}) == 2.0);
+  BOOST_TEST(median({INFINITY, 1.0}) == INFINITY);
+  BOOST_TEST(median({INFINITY, INFINITY}) == INFINITY);
+  BOOST_TEST(std::isnan(median({})));
+}
+
 // A large offset would drown squares that are not centred.
 BOOST_AUTO_TEST_CASE(an_offset_does_not_change_the_error) {
   const double offset = 1e8;

@@ -12,36 +12,45 @@ using namespace nysalt;
 
 BOOST_AUTO_TEST_CASE(jobs_take_turns_and_run_once_more_than_they_are_timed) {
   std::string order;
-  const auto fastest = interleaved_seconds({[&] { order += 'a'; }, [&] { order += 'b'; }}, 3);
+  const auto timed = interleaved_seconds({[&] { order += 'a'; }, [&] { order += 'b'; }}, 3);
   BOOST_TEST(order == "abababab");
-  BOOST_TEST(fastest.size() == 2);
-  for (const double seconds : fastest) BOOST_TEST(seconds >= 0.0);
+  BOOST_TEST(timed.size() == 2);
+  for (const timed_job& its : timed) {
+    BOOST_TEST(its.rounds == 3);
+    BOOST_TEST(its.least >= 0.0);
+    BOOST_TEST(its.median >= its.least);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_longer_job_takes_longer) {
   using namespace std::chrono_literals;
   int calls = 0;
-  const auto fastest = interleaved_seconds({[] {}, [] { std::this_thread::sleep_for(2ms); },
-                                            [&] {  // the first round is not counted, however slow
-                                              if (calls++ == 0) std::this_thread::sleep_for(100ms);
-                                            }},
-                                           1);
-  BOOST_TEST(fastest[1] >= 0.002);
-  BOOST_TEST(fastest[0] < fastest[1]);
-  BOOST_TEST(fastest[2] < 0.1);
+  const auto timed = interleaved_seconds({[] {}, [] { std::this_thread::sleep_for(2ms); },
+                                          [&] {  // the first round is not counted, however slow
+                                            if (calls++ == 0) std::this_thread::sleep_for(100ms);
+                                          }},
+                                         1);
+  BOOST_TEST(timed[1].least >= 0.002);
+  BOOST_TEST(timed[0].least < timed[1].least);
+  BOOST_TEST(timed[2].median < 0.1);
 }
 
+// Two of three rounds are slow: the median is theirs.
 BOOST_AUTO_TEST_CASE(an_interruption_does_not_count) {
   using namespace std::chrono_literals;
   int calls = 0;
-  const auto fastest = interleaved_seconds({[&] {
-                                             if (calls++ != 2) std::this_thread::sleep_for(50ms);
-                                           }},
-                                           3);
-  BOOST_TEST(fastest[0] < 0.05);
+  const auto timed = interleaved_seconds({[&] {
+                                           if (calls++ != 2) std::this_thread::sleep_for(50ms);
+                                         }},
+                                         3);
+  BOOST_TEST(timed[0].least < 0.05);
+  BOOST_TEST(timed[0].median >= 0.05);
 }
 
 BOOST_AUTO_TEST_CASE(no_jobs_and_no_rounds) {
   BOOST_TEST(interleaved_seconds({}, 3).empty());
-  BOOST_TEST(std::isinf(interleaved_seconds({[] {}}, 0)[0]));
+  const timed_job untimed = interleaved_seconds({[] {}}, 0).front();
+  BOOST_TEST(untimed.rounds == 0);
+  BOOST_TEST(std::isinf(untimed.least));
+  BOOST_TEST(std::isnan(untimed.median));
 }

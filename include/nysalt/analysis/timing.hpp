@@ -7,23 +7,36 @@
 #include <limits>
 #include <vector>
 
+#include "nysalt/analysis/statistics.hpp"
+
 namespace nysalt {
 
-/// Seconds of each job, the least over `rounds` rounds in which all take turns: what else the machine does
-/// only adds, and a machine that slows down slows all of them. One round more goes first, uncounted. Infinite
-/// without a round.
-inline std::vector<double> interleaved_seconds(const std::vector<std::function<void()>>& jobs, int rounds) {
-  std::vector<double> least(jobs.size(), std::numeric_limits<double>::infinity());
+/// Seconds of a job over some rounds. What else the machine does only adds: the least is nearest to the job's
+/// own, and how far the median lies above it tells how quiet the machine was.
+struct timed_job {
+  double least = std::numeric_limits<double>::infinity();
+  double median = std::numeric_limits<double>::quiet_NaN();
+  int rounds = 0;
+};
+
+/// Times each job over `rounds` rounds in which all take turns: a machine that slows down slows all of them.
+/// One round more goes first, uncounted.
+inline std::vector<timed_job> interleaved_seconds(const std::vector<std::function<void()>>& jobs,
+                                                  int rounds) {
+  std::vector<std::vector<double>> seconds(jobs.size());
   for (int round = 0; round <= rounds; ++round) {
     for (std::size_t j = 0; j < jobs.size(); ++j) {
       const auto began = std::chrono::steady_clock::now();
       jobs[j]();
       const auto ended = std::chrono::steady_clock::now();
-      const double seconds = std::chrono::duration<double>(ended - began).count();
-      if (round > 0) least[j] = std::min(least[j], seconds);
+      if (round > 0) seconds[j].push_back(std::chrono::duration<double>(ended - began).count());
     }
   }
-  return least;
+  std::vector<timed_job> result(jobs.size());
+  for (std::size_t j = 0; j < jobs.size() && rounds > 0; ++j) {
+    result[j] = {std::ranges::min(seconds[j]), median(seconds[j]), rounds};
+  }
+  return result;
 }
 
 }  // namespace nysalt
