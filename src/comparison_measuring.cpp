@@ -163,7 +163,7 @@ json findings_of(const std::vector<method_error>& all, std::int64_t trajectories
   return result;
 }
 
-json behind(const trajectory_errors_result& found) {
+json backdrop_json(const trajectory_errors_result& found) {
   backdrop its{.reference = found.reference};
   if (found.reference_error) its.reference_error = found.reference_error->mean;
   if (found.null_model) its.null_model = found.null_model->mean;
@@ -193,7 +193,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .perturbation = perturbation};
     json result = json::array();
     for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
-      result.push_back({{"behind", behind(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
+      result.push_back({{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
     }
     return result;
   });

@@ -29,6 +29,8 @@ class table {
     rows_.push_back(std::move(cells));
   }
 
+  bool empty() const { return rows_.empty(); }
+
   std::string text() const { return lay_out("", "  ", "", '-'); }
   std::string markdown() const {
     table safe(*this);
