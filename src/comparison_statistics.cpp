@@ -17,11 +17,6 @@ namespace {
 
 constexpr int references = 4;  // independent ensembles: six pairs for the floor
 
-struct distance {
-  double value;
-  double standard_error;
-};
-
 std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
   std::vector<histogram> result;
   for (const auto& one : all) result.push_back(*one.histogram);
@@ -29,16 +24,17 @@ std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
 }
 
 /// Of one ensemble from the law of several: the mean over these.
-distance distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
+estimate distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
   if (its.histogram) {
-    return {mean_total_variation(*its.histogram, histograms_of(others)),
-            std::numeric_limits<double>::quiet_NaN()};
+    std::vector<std::vector<histogram>> groups;
+    for (const auto& other : others) groups.push_back(other.histogram_of_groups);
+    return mean_total_variation(its.histogram_of_groups, groups);
   }
-  distance result{0.0, 0.0};
+  estimate result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());
   for (const auto& other : others) {
     const acf_distance found = acf_error(*its.autocovariance, *other.autocovariance);
-    result.value += found.rms * share;
+    result.mean += found.rms * share;
     result.standard_error += found.standard_error * share;
   }
   return result;
@@ -50,7 +46,7 @@ double floor_of(std::span<const gathered_statistics> all) {
   double sum = 0.0;
   double pairs = 0.0;
   for (std::size_t i = 1; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).value;
+    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).mean;
   }
   return sum / pairs;
 }
@@ -179,8 +175,7 @@ void comparison::measure_statistics_at(double step, const std::vector<row*>& gro
       its->reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
       continue;
     }
-    const auto [value, standard_error] = distance_to(*its->statistics, all);
-    its->error = {value, standard_error};
+    its->error = distance_to(*its->statistics, all);
   }
 }
 
