@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "comparison_output.hpp"
@@ -167,11 +168,11 @@ json references_json(const comparison& all) {
   return result;
 }
 
-json threshold_json(const threshold& its) {
-  return {{"at", number(its.at)},
-          {"standard_error", number(its.standard_error)},
-          {"low", number(its.low)},
-          {"high", number(its.high)}};
+json crossing_json(const threshold_crossing& its) {
+  constexpr std::array kinds{"found", "bracketed", "below all", "above from first"};
+  return {{"kind", kinds[static_cast<std::size_t>(its.kind)]},
+          {"at", its.x},
+          {"standard_error", number(its.standard_error)}};
 }
 
 json rankings_json(const comparison& all) {
@@ -188,8 +189,8 @@ json rankings_json(const comparison& all) {
       json costs = json::array();
       for (const cost_at_level& its : costs_at(all, m, level)) {
         costs.push_back({{"method", its.method},
-                         {"time_per_evaluation", threshold_json(its.evaluations)},
-                         {"time_per_second", threshold_json(its.seconds)}});
+                         {"evaluations_per_time", crossing_json(its.evaluations)},
+                         {"seconds_per_time", crossing_json(its.seconds)}});
       }
       levels.push_back({{"level", level}, {"methods", costs}});
     }

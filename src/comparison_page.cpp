@@ -38,18 +38,32 @@ std::string listed_front(const std::vector<const row*>& front) {
 }
 
 
+/// A cost, or between which rows or beyond which it lies.
+std::string text_of(const threshold_crossing& its, double unit) {
+  const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
+  switch (its.kind) {
+    case crossing_kind::found: return fmt::format("{} ± {:.1g}", number(its.x), its.standard_error * unit);
+    case crossing_kind::bracketed:
+      return fmt::format("{} to {}", number(its.first_above), number(its.last_below));
+    case crossing_kind::below_all: return "below " + number(its.x);
+    case crossing_kind::above_from_first: return "above " + number(its.x);
+  }
+  return {};
+}
+
 /// What it costs to come to a level.
 table level_table(const comparison& all, std::size_t m, double level) {
-  table result({"method", "evaluations/time", "ns/time", "to the cheapest not learned"});
+  table result({"method", "evaluations/time", "ns/time", "best classical / its"});
   const auto costs = costs_at(all, m, level);
-  const auto classical = std::ranges::find_if(
-      costs, [](const cost_at_level& its) { return !its.is_learned && its.evaluations.is_crossing(); });
+  const auto is_known = [](const cost_at_level& its) { return its.evaluations.kind == crossing_kind::found; };
+  const auto classical =
+      std::ranges::find_if(costs, [&](const cost_at_level& its) { return !its.is_learned && is_known(its); });
   for (const cost_at_level& its : costs) {
     std::string ratio = "-";
-    if (classical != costs.end() && its.evaluations.is_crossing()) {
-      ratio = fmt::format("{:.2f}", classical->evaluations.at / its.evaluations.at);
+    if (classical != costs.end() && is_known(its)) {
+      ratio = fmt::format("{:.2f}", classical->evaluations.x / its.evaluations.x);
     }
-    result.add({its.method, text_of_cost(its.evaluations, 1.0), text_of_cost(its.seconds, 1e9), ratio});
+    result.add({its.method, text_of(its.evaluations, 1.0), text_of(its.seconds, 1e9), ratio});
   }
   return result;
 }

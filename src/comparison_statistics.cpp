@@ -26,8 +26,9 @@ std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
 /// Of one ensemble from the law of several: the mean over these.
 estimate distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
   if (its.histogram) {
-    return {mean_total_variation(*its.histogram, histograms_of(others)),
-            std::numeric_limits<double>::quiet_NaN()};
+    std::vector<std::vector<histogram>> groups;
+    for (const auto& other : others) groups.push_back(other.histogram_of_groups);
+    return mean_total_variation(its.histogram_of_groups, groups);
   }
   estimate result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());

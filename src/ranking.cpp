@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "nysalt/analysis/pareto_front.hpp"
 
@@ -103,6 +105,63 @@ double gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
 
 double evaluations_of(const row& its) { return its.evaluations_per_time; }
 double seconds_of(const row& its) { return its.seconds_per_time.least; }
+
+std::vector<const row*> pareto_front(const comparison& all, std::size_t m, double (*cost)(const row&)) {
+  std::vector<const row*> ranked;
+  std::vector<cost_and_error> points;
+  for (const row& its : all.rows()) {
+    if (!is_ranked(all, m, its)) continue;
+    const double value = its.findings[m].value.mean;
+    ranked.push_back(&its);
+    points.push_back({cost(its), all.metrics()[m].is_acceptance() ? 1.0 - value : value});
+  }
+  std::vector<const row*> front;
+  for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
+  return front;
+}
+
+namespace {
+
+/// A row that diverged is above any level; beyond the horizon nothing is said of any.
+std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std::string& method,
+                                double (*cost)(const row&)) {
+  std::vector<error_at> result;
+  for (const row& its : all.rows()) {
+    if (its.method != method) continue;
+    const finding& one = its.findings[m];
+    const bool counts = is_ranked(all, m, its);
+    const bool is_lost = one.diverged > 0 || !one.reason.empty();
+    if (!counts && !is_lost) continue;
+    const double error = counts ? one.value.mean : std::numeric_limits<double>::infinity();
+    result.push_back({cost(its), error, one.value.standard_error});
+  }
+  std::ranges::sort(result, std::greater{}, &error_at::x);
+  const auto same = std::ranges::unique(result, {}, &error_at::x);
+  result.erase(same.begin(), same.end());
+  return result;
+}
+
+}  // namespace
+
+std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double level) {
+  constexpr double same_trajectories = 1.0;  // errors of rows rise and fall together: never too small
+  std::vector<cost_at_level> result;
+  for (const auto& method : all.command().methods) {
+    const auto evaluations = errors_at(all, m, method, evaluations_of);
+    const auto seconds = errors_at(all, m, method, seconds_of);
+    if (evaluations.empty()) continue;
+    const auto its = std::ranges::find(all.rows(), method, &row::method);
+    result.push_back({.method = method,
+                      .is_learned = its->is_learned,
+                      .evaluations = threshold(evaluations, level, same_trajectories),
+                      .seconds = threshold(seconds, level, same_trajectories)});
+  }
+  const auto order = [](const cost_at_level& its) {
+    return std::pair(its.evaluations.kind == crossing_kind::above_from_first, its.evaluations.x);
+  };
+  std::ranges::stable_sort(result, {}, order);
+  return result;
+}
 
 std::vector<std::string> warnings_of_reference(const comparison& all) {
   std::vector<std::string> result;

@@ -43,14 +43,14 @@ std::vector<const row*> pareto_front(const comparison& all, std::size_t metric, 
 double evaluations_of(const row& its);
 double seconds_of(const row& its);
 
-/// The cost at which a method's error comes to a level.
+/// The costs at which a method's error comes to a level, in evaluations and in seconds a unit of time.
 struct cost_at_level {
   std::string method;
   bool is_learned;
-  threshold evaluations;  // in unit time for one evaluation
-  threshold seconds;      // in unit time for one second
+  threshold_crossing evaluations;
+  threshold_crossing seconds;
 };
-/// By what it costs in evaluations, the cheapest first.
+/// Of methods with ranked rows; the cheapest in evaluations first, then those of which that is not known.
 std::vector<cost_at_level> costs_at(const comparison& all, std::size_t metric, double level);
 
 /// A reference that errs like a method says nothing of it, as one sentence each.

@@ -183,6 +183,9 @@ BOOST_AUTO_TEST_CASE(statistics_are_those_of_stored_trajectories) {
   BOOST_TEST(found.lost.size() == lost);
   BOOST_TEST(found.counted == counted);
   BOOST_TEST(found.histogram->counts() == all.counts(), boost::test_tools::per_element());
+  BOOST_TEST(found.histogram_of_groups.size() == 50U);  // here of one trajectory each
+  for (const auto& group : found.histogram_of_groups) all -= group;
+  BOOST_TEST(all.total() == 0);
   // About 2000 terms below 1, whose roundings add up.
   const double rounding = 1e4 * eps;
   BOOST_TEST(std::abs(found.autocovariance->covariance(5) - at_lag.covariance()) < rounding);

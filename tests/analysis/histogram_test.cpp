@@ -80,8 +80,11 @@ BOOST_AUTO_TEST_CASE(histograms_add_up_in_any_order) {
     whole.add(numbers[i]);
     (i % 2 == 0 ? even : odd).add(numbers[i]);
   }
+  const histogram alone = odd;
   odd += even;
   BOOST_TEST(odd.counts() == whole.counts(), boost::test_tools::per_element());
+  odd -= even;
+  BOOST_TEST(odd.counts() == alone.counts(), boost::test_tools::per_element());
   BOOST_TEST(whole.total() == 1000);
 }
 

@@ -110,6 +110,41 @@ BOOST_AUTO_TEST_CASE(a_histogram_is_compared_with_all_ensembles) {
              total_variation(some[0], some[1]));
 }
 
+BOOST_AUTO_TEST_CASE(groups_give_the_distance_and_its_error) {
+  std::vector<histogram> groups;
+  for (unsigned g = 0; g < 20; ++g) groups.push_back(normal_around(0.3, 200 + g));
+  histogram all(bins);
+  for (const auto& group : groups) all += group;
+  const std::vector<std::vector<histogram>> others{ensembles(6), ensembles(3)};
+  std::vector<histogram> sums(2, histogram(bins));
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (const auto& group : others[k]) sums[k] += group;
+  }
+  const auto found = mean_total_variation(groups, others);
+  BOOST_TEST(found.mean == mean_total_variation(all, sums));
+  BOOST_TEST(found.standard_error > 0.0);
+}
+
+// Of ten numbers, each a group, four lie in a bin where the others have none: the distance is the mean of
+// zeros and ones, and its jackknife that mean's standard error.
+BOOST_AUTO_TEST_CASE(the_error_of_a_distance_by_hand) {
+  std::vector<histogram> singles;
+  std::vector<double> upper;
+  for (int n = 0; n < 10; ++n) {
+    upper.push_back(n < 4 ? 1.0 : 0.0);
+    singles.push_back(of({n < 4 ? 0.5 : -0.5}));
+  }
+  const std::vector<std::vector<histogram>> lower{{of({-0.5}), of({-0.5, -0.5})}};
+  const auto by_hand = mean_total_variation(singles, lower);
+  const auto near = boost::test_tools::tolerance(100 * eps);
+  BOOST_TEST(by_hand.mean == 0.4, near);
+  BOOST_TEST(by_hand.standard_error == mean_and_error(upper).standard_error, near);
+  singles.push_back(histogram(bins));  // of a group that was lost
+  BOOST_TEST(mean_total_variation(singles, lower).standard_error == by_hand.standard_error, near);
+  const std::vector<std::vector<histogram>> one_group{{of({-0.5})}};
+  BOOST_TEST(std::isnan(mean_total_variation(singles, one_group).standard_error));
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   const auto some = ensembles(4);
   const histogram empty(bins);
@@ -123,4 +158,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   BOOST_TEST(refused([&] { sampling_floor(std::span(some).first(3)); }, "3 independent", "at least"));
   BOOST_TEST(refused([&] { mean_total_variation(some[0], {}); }, "nothing to compare"));
   BOOST_TEST(sampling_floor(some) > 0.0);
+  const std::vector<std::vector<histogram>> nothing{{}};
+  BOOST_TEST(refused([&] { mean_total_variation(some, nothing); }, "no group"));
+  BOOST_TEST(refused([&] { mean_total_variation(some, std::span(nothing).first(0)); }, "nothing to compare"));
 }

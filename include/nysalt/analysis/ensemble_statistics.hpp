@@ -44,10 +44,10 @@ inline std::int64_t samples_of_trajectory(const ensemble_options& options, const
 /// before: runs that are short because they go astray would bend every law. It is reported in `lost`. Neither
 /// lanes nor threads change a bit.
 ///
-/// Memory: 48 bytes a trajectory, a histogram for each of 64 groups, and none that grows with the steps. Cost
-/// of a sample, beside the steps and the observable: a product a lag, and an increment for the histogram.
-/// Throws std::invalid_argument if the options cannot be, there are not more samples than lags, or a start
-/// does not fit.
+/// Memory: 48 bytes a trajectory, a histogram (8 bytes a bin) for each of 64 groups, which the result keeps,
+/// and none that grows with the steps. Cost of a sample, beside the steps and the observable: a product a
+/// lag, and an increment for the histogram. Throws std::invalid_argument if the options cannot be, there are
+/// not more samples than lags, or a start does not fit.
 template <class Stepper, Ensemble<typename Stepper::system_type> E, class Observable>
 gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensemble,
                                         const ensemble_options& options, const Observable& observable,

@@ -28,6 +28,7 @@ struct gathered_statistics {
   std::int64_t samples = 0;           // of each of them
   std::vector<lost_trajectory> lost;  // in the order of their numbers
   std::optional<nysalt::histogram> histogram;
+  std::vector<nysalt::histogram> histogram_of_groups;  // 33 to 64 groups of trajectories, for a jackknife
   std::optional<nysalt::autocovariance> autocovariance;
   estimate mean;  // over independent trajectories, as the temperatures
   double variance = std::numeric_limits<double>::quiet_NaN();               // of the observable
@@ -95,6 +96,7 @@ class gathering {
       if (!all.histogram) all.histogram.emplace(group.bins());
       *all.histogram += group;
     }
+    all.histogram_of_groups = std::move(histograms_);
     if (wanted_->lags) all.autocovariance.emplace(interval_, centre_, std::move(covariances_));
     if (wanted_->moments) set_moments(all);
     if (wanted_->kinetic_temperature) all.kinetic_temperature = over_trajectories(&time_means::kinetic);

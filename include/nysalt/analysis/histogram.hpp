@@ -57,6 +57,12 @@ class histogram {
     for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
     return *this;
   }
+  /// Takes away what was added. Throws std::invalid_argument if the bins differ.
+  histogram& operator-=(const histogram& other) {
+    require_bins_of(other);
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] -= other.counts_[i];
+    return *this;
+  }
 
   const equal_bins& bins() const { return bins_; }
   /// Below, the bins from low to high, above.
