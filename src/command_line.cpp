@@ -55,7 +55,8 @@ struct typed {
   recommend_command recommend;
   stability_command stability;
   system_settings stability_system;
-  std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics, levels;
+  std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics,
+      levels;
 };
 
 template <class T>
@@ -202,10 +203,9 @@ void add_compare(CLI::App& app, typed& to) {
   command.add_flag("--equal-cost", to.compare.equal_cost, "steps are per force evaluation");
   add_number(command, "--horizon", to.compare.horizon, "length of each trajectory");
   add_number(command, "--trajectories", to.compare.trajectories, "to compare on");
-  command
-      .add_option("--metric", to.metrics,
-                  "path, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
-                  "path:OBSERVABLE names that of one [path]");
+  command.add_option("--metric", to.metrics,
+                     "path, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
+                     "path:OBSERVABLE names that of one [path]");
   command.add_option("--observable", to.compare.observable,
                      "of path, distribution and acf [that of the system]");
   command.add_option("--range", to.range, "LOW,HIGH of the histogram [of the starts]");
@@ -226,7 +226,8 @@ void add_compare(CLI::App& app, typed& to) {
       "--metric state --json\n"
       "  nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --horizon 1 "
       "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric\n"
-      "  nysalt compare --system henon_heiles --methods verlet,srkn6b,learned:fg4 --steps 0.2,0.4 --equal-cost "
+      "  nysalt compare --system henon_heiles --methods verlet,srkn6b,learned:fg4 --steps 0.2,0.4 "
+      "--equal-cost "
       "--horizon 10 --learn-horizon 20 --trajectories 48 --metric state,energy --output report");
 }
 

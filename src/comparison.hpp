@@ -34,7 +34,8 @@ struct row {
   std::vector<finding> findings{};  // by each metric
 };
 
-/// Plans, learns and measures. Each part that is finished goes into a journal; what is there is not done again.
+/// Plans, learns and measures. Each part that is finished goes into a journal; what is there is not done
+/// again.
 class comparison {
  public:
   /// Plans the rows. Throws refusal for whatever cannot be, before any work is done.

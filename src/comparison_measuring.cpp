@@ -126,8 +126,8 @@ std::vector<asked_metric> comparison::along_paths() const {
   return result;
 }
 
-/// A pilot on a few trajectories tells the errors of the rows and of a coarse reference. That takes what keeps
-/// it a hundred times below them, as its error falls with the sixth power of its step.
+/// A pilot on a few trajectories tells the errors of the rows and of a coarse reference. That takes what
+/// keeps it a hundred times below them, as its error falls with the sixth power of its step.
 std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
   if (command_.learning.fine_step) return command_.learning.fine_step;
   const auto coarse = system_->fine_step_for_ranking(step);
@@ -193,7 +193,8 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .perturbation = perturbation};
     json result = json::array();
     for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
-      result.push_back({{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
+      result.push_back(
+          {{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
     }
     return result;
   });

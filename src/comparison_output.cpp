@@ -106,7 +106,8 @@ std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
   for (const row& its : all.rows()) {
     const std::string& reason = its.findings[m].reason;
-    if (!reason.empty()) result.push_back(fmt::format("{} at step {:g}: {}", its.method, its.nominal, reason));
+    if (!reason.empty())
+      result.push_back(fmt::format("{} at step {:g}: {}", its.method, its.nominal, reason));
   }
   return result;
 }

@@ -23,8 +23,9 @@ void add_question(page& report, const comparison& all) {
                           all.system().description(), command.horizon, all.system().starts(),
                           all.common().seed));
   if (command.equal_cost) {
-    report.text("Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
-                "steps are equal cost.");
+    report.text(
+        "Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
+        "steps are equal cost.");
   }
   report.code(all.common().command);
 }
@@ -37,16 +38,18 @@ std::string listed_front(const std::vector<const row*>& front) {
   return text.empty() ? "none" : text;
 }
 
-
 /// A cost, or between which rows or beyond which it lies.
 std::string text_of(const threshold_crossing& its, double unit) {
   const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
   switch (its.kind) {
-    case crossing_kind::found: return fmt::format("{} ± {:.1g}", number(its.x), its.standard_error * unit);
+    case crossing_kind::found:
+      return fmt::format("{} ± {:.1g}", number(its.x), its.standard_error * unit);
     case crossing_kind::bracketed:
       return fmt::format("{} to {}", number(its.first_above), number(its.last_below));
-    case crossing_kind::below_all: return "below " + number(its.x);
-    case crossing_kind::above_from_first: return "above " + number(its.x);
+    case crossing_kind::below_all:
+      return "below " + number(its.x);
+    case crossing_kind::above_from_first:
+      return "above " + number(its.x);
   }
   return {};
 }
@@ -72,8 +75,9 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
   const bool is_ranked_at_all =
       std::ranges::any_of(all.rows(), [&](const row& its) { return is_ranked(all, m, its); });
   if (!is_ranked_at_all) {
-    report.text("**No row is ranked**: none has a value of all trajectories within the time for which paths can "
-                "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
+    report.text(
+        "**No row is ranked**: none has a value of all trajectories within the time for which paths can "
+        "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
     return;
   }
   if (table beside = equal_cost_table(all, m); !beside.empty()) {
@@ -114,8 +118,8 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
 void add_fits(page& report, const comparison& all) {
   if (all.fits().empty()) return;
   report.heading("What was learned");
-  table fits({"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds",
-              "usable"});
+  table fits(
+      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "usable"});
   for (const auto& fit : all.fits()) {
     std::string parameters;
     for (const auto& [name, value] : fit["parameters"].items()) {
@@ -124,8 +128,8 @@ void add_fits(page& report, const comparison& all) {
     const auto number = [](const json& x) {
       return x.is_number() ? fmt::format("{:.3g}", x.get<double>()) : std::string("-");
     };
-    fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters, number(fit["one_step_error"]),
-              number(fit["learning_evaluations"]), number(fit["seconds"]),
+    fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters,
+              number(fit["one_step_error"]), number(fit["learning_evaluations"]), number(fit["seconds"]),
               fit["usable"].get<bool>() ? "yes" : "no"});
   }
   report.table(std::move(fits));
@@ -138,7 +142,8 @@ page report_of(const comparison& all) {
   add_fits(report, all);
   report.heading("How it was measured");
   std::vector<std::string> notes{
-      "evaluations are force evaluations of one trajectory per unit time, counted while running, the first one "
+      "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
+      "one "
       "included",
       "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "
       "interleaved rounds; `median +` says how much more the median of the rounds is",

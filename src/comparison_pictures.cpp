@@ -101,8 +101,7 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
       if (one.nominal != nominal || !law || law->y.empty()) continue;
       if (its.curves.empty()) {
         const auto& reference = *all.behind().at({m, one.step}).law;
-        its.curves.push_back(
-            {.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
+        its.curves.push_back({.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
       }
       its.curves.push_back({.label = one.method, .x = law->x, .y = law->y});
     }

@@ -12,7 +12,8 @@ namespace {
 json number(double x) { return std::isinf(x) ? json("infinite") : std::isnan(x) ? json(nullptr) : json(x); }
 double number_from(const json& text) {
   if (text.is_number()) return text.get<double>();
-  return text.is_string() ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  return text.is_string() ? std::numeric_limits<double>::infinity()
+                          : std::numeric_limits<double>::quiet_NaN();
 }
 
 void put(json& into, const char* name, const std::optional<double>& value) {
@@ -58,10 +59,8 @@ drawn_law law_from(const json& text) {
 }  // namespace
 
 drawn_law drawn(const gathered_statistics& found) {
-  drawn_law result{.x = {},
-                   .y = {},
-                   .mean = found.mean,
-                   .effective_sample_size = found.effective_sample_size};
+  drawn_law result{
+      .x = {}, .y = {}, .mean = found.mean, .effective_sample_size = found.effective_sample_size};
   if (found.counted == 0) return result;
   if (found.histogram) {
     const equal_bins bins = found.histogram->bins();

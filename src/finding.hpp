@@ -36,12 +36,12 @@ struct finding {
 
 /// What the findings at one step are seen against, by one metric. What a metric has not is left out.
 struct backdrop {
-  std::string reference = {};                // what it is
-  std::optional<double> reference_error{};   // its own
-  std::optional<double> null_model{};        // the error of what stays as it was at the start
-  std::optional<double> predictable_until{}; // infinite: to the end
-  std::optional<double> floor{};             // the distance that sampling alone makes
-  std::optional<drawn_law> law{};            // of the reference
+  std::string reference = {};                 // what it is
+  std::optional<double> reference_error{};    // its own
+  std::optional<double> null_model{};         // the error of what stays as it was at the start
+  std::optional<double> predictable_until{};  // infinite: to the end
+  std::optional<double> floor{};              // the distance that sampling alone makes
+  std::optional<drawn_law> law{};             // of the reference
 };
 
 /// By the index of the metric, and the size of the step.

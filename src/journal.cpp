@@ -19,7 +19,8 @@ constexpr const char* format = "nysalt journal";
 
 journal::journal(const std::filesystem::path& file, const json& question, bool resume) : path_(file) {
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse("cannot write {}: is the folder writable, and the disk not full?", path_.string());
+  if (descriptor < 0)
+    refuse("cannot write {}: is the folder writable, and the disk not full?", path_.string());
   file_.reset(fdopen(descriptor, "r+"));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", path_.string());

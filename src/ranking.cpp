@@ -12,24 +12,34 @@ namespace nysalt::program {
 
 std::string to_string(mark which) {
   switch (which) {
-    case mark::reference: return "reference";
-    case mark::null: return "null";
-    case mark::floor: return "floor";
-    case mark::horizon: return "horizon";
-    case mark::diverged: return "diverged";
+    case mark::reference:
+      return "reference";
+    case mark::null:
+      return "null";
+    case mark::floor:
+      return "floor";
+    case mark::horizon:
+      return "horizon";
+    case mark::diverged:
+      return "diverged";
   }
   return {};
 }
 
 std::string meaning(mark which) {
   switch (which) {
-    case mark::reference: return "the reference's own error is more than a tenth of this one";
-    case mark::null: return "no better than the null model, which stays as it was at the start";
-    case mark::floor: return "not above the floor of sampling by two standard errors: nothing is seen of the method";
+    case mark::reference:
+      return "the reference's own error is more than a tenth of this one";
+    case mark::null:
+      return "no better than the null model, which stays as it was at the start";
+    case mark::floor:
+      return "not above the floor of sampling by two standard errors: nothing is seen of the method";
     case mark::horizon:
-      return "beyond the time for which a path can be followed: it says more of chaos than of the method, and "
+      return "beyond the time for which a path can be followed: it says more of chaos than of the method, "
+             "and "
              "is not ranked";
-    case mark::diverged: return "some trajectories diverged; of the others alone, and not ranked";
+    case mark::diverged:
+      return "some trajectories diverged; of the others alone, and not ranked";
   }
   return {};
 }

@@ -60,9 +60,8 @@ void recommendation::require_sound_command() const {
         command_.metric);
   }
   const double nominal = 1e-3 * command_.horizon;
-  system_->require_measure(metric(),
-                           plan_at(nominal, command_.trajectories, seed_for(role::test, common_.seed)), {},
-                           1);
+  system_->require_measure(
+      metric(), plan_at(nominal, command_.trajectories, seed_for(role::test, common_.seed)), {}, 1);
 }
 
 /// Those that repeat another at equal cost do not take part, nor letters O where there is no bath.
@@ -208,9 +207,8 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   }
   std::vector<tabulated> methods;
   for (const candidate* its : group) methods.push_back(*its->method);
-  const errors_plan asked{.trajectories = plan,
-                          .metrics = {metric()},
-                          .fine_step = system_->fine_step_for_ranking(step)};
+  const errors_plan asked{
+      .trajectories = plan, .metrics = {metric()}, .fine_step = system_->fine_step_for_ranking(step)};
   const auto found = system_->errors(methods, asked, shown_.counter(plan.count)).front();
   for (std::size_t k = 0; k < group.size(); ++k) {
     candidate& its = *group[k];

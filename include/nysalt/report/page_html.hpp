@@ -57,19 +57,19 @@ a{color:inherit}
 
 inline std::string html_sentence(std::string_view text) {
   std::string result;
-  for (const words& its : plain_words(text)) {
+  for (const styled_words& its : plain_words(text)) {
     const std::string inside = html_escaped(its.text);
     switch (its.is) {
-      case words::kind::plain:
+      case styled_words::kind::plain:
         result += inside;
         break;
-      case words::kind::code:
+      case styled_words::kind::code:
         result += "<code>" + inside + "</code>";
         break;
-      case words::kind::bold:
+      case styled_words::kind::bold:
         result += "<strong>" + inside + "</strong>";
         break;
-      case words::kind::link:
+      case styled_words::kind::link:
         result += fmt::format("<a href=\"{}\">{}</a>", html_escaped(its.address), inside);
     }
   }
@@ -79,7 +79,7 @@ inline std::string html_sentence(std::string_view text) {
 /// A sentence without its marks, for attributes and for the title of the window.
 inline std::string html_plain(std::string_view text) {
   std::string result;
-  for (const words& its : plain_words(text)) result += html_escaped(its.text);
+  for (const styled_words& its : plain_words(text)) result += html_escaped(its.text);
   return result;
 }
 

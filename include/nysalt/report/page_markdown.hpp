@@ -30,18 +30,18 @@ inline std::size_t longest_backquotes(std::string_view text) {
 
 inline std::string markdown_sentence(std::string_view text) {
   std::string result;
-  for (const words& its : plain_words(text)) {
+  for (const styled_words& its : plain_words(text)) {
     switch (its.is) {
-      case words::kind::plain:
+      case styled_words::kind::plain:
         result += markdown_escaped(its.text);
         break;
-      case words::kind::code:
+      case styled_words::kind::code:
         result += "`" + its.text + "`";
         break;
-      case words::kind::bold:
+      case styled_words::kind::bold:
         result += "**" + markdown_escaped(its.text) + "**";
         break;
-      case words::kind::link:
+      case styled_words::kind::link:
         result += fmt::format("[{}]({})", markdown_escaped(its.text), its.address);
     }
   }

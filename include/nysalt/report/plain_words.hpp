@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-struct words {
+struct styled_words {
   enum class kind { plain, code, bold, link };
   kind is = kind::plain;
   std::string text;
@@ -28,33 +28,34 @@ inline bool is_plain_address(std::string_view address) {
 }
 
 /// What stands behind the opening mark at `at`, and where it goes on; nowhere if nothing closes it.
-inline std::pair<words, std::size_t> marked_words(std::string_view text, std::size_t at) {
+inline std::pair<styled_words, std::size_t> marked_words(std::string_view text, std::size_t at) {
   constexpr auto nowhere = std::string_view::npos;
-  const auto enclosed = [&](std::string_view mark, words::kind kind) -> std::pair<words, std::size_t> {
+  const auto enclosed = [&](std::string_view mark,
+                            styled_words::kind kind) -> std::pair<styled_words, std::size_t> {
     const std::size_t from = at + mark.size();
     const std::size_t end = text.substr(at).starts_with(mark) ? text.find(mark, from) : nowhere;
     if (end == nowhere || end == from) return {{}, nowhere};
     return {{kind, std::string(text.substr(from, end - from))}, end + mark.size()};
   };
-  if (text[at] == '`') return enclosed("`", words::kind::code);
-  if (text[at] == '*') return enclosed("**", words::kind::bold);
+  if (text[at] == '`') return enclosed("`", styled_words::kind::code);
+  if (text[at] == '*') return enclosed("**", styled_words::kind::bold);
   const std::size_t middle = text.find("](", at);
   const std::size_t end = middle == nowhere ? nowhere : text.find(')', middle);
   if (end == nowhere) return {{}, nowhere};
   const std::string_view address = text.substr(middle + 2, end - middle - 2);
   if (!is_plain_address(address)) return {{}, nowhere};
-  return {{words::kind::link, std::string(text.substr(at + 1, middle - at - 1)), std::string(address)},
+  return {{styled_words::kind::link, std::string(text.substr(at + 1, middle - at - 1)), std::string(address)},
           end + 1};
 }
 
 }  // namespace detail
 
 /// The runs of words of a sentence. A mark that nothing closes stands for itself; marks do not nest.
-inline std::vector<words> plain_words(std::string_view text) {
-  std::vector<words> result;
+inline std::vector<styled_words> plain_words(std::string_view text) {
+  std::vector<styled_words> result;
   std::string plain;
   const auto flush = [&] {
-    if (!plain.empty()) result.push_back({words::kind::plain, std::exchange(plain, {})});
+    if (!plain.empty()) result.push_back({styled_words::kind::plain, std::exchange(plain, {})});
   };
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '`' || text[at] == '*' || text[at] == '[') {
