@@ -18,6 +18,7 @@ comparison::comparison(const compare_command& command, const common_settings& co
   name_metrics();
   require_sound_command();
   plan_rows();
+  question_ = asked();
 }
 
 bool comparison::has_result() const {
@@ -142,7 +143,7 @@ json as_json(const row& its) {
 
 }  // namespace
 
-json comparison::question() const {
+json comparison::asked() const {
   json metrics = json::array();
   for (const auto& metric : metrics_) metrics.push_back(metric.text());
   json rows = json::array();

@@ -42,7 +42,7 @@ class comparison {
   comparison(const compare_command& command, const common_settings& common);
 
   /// What is asked, whatever it is computed by: two of one question have the same results to the bit.
-  json question() const;
+  const json& question() const { return question_; }
   void learn_and_measure(journal& kept);
 
   const compare_command& command() const { return command_; }
@@ -68,6 +68,7 @@ class comparison {
   void plan_rows();
   void add_row(const method_source& source, double nominal);
   trajectories_plan plan_at(double step) const;
+  json asked() const;
   void expect_work();
   double work_of_learning(const row& its) const;
   double work_of_paths(const group& all) const;
@@ -98,6 +99,7 @@ class comparison {
   std::vector<asked_metric> metrics_;
   std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed
   std::vector<row> rows_;
+  json question_;
   json fits_ = json::array();
   backdrops behind_;
   std::vector<std::string> warnings_;

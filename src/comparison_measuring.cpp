@@ -7,6 +7,7 @@
 #include "catalogue.hpp"
 #include "comparison.hpp"
 #include "learning.hpp"
+#include "ranking.hpp"
 #include "refusal.hpp"
 #include "seconds.hpp"
 
@@ -52,6 +53,7 @@ void comparison::learn_and_measure(journal& kept) {
   }
   measure_seconds();
   shown_.clear();
+  for (const auto& text : warnings_of_reference(*this)) warnings_.push_back(text);
 }
 
 /// In force evaluations, roughly: what is left of the time is told by it.

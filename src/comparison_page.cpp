@@ -163,7 +163,9 @@ void write_report(const comparison& all, const std::filesystem::path& folder) {
   const page report = report_of(all);
   for (const figure& picture : report.figures()) write_pictures(picture, folder, all.common());
   write_result(folder / "rows.csv", csv_of(all), all.common());
-  write_result(folder / "report.json", text_of(document_of(all)), all.common());
+  json document = document_of(all);
+  document["question"] = all.question();
+  write_result(folder / "report.json", text_of(document), all.common());
   write_result(folder / "report.md", report.markdown(), all.common());
   write_result(folder / "report.html", report.html(folder), all.common());
 }

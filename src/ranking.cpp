@@ -176,13 +176,16 @@ std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double
 std::vector<std::string> warnings_of_reference(const comparison& all) {
   std::vector<std::string> result;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    std::vector<const row*> rows;
     for (const row& its : all.rows()) {
-      const auto marks = marks_of(all, m, its);
-      if (std::ranges::count(marks, mark::reference) == 0) continue;
-      result.push_back(fmt::format(
-          "the reference's own error {:.1e} is not ten times smaller than that of {} at step {:g}, {:.1e}",
-          *behind(all, m, its).reference_error, its.method, its.nominal, its.findings[m].value.mean));
+      if (std::ranges::count(marks_of(all, m, its), mark::reference) > 0) rows.push_back(&its);
     }
+    if (rows.empty()) continue;
+    const row& first = *rows.front();
+    result.push_back(fmt::format(
+        "the reference's own error {:.1e} is not ten times smaller than that of {} at step {:g}, {:.1e}{}",
+        *behind(all, m, first).reference_error, first.method, first.nominal, first.findings[m].value.mean,
+        rows.size() == 1 ? "" : fmt::format(", and so in {} more rows", rows.size() - 1)));
   }
   return result;
 }

@@ -53,7 +53,7 @@ struct cost_at_level {
 /// Of methods with ranked rows; the cheapest in evaluations first, then those of which that is not known.
 std::vector<cost_at_level> costs_at(const comparison& all, std::size_t metric, double level);
 
-/// A reference that errs like a method says nothing of it, as one sentence each.
+/// A reference that errs like a method says nothing of it: one sentence a metric.
 std::vector<std::string> warnings_of_reference(const comparison& all);
 
 }  // namespace nysalt::program

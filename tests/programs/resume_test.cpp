@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+// A comparison that was stopped goes on where it stopped, to the same bytes but for times.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "../support/program.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+// A learned family, two metrics along paths, and laws: parts of every kind.
+const std::string line =
+    "compare --friction 0.5 --temperature 0.1 --methods verlet,learned:nystrom,baoab --steps 0.02,0.03,0.04 "
+    "--horizon 3 --trajectories 24 --learn-trajectories 8 --metric path,state,acf,distribution --output ";
+
+std::string rows(const scratch& folder, const std::string& name) {
+  return without_times_in_csv(contents(folder / (name + "/rows.csv")));
+}
+
+/// The journal of a run of the line above that was killed without warning when so many of its lines were
+/// there.
+std::string killed_after(const scratch& folder, const std::string& name, int lines) {
+  const std::string journal = name + "/journal.jsonl";
+  const auto done =
+      shell(folder, "\"$nysalt\" " + line + name + " >/dev/null 2>&1 & pid=$!\n" +
+                        "while kill -0 $pid 2>/dev/null && [ \"$(cat " + journal +
+                        " 2>/dev/null | wc -l)\" -lt " + std::to_string(lines) +
+                        " ]; do sleep 0.01; done\nkill -9 $pid\nwait $pid\n[ -f " + journal + " ]");
+  BOOST_TEST_REQUIRE(done.code == 0, "there is no journal of " << name << ": " << done.err);
+  return folder / journal;
+}
+
+std::string document(const finished& done) { return without_times(done.out); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_killed_run_goes_on_to_the_same_bytes) {
+  const scratch folder("resume");
+  const auto whole = run(folder, line + "whole --json");
+  BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+  BOOST_TEST(!std::filesystem::exists(folder / "whole/journal.jsonl"));
+  for (const int lines : {1, 3, 6, 12}) {
+    const std::string name = "killed_" + std::to_string(lines);
+    killed_after(folder, name, lines);
+    const auto again = run(folder, line + name + " --resume --json");
+    BOOST_TEST_REQUIRE(again.code == 0, again.err);
+    BOOST_TEST(rows(folder, name) == rows(folder, "whole"));
+    BOOST_TEST(document(again) == document(whole));
+    BOOST_TEST(!std::filesystem::exists(folder / (name + "/journal.jsonl")));
+  }
+}
+
+// What was finished is taken from the journal: what stands there is what comes out.
+BOOST_AUTO_TEST_CASE(finished_parts_are_not_done_again) {
+  const scratch folder("resume_edited");
+  const std::string journal = killed_after(folder, "run", 8);
+  std::string text = contents(journal);
+  const std::string before = "\"findings\":[{\"value\":[";
+  const auto at = text.find(before);
+  BOOST_TEST_REQUIRE(at != std::string::npos);
+  text.insert(at + before.size(), "12345.5,0.25],\"was\":[");
+  std::ofstream(journal) << text;
+  const auto again = run(folder, line + "run --resume");
+  BOOST_TEST_REQUIRE(again.code == 0, again.err);
+  BOOST_TEST(rows(folder, "run").find(",12345.5,0.25,") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_last_line_that_was_cut_off_does_not_count) {
+  const scratch folder("resume_cut");
+  BOOST_TEST_REQUIRE(run(folder, line + "whole").code == 0);
+  const std::string journal = killed_after(folder, "run", 6);
+  const std::string text = contents(journal);
+  std::ofstream(journal) << text.substr(0, text.size() - 25);
+  BOOST_TEST_REQUIRE(run(folder, line + "run --resume").code == 0);
+  BOOST_TEST(rows(folder, "run") == rows(folder, "whole"));
+}
+
+BOOST_AUTO_TEST_CASE(a_finished_run_is_left_alone) {
+  const scratch folder("resume_finished");
+  BOOST_TEST_REQUIRE(run(folder, line + "run").code == 0);
+  const std::string report = contents(folder / "run/report.json");
+  const auto again = run(folder, line + "run --resume");
+  BOOST_TEST(again.code == 0, again.err);
+  BOOST_TEST(again.out.find("finished") != std::string::npos);
+  BOOST_TEST(contents(folder / "run/report.json") == report);
+  // Of another question it begins anew.
+  BOOST_TEST(run(folder, line + "run --resume --seed 7").code == 0);
+  BOOST_TEST(contents(folder / "run/report.json") != report);
+}
+
+BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
+  const scratch folder("resume_refused");
+  const std::string journal = killed_after(folder, "run", 6);
+  const std::string text = contents(journal);
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const auto done = run(folder, arguments);
+    BOOST_TEST(done.code == 2, arguments << " ended with " << done.code);
+    BOOST_TEST(done.err.find(why) != std::string::npos, arguments << " said " << done.err);
+    BOOST_TEST(std::count(done.err.begin(), done.err.end(), '\n') == 1);
+  };
+  refused(line + "run", "--resume goes on");
+  refused(line + "run --resume --seed 2", "another question (seed)");
+  refused(line + "run --resume --bins 50", "another question (bins)");
+  refused("compare --methods verlet --steps 0.02 --resume", "name it as --output");
+  BOOST_TEST(contents(journal) == text);  // and nothing was lost
+  std::ofstream(journal) << "{\"some\": \"file\"}\n";
+  refused(line + "run --resume", "is no journal");
+  BOOST_TEST(run(folder, line + "run --resume --json").code == 2);
+}
