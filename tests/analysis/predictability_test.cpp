@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(perturbations_are_relative_and_independent) {
   const star x{{2.0, 0.0}, {-1e-3, 1e3}};
   double squares = 0.0;
   double products = 0.0;
-  for (std::int64_t m = 0; m < 1000; ++m) {
+  for (std::uint64_t m = 0; m < 1000; ++m) {
     const star y = perturbed(x, 0.01, 1, m);
     BOOST_TEST(y.q[1] == 0.0);
     const double a = (y.p[0] / x.p[0] - 1.0) / 0.01;

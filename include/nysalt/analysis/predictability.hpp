@@ -16,10 +16,9 @@ namespace nysalt {
 /// All coordinates times 1 + relative * (normal numbers of their own), each a pure function of seed and
 /// trajectory; lane 0 holds number `first`. What is 0 stays so.
 template <class T, int N>
-phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t seed, std::int64_t first) {
+phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t seed, std::uint64_t first) {
   phase_point<T, N> normals = x;
-  noise_counter at = {.trajectory = static_cast<std::uint64_t>(first),
-                      .purpose = noise_purpose::perturbation};
+  noise_counter at = {.trajectory = first, .purpose = noise_purpose::perturbation};
   standard_normals(seed, at, normals.q);
   at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
   standard_normals(seed, at, normals.p);
