@@ -16,12 +16,15 @@ say() { echo "== $*"; }
 compare() { # NAME OPTION...: into $folder/NAME; says only which fits could not be used
   name=$1
   shift
+  rm -f "$folder/$name/journal.jsonl"  # of a run that was stopped
   "$nysalt" compare "$@" --output "$folder/$name" >"$folder/$name.log" 2>&1 || cat "$folder/$name.log"
   sed -n 's/^\(.* at step .*: the fit is\)/   \1/p' "$folder/$name.log"
 }
 
 rows() { # TABLE...: method, step, size, evaluations, seconds, error, its own error
-  for table in "$@"; do tail -n +2 "$folder/$table/rows.csv"; done
+  for table in "$@"; do
+    tail -n +2 "$folder/$table/rows.csv" | awk -F , -v OFS=, '{ print $2, $3, $4, $5, $6, $8, $9 }'
+  done
 }
 
 draw() { # PICTURE YLABEL TABLE...: against evaluations and seconds; what is learned in colour and filled

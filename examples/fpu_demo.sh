@@ -9,6 +9,7 @@ mkdir -p "$folder"
 echo "== Learn a scheme for the step 0.02"
 "$nysalt" learn --system fpu --step 0.02 --output "$folder/scheme.json"
 
+rm -f "$folder/journal.jsonl"  # of a demonstration that was stopped
 echo
 echo "== Compare with classical methods at equal cost; steps are per force evaluation"
 "$nysalt" compare --system fpu --equal-cost --steps 0.00125,0.0025,0.005,0.0075,0.01,0.015,0.02 \
@@ -27,5 +28,5 @@ follow verlet verlet 0.02 10
 follow learned "$folder/scheme.json" 0.02 10
 
 echo
-echo "Tables: $folder/table.md, rows.csv. Pictures (.svg and .png): $folder/error_against_evaluations,"
-echo "error_against_seconds, accurate, verlet, learned."
+echo "The report: $folder/report.html, report.md, rows.csv. Pictures (.svg and .png) in $folder:"
+echo "path_stiff_energy_against_evaluations, path_stiff_energy_against_seconds, accurate, verlet, learned."

@@ -13,22 +13,16 @@ echo "== Learn a scheme for the step 0.019, with half of the bath before it and 
 
 echo
 echo "== Errors along paths; all see the same noise"
+rm -f "$folder"/*/journal.jsonl  # of a run that was stopped
 "$nysalt" compare $system $learning --horizon 1 --trajectories 1000 \
   --steps 0.0025,0.005,0.01,0.019,0.033,0.036 \
   --methods learned:nystrom@symmetric,learned:nystrom@end,baoab,baoab_2x,mclachlan2,s_aia2 --output "$folder/path"
 
-statistics() { # METRIC OPTION...
-  "$nysalt" compare $system $learning --metric "$@" --horizon 40 --steps 0.019,0.033 \
-    --methods baoab,baoab_2x,s_aia2,learned:nystrom@end,learned:nystrom@symmetric --output "$folder/$1"
-}
 echo
-echo "== The law of the stiff energy; the floor is what sampling alone makes of an error"
-statistics distribution --trajectories 4000 --range 0,1
+echo "== The law of the stiff energy, and its autocovariance; the floor is what sampling alone makes of an error"
+"$nysalt" compare $system $learning --metric distribution,acf --horizon 40 --steps 0.019,0.033 \
+  --methods baoab,baoab_2x,s_aia2,learned:nystrom@end,learned:nystrom@symmetric \
+  --trajectories 4000 --range 0,1 --output "$folder/law"
 
 echo
-echo "== Its autocovariance"
-statistics acf --trajectories 2000
-
-echo
-echo "In $folder/path, distribution and acf: table.md, rows.csv, and the pictures (.svg and .png)"
-echo "error_against_evaluations, error_against_seconds, distribution_at_*, acf_at_*."
+echo "In $folder/path and law: report.html, report.md, rows.csv, and the pictures (.svg and .png)"

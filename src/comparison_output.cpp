@@ -267,7 +267,9 @@ std::string readable(const comparison& all) {
     text += rows_of(all, m).text();
     for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
     for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";
-    if (const table beside = equal_cost_table(all, m); !beside.empty()) text += "\n" + beside.text();
+    if (const table beside = equal_cost_table(all, m); !beside.empty()) {
+      text += fmt::format("\n{}", beside.text());
+    }
   }
   return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }

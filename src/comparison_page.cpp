@@ -47,9 +47,9 @@ std::string text_of(const threshold_crossing& its, double unit) {
     case crossing_kind::bracketed:
       return fmt::format("{} to {}", number(its.first_above), number(its.last_below));
     case crossing_kind::below_all:
-      return "below " + number(its.x);
+      return fmt::format("below {}", number(its.x));
     case crossing_kind::above_from_first:
-      return "above " + number(its.x);
+      return fmt::format("above {}", number(its.x));
   }
   return {};
 }
@@ -103,6 +103,10 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
                                 "; bars are standard errors, hollow points are not ranked";
     report.picture(std::move(picture), caption);
   }
+  if (const auto drawn = drawn_methods(all, m).size(); drawn < all.command().methods.size()) {
+    report.text(fmt::format("{} of {} methods are drawn: those that are best at some cost, and the cheapest.",
+                            drawn, all.command().methods.size()));
+  }
   if (table against = backdrops_of(all, m); !against.empty()) report.table(std::move(against));
   report.table(rows_of(all, m));
   std::vector<std::string> sentences = meanings_of_marks(all, m);
@@ -152,7 +156,7 @@ page report_of(const comparison& all) {
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};
-  for (const auto& text : all.warnings()) notes.push_back("warning: " + text);
+  for (const auto& text : all.warnings()) notes.push_back(fmt::format("warning: {}", text));
   report.list(notes);
   return report;
 }

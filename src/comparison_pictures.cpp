@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "comparison_output.hpp"
 
@@ -22,7 +24,7 @@ std::string plain(std::string text) {
 /// One curve a method, from cheap to dear; what does not count is hollow.
 std::vector<curve> curves_of(const comparison& all, std::size_t m, double (*cost)(const row&)) {
   std::vector<curve> result;
-  for (const auto& method : all.command().methods) {
+  for (const auto& method : drawn_methods(all, m)) {
     curve its{.label = method, .x = {}, .y = {}};
     std::vector<const row*> rows;
     for (const row& one : all.rows()) {
@@ -81,6 +83,31 @@ figure against_cost(const comparison& all, std::size_t m, const char* name, cons
 
 }  // namespace
 
+std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
+  constexpr std::size_t most = 12;
+  const auto& methods = all.command().methods;
+  if (methods.size() <= most) return methods;
+  std::set<std::string> chosen;
+  for (const auto cost : {evaluations_of, seconds_of}) {
+    for (const row* its : pareto_front(all, m, cost)) chosen.insert(its->method);
+  }
+  // Then the cheapest of both kinds in turn.
+  const auto costs = costs_at(all, m, all.command().levels.front());
+  for (std::size_t wanted = 1; wanted <= methods.size(); ++wanted) {
+    for (const bool learned : {true, false}) {
+      std::size_t found = 0;
+      for (const cost_at_level& its : costs) {
+        if (its.is_learned != learned || ++found != wanted || chosen.size() >= most) continue;
+        chosen.insert(its.method);
+      }
+    }
+  }
+  std::vector<std::string> result;
+  std::ranges::copy_if(methods, std::back_inserter(result),
+                       [&](const std::string& method) { return chosen.contains(method); });
+  return result;
+}
+
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t m) {
   return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time", evaluations_of),
           against_cost(all, m, "_against_seconds", "seconds per unit time", seconds_of)};
@@ -91,6 +118,8 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
   if (!metric.is_of_law()) return result;
   const bool is_density = metric.name == "distribution";
+  const auto methods = drawn_methods(all, m);
+  const std::set<std::string> drawn(methods.begin(), methods.end());
   for (const double nominal : all.command().steps) {
     panel its{.title = fmt::format("step {:g}", nominal),
               .x_label = is_density ? metric.observable : "lag",
@@ -98,7 +127,7 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
               .curves = {}};
     for (const row& one : all.rows()) {
       const auto& law = one.findings[m].law;
-      if (one.nominal != nominal || !law || law->y.empty()) continue;
+      if (one.nominal != nominal || !law || law->y.empty() || !drawn.contains(one.method)) continue;
       if (its.curves.empty()) {
         const auto& reference = *all.behind().at({m, one.step}).law;
         its.curves.push_back({.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});

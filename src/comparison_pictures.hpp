@@ -2,6 +2,7 @@
 // Errors against costs, and laws beside that of the reference, as they are drawn.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "nysalt/report/plot.hpp"
@@ -9,6 +10,8 @@
 
 namespace nysalt::program {
 
+/// All methods, or where they are too many for a picture those that are best somewhere, and the cheapest.
+std::vector<std::string> drawn_methods(const comparison& all, std::size_t metric);
 /// Against evaluations, and against seconds.
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t metric);
 /// One for each step; none if the metric is of no law.

@@ -54,8 +54,7 @@ BOOST_AUTO_TEST_CASE(tables_and_pictures_are_of_acceptances) {
   BOOST_TEST(done.out.find("acceptance at kT = 1") != std::string::npos);
   BOOST_TEST(done.out.find("its rejections / learned") != std::string::npos);
   const auto rows = contents(folder / "out/rows.csv");
-  BOOST_TEST(rows.starts_with(
-      "method,step,step_size,evaluations_per_time,seconds_per_time,acceptance,standard_error,diverged\n"));
+  BOOST_TEST(rows.find("\nacceptance,") != std::string::npos);
   const auto script = contents(folder / "out/acceptance_against_evaluations.gp");
   BOOST_TEST(script.find("set logscale x\n") != std::string::npos);
   BOOST_TEST(script.find("logscale xy") == std::string::npos);

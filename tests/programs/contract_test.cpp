@@ -129,20 +129,21 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
   const auto all = document(
       "compare --methods verlet,learned:nystrom --steps 0.02 --trajectories 3 --learn-trajectories 4");
   BOOST_TEST(shape(all) ==
-             "system:text starts:text metric:text observable:text horizon:number trajectories:integer "
-             "equal_cost:flag seed:integer references:list rows:list fits:list warnings:list");
+             "system:text starts:text metrics:list horizon:number trajectories:integer equal_cost:flag "
+             "seed:integer references:list rows:list rankings:list fits:list warnings:list "
+             "peak_memory:integer");
   BOOST_REQUIRE(all["rows"].size() == 2U);
   for (const auto& row : all["rows"]) {
     BOOST_TEST(shape(row) ==
-               "method:text step:number step_size:number evaluations_per_time:number "
-               "seconds_per_time:number error:number standard_error:number diverged:integer "
-               "reference_error:number");
+               "metric:text method:text step:number step_size:number evaluations_per_time:number "
+               "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
+               "diverged:integer reference_error:number marks:list");
   }
   BOOST_REQUIRE(all["fits"].size() == 1U);
   BOOST_TEST(shape(all["fits"][0]) == "method:text " + of_a_fit);
   // The energy needs no reference and has no observable; a lone trajectory has no standard error.
   const auto energy = document("compare --methods verlet --steps 0.02 --trajectories 1 --metric energy");
-  BOOST_TEST(energy["observable"].is_null());
+  BOOST_TEST(energy["metrics"] == json::array({"energy"}));
   BOOST_TEST(energy["references"].empty());
   BOOST_TEST(energy["rows"][0]["reference_error"].is_null());
   BOOST_TEST(energy["rows"][0]["standard_error"].is_null());
@@ -153,11 +154,12 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const std::string in_the_bath = " --start law --friction 0.01 --sigma 0.05";
   BOOST_TEST(document("learn --step 0.02 --trajectories 4" + in_the_bath)["placement"] == "symmetric");
   const std::string head =
-      "system:text starts:text metric:text observable:text horizon:number trajectories:integer "
-      "equal_cost:flag seed:integer references:list rows:list fits:list warnings:list";
+      "system:text starts:text metrics:list horizon:number trajectories:integer equal_cost:flag seed:integer "
+      "references:list rows:list rankings:list fits:list warnings:list peak_memory:integer";
   const auto row_with = [](const std::string& rest) {
-    return "method:text step:number step_size:number evaluations_per_time:number seconds_per_time:number "
-           "error:number standard_error:number diverged:integer reference_error:null floor:number "
+    return "metric:text method:text step:number step_size:number evaluations_per_time:number "
+           "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
+           "diverged:integer reference_error:null marks:list floor:number "
            "mean:number mean_standard_error:number "
            "effective_sample_size:number" +
            rest;
@@ -171,7 +173,8 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const auto acf = document(line + "acf" + in_the_bath);
   BOOST_TEST(shape(acf) == head + " longest_lag:number");
   BOOST_TEST(shape(acf["rows"][0]) == row_with(""));
-  const std::string reference = "step_size:number reference:text ensembles:integer mean:number error:number";
+  const std::string reference =
+      "metric:text step_size:number reference:text error:number null_model:number floor:number mean:number";
   BOOST_TEST(shape(acf["references"][0]) == reference);
   BOOST_TEST(shape(law["references"][0]) == reference + temperatures);
 }
@@ -233,8 +236,8 @@ BOOST_AUTO_TEST_CASE(defaults_of_learn) {
 
 BOOST_AUTO_TEST_CASE(defaults_of_compare) {
   const std::string line = "compare --methods verlet,learned:nystrom --steps 0.02";
-  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --fine-step 1e-4 --horizon 0.5 "
-                               "--trajectories 400 --metric path --observable stiff_energy --seed 1 "
+  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --horizon 0.5 --trajectories 400 --seed 1 "
+                               "--metric path --observable stiff_energy --levels 0.01 "
                                "--learn-trajectories 100 --learn-horizon 0.5 --coordinates qp --threads 1"));
   const std::string few = line + " --trajectories 3 --learn-trajectories 8";
   for (const char* other : {"--horizon 0.4", "--metric exchange", "--observable energy", "--seed 2",
@@ -252,6 +255,66 @@ BOOST_AUTO_TEST_CASE(defaults_of_run) {
        {"--trajectories 2", "--observables energy", "--sample-every 2", "--seed 2", "--omega 40"}) {
     BOOST_TEST(!same(line, line + ' ' + other), other);
   }
+}
+
+// As fine as the rows need, and no finer; what is asked for is taken.
+BOOST_AUTO_TEST_CASE(a_reference_is_as_fine_as_its_rows_need) {
+  const std::string line = "compare --steps 0.02 --trajectories 20 --horizon 1 --methods ";
+  const auto reference = [&](const std::string& rest) { return document(line + rest)["references"][0]; };
+  const auto coarse = reference("verlet");
+  const auto fine = reference("verlet,srkn11b");
+  BOOST_TEST(coarse["reference"] == "srkn11b with step 0.001");  // omega h = 0.05
+  BOOST_TEST(fine["reference"] != coarse["reference"]);
+  BOOST_TEST(fine["error"] < 0.1 * coarse["error"].get<double>());
+  BOOST_TEST(reference("verlet --fine-step 1e-4")["reference"] == "srkn11b with step 0.0001");
+  for (const std::string rest : {"verlet", "verlet,srkn6b", "pefrl,srkn11b"}) {
+    const auto all = document(line + rest);
+    for (const auto& row : all["rows"]) {
+      BOOST_TEST(row["reference_error"] < 0.05 * row["error"].get<double>(), rest << ": " << row["method"]);
+      BOOST_TEST(row["marks"].empty());
+    }
+  }
+}
+
+// Metrics beside each other have the numbers that each has alone.
+BOOST_AUTO_TEST_CASE(several_metrics_are_those_of_each) {
+  const std::string line =
+      "compare --methods verlet,srkn6b --steps 0.02 --trajectories 20 --horizon 1 --fine-step 1e-3 --metric ";
+  const std::vector<std::string> metrics{"path:q1",           "state", "energy",
+                                         "path:stiff_energy", "acf",   "distribution"};
+  std::string joined;
+  for (const auto& metric : metrics) joined += (joined.empty() ? "" : ",") + metric;
+  const std::string lags = " --longest-lag 0.5";
+  const auto all = document(line + joined + lags);
+  BOOST_REQUIRE(all["rows"].size() == 2 * metrics.size());
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const auto alone = document(line + metrics[m] + (metrics[m] == "acf" ? lags : ""));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& row = all["rows"][2 * m + k];
+      BOOST_TEST(row["error"] == alone["rows"][k]["error"]);
+      BOOST_TEST(row["marks"] == alone["rows"][k]["marks"]);
+    }
+  }
+  BOOST_TEST(all["rows"][0]["error"] != all["rows"][6]["error"]);
+}
+
+// What stays at its start, and for how long a path can be followed.
+BOOST_AUTO_TEST_CASE(rows_are_seen_against_a_null_model_and_a_horizon) {
+  const std::string chaotic =
+      "compare --system henon_heiles --methods verlet,srkn6b --steps 0.1 --trajectories 16 --spread 1.6 "
+      "--metric "
+      "state --horizon ";
+  const auto brief = document(chaotic + "5");
+  BOOST_TEST(brief["references"][0]["predictable_until"].is_null());
+  BOOST_TEST(brief["references"][0]["null_model"] > brief["rows"][0]["error"]);
+  const auto null_alone = [](const auto& row) { return row["marks"] == json::array({"null"}); };
+  BOOST_TEST(!null_alone(brief["rows"][0]));
+  BOOST_TEST(!brief["rankings"][0]["front_by_evaluations"].empty());
+  // The slow method at a large step is worse than nothing: its phase is lost.
+  const auto lost = document(
+      "compare --system oscillator --methods verlet --steps 0.03 --horizon 100 --metric "
+      "path --observable energy --trajectories 4");
+  BOOST_TEST(lost["rows"][0]["marks"] == json::array({"null"}));
 }
 
 // step/ceil(step omega/5e-3), also where omega times the step is no multiple of 5e-3.

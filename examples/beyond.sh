@@ -1,0 +1,90 @@
+#!/bin/sh
+# Beyond the paper: all families against all classical methods at equal cost, by several metrics.
+# usage: beyond.sh PROGRAM FOLDER
+# What was finished in FOLDER before is not done again; remove it to begin anew.
+set -eu
+nysalt=$1
+folder=$2
+mkdir -p "$folder"
+
+explicit=learned:nystrom,learned:aba4,learned:aba5,learned:aba6,learned:bab4,learned:bab6,learned:aba3_free
+explicit=$explicit,learned:aba4_free,learned:fg_chin,learned:fg4
+rotating=learned:r_aba2,learned:r_aba4,learned:r_aba6,learned:r_fg4
+classical=verlet,verlet_aba,mclachlan2,bcss2,bcss3,forest_ruth,pefrl,mclachlan_atela4,mclachlan5,blanes_moan_s6
+classical=$classical,srkn6b,srkn11b,srkn14a,takahashi_imada,chin4a
+page=$folder/beyond.md
+
+say() { printf '\n%s\n' "$*" >>"$page"; }
+
+# From one heading of a report to the next, without it.
+section() { # REPORT HEADING
+  awk -v wanted="$2" '
+    /^##/ { inside = 0 }
+    inside { print }
+    index($0, wanted) == 1 { inside = 1 }' "$1"
+}
+
+compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC is the one that is shown
+  name=$1 title=$2 metric=$3 level=$4
+  shift 4
+  echo "== $title"
+  "$nysalt" compare --equal-cost --levels "$level" "$@" --resume --output "$folder/$name" >"$folder/$name.log" 2>&1 || {
+    cat "$folder/$name.log"
+    exit 1
+  }
+  report=$folder/$name/report.md
+  say "## $title"
+  say '```sh'
+  section "$report" "# " | sed -n '/^```/,/^```/p' | sed -e '/^```/d' -e 's/ --resume//' -e 's/ --output .*//' \
+    -e 's/^[^ ]*nysalt/nysalt/' >>"$page"
+  echo '```' >>"$page"
+  say "![$title: against evaluations](beyond/$name/${metric}_against_evaluations.svg)"
+  say "![$title: against seconds](beyond/$name/${metric}_against_seconds.svg)"
+  say "What an error of $level costs ([the whole report](beyond/$name/report.md)):"
+  section "$report" "### The cost of an error of $level" >>"$page"
+  say "Best at its cost:"
+  section "$report" "### Best at its cost" >>"$page"
+}
+
+{
+  echo "# Beyond the paper"
+  echo
+  echo "All families against all classical methods at equal cost: $("$nysalt" --version), $(date -u +%F), on $(
+    sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sort -u | head -n 1), $(nproc) cores. Made again by"
+  echo "\`./dev beyond\`. Steps are per force evaluation (soft ones where a method rotates the quadratic part); what is"
+  echo "learned is learned at each step on 100 trajectories that are none of the test's. \`marks\` and the rest are"
+  echo "explained in [the program](../program.md)."
+} >"$page"
+
+for omega in 50 200; do
+  if [ $omega = 50 ]; then
+    steps=0.001,0.0014,0.002,0.0028,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032
+  else
+    steps=0.00025,0.00035,0.0005,0.0007,0.001,0.0014,0.002,0.0028,0.004,0.0056,0.008
+  fi
+  fpu="--system fpu --omega $omega --trajectories 48 --steps $steps --methods $explicit,$rotating,$classical,s_aia2,impulse"
+  compare fpu_${omega}_state "FPU chain, omega = $omega, on [0, 10]: the state" state 0.01 $fpu \
+    --learn-horizon 1 --horizon 10 --metric state,path,exchange,energy
+  compare fpu_${omega}_stiff "FPU chain, omega = $omega, on [0, 100]: the stiff energy" path_stiff_energy 0.003 $fpu \
+    --learn-horizon 1 --horizon 100 --metric path,exchange
+done
+
+compare henon_heiles "Henon and Heiles' system on [0, 30]: the state" state 0.0001 --system henon_heiles \
+  --trajectories 48 --learn-horizon 20 --horizon 30 --metric state,energy \
+  --steps 0.05,0.07,0.1,0.14,0.2,0.28,0.4 --methods "$explicit,$rotating,$classical,s_aia2,impulse"
+compare phi4 "The phi^4 chain of 16 wells on [0, 10]: the state" state 0.01 --system phi4 \
+  --trajectories 48 --learn-horizon 8 --horizon 10 --metric state,energy \
+  --steps 0.035,0.05,0.07,0.1,0.14,0.2 --methods "$explicit,$rotating,$classical,s_aia2,impulse"
+compare kepler "Kepler's problem, eccentricity 0.6, on [0, 20]: the state" state 0.01 --system kepler \
+  --trajectories 48 --learn-horizon 2 --horizon 20 --metric state,energy \
+  --steps 0.0035,0.005,0.007,0.01,0.014,0.02,0.028,0.04 --methods "$explicit,$classical"
+
+bath="--system fpu --friction 0.01 --sigma 0.05 --learn-horizon 1 --steps 0.0035,0.005,0.007,0.01,0.014,0.02"
+in_bath="$explicit,$rotating,$classical,s_aia2,impulse,baoab,aboba,obabo"
+compare langevin_paths "The FPU chain in the paper's bath, on [0, 5]: paths of the stiff energy" path_stiff_energy 0.1 \
+  $bath --trajectories 96 --horizon 5 --metric path,state --methods "$in_bath"
+compare langevin_laws "The FPU chain in the paper's bath, on [0, 40]: the law of the stiff energy" \
+  distribution_stiff_energy 0.03 $bath --trajectories 500 --range 0,1 --horizon 40 --metric distribution,acf \
+  --methods "$in_bath"
+
+echo "Written: $page"
