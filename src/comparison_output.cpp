@@ -69,18 +69,51 @@ std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m)
   return result;
 }
 
+namespace {
+
+/// What rows of one reference are seen against: the worst of it over their steps.
+struct span_of_steps {
+  double from;
+  double to;
+  backdrop worst;
+};
+
+void worsen(backdrop& all, const backdrop& its) {
+  const auto take = [](std::optional<double>& a, const std::optional<double>& b, bool larger) {
+    if (!a || (b && (larger ? *b > *a : *b < *a))) a = b;
+  };
+  take(all.reference_error, its.reference_error, true);
+  take(all.null_model, its.null_model, false);
+  take(all.floor, its.floor, true);
+  take(all.predictable_until, its.predictable_until, false);
+}
+
+std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
+  std::vector<span_of_steps> result;
+  for (const auto& [key, its] : all.behind()) {
+    if (key.first != m || its.reference.empty()) continue;
+    if (result.empty() || result.back().worst.reference != its.reference) {
+      result.push_back({key.second, key.second, its});
+    }
+    result.back().to = key.second;
+    worsen(result.back().worst, its);
+  }
+  return result;
+}
+
+}  // namespace
+
 table backdrops_of(const comparison& all, std::size_t m) {
   const bool is_of_law = all.metrics()[m].is_of_law();
-  table result({"step size", "reference", "its own error", "null model",
+  table result({"step sizes", "reference", "its own error, at most", "null model, at least",
                 is_of_law ? "floor of sampling" : "predictable until"},
                2);
   const auto shown = [](const std::optional<double>& x) { return x ? in_short(*x) : std::string("-"); };
-  for (const auto& [key, its] : all.behind()) {
-    if (key.first != m || its.reference.empty()) continue;
+  for (const auto& [from, to, its] : spans_of(all, m)) {
     const auto until = its.predictable_until;
     const std::string horizon = !until ? "-" : std::isinf(*until) ? "the end" : fmt::format("{:g}", *until);
-    result.add({fmt::format("{:g}", key.second), its.reference, shown(its.reference_error),
-                shown(its.null_model), is_of_law ? shown(its.floor) : horizon});
+    result.add({from == to ? fmt::format("{:g}", from) : fmt::format("{:g} to {:g}", from, to), its.reference,
+                shown(its.reference_error), shown(its.null_model), is_of_law ? shown(its.floor) : horizon});
   }
   return result;
 }

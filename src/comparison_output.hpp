@@ -18,7 +18,7 @@ std::int64_t peak_memory();
 std::string quantity(const comparison& all, std::size_t metric);
 
 table rows_of(const comparison& all, std::size_t metric);
-/// Reference, null model and floor or horizon at each step.
+/// Reference, null model and floor or horizon, over the steps that share a reference.
 table backdrops_of(const comparison& all, std::size_t metric);
 table equal_cost_table(const comparison& all, std::size_t metric);
 /// One sentence for each mark that is there, and for each row without a value.

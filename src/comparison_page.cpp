@@ -107,11 +107,14 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
     report.text(fmt::format("{} of {} methods are drawn: those that are best at some cost, and the cheapest.",
                             drawn, all.command().methods.size()));
   }
-  if (table against = backdrops_of(all, m); !against.empty()) report.table(std::move(against));
   report.table(rows_of(all, m));
   std::vector<std::string> sentences = meanings_of_marks(all, m);
   for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
   if (!sentences.empty()) report.list(sentences);
+  if (table against = backdrops_of(all, m); !against.empty()) {
+    report.subheading("What they are seen against");
+    report.table(std::move(against));
+  }
   add_ranking(report, all, m);
   for (auto& picture : pictures_of_laws(all, m)) {
     const std::string caption = quantity(all, m) + ", " + picture.panels.front().title;

@@ -132,7 +132,7 @@ std::vector<const row*> pareto_front(const comparison& all, std::size_t m, doubl
 
 namespace {
 
-/// A row that diverged is above any level; beyond the horizon nothing is said of any.
+/// A row that diverged is above any level. Nothing is said of what was not used, nor beyond the horizon.
 std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std::string& method,
                                 double (*cost)(const row&)) {
   std::vector<error_at> result;
@@ -140,7 +140,7 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
     if (its.method != method) continue;
     const finding& one = its.findings[m];
     const bool counts = is_ranked(all, m, its);
-    const bool is_lost = one.diverged > 0 || !one.reason.empty();
+    const bool is_lost = one.diverged > 0;
     if (!counts && !is_lost) continue;
     const double error = counts ? one.value.mean : std::numeric_limits<double>::infinity();
     result.push_back({cost(its), error, one.value.standard_error});
