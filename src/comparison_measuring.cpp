@@ -132,11 +132,14 @@ std::vector<asked_metric> comparison::along_paths() const {
 /// keeps it a hundred times below them, as its error falls with the sixth power of its step.
 std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
   if (command_.learning.fine_step) return command_.learning.fine_step;
-  const auto coarse = system_->fine_step_for_ranking(step);
-  if (!coarse) return std::nullopt;
+  const auto ranking = system_->fine_step_for_ranking(step);
+  if (!ranking) return std::nullopt;
+  constexpr double coarser = 4.0;
+  constexpr double usual = 10.0 * coarser;  // is so many times finer
   constexpr std::int64_t few = 16;
   constexpr double share = 0.01;
   constexpr double order = 6.0;
+  const double coarse = step / std::max(1.0, std::round(step / (coarser * *ranking)));
   errors_plan pilot{.trajectories = plan_at(step), .metrics = along_paths(), .fine_step = coarse};
   pilot.trajectories.count = std::min(few, command_.trajectories);
   double finer = 1.0;
@@ -148,9 +151,8 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
       finer = std::max(finer, std::pow(ratio, 1.0 / order));
     }
   }
-  constexpr double usual = 10.0;
   if (!(finer < usual)) return std::nullopt;
-  return step / std::ceil(finer * step / *coarse - 1e-9);
+  return step / std::ceil(finer * step / coarse - 1e-9);
 }
 
 namespace {

@@ -29,7 +29,7 @@ std::string to_string(mark which) {
 std::string meaning(mark which) {
   switch (which) {
     case mark::reference:
-      return "the reference's own error is more than a tenth of this one";
+      return "the reference's own error is more than a tenth of this one; not ranked";
     case mark::null:
       return "no better than the null model, which stays as it was at the start";
     case mark::floor:
@@ -84,8 +84,10 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
 bool is_ranked(const comparison& all, std::size_t m, const row& its) {
   const finding& one = its.findings[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
-  return std::ranges::none_of(marks_of(all, m, its),
-                              [](mark its) { return its == mark::horizon || its == mark::diverged; });
+  const auto marks = marks_of(all, m, its);
+  return std::ranges::none_of(marks, [](mark found) {
+    return found == mark::reference || found == mark::horizon || found == mark::diverged;
+  });
 }
 
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {

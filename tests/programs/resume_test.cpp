@@ -16,8 +16,10 @@ namespace {
 
 // A learned family, two metrics along paths, and laws: parts of every kind.
 const std::string line =
-    "compare --friction 0.5 --temperature 0.1 --methods verlet,learned:nystrom,baoab --steps 0.02,0.03,0.04 "
-    "--horizon 3 --trajectories 24 --learn-trajectories 8 --metric path,state,acf,distribution --output ";
+    "compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods "
+    "verlet,learned:nystrom,baoab "
+    "--steps 0.2,0.3,0.4 --horizon 60 --trajectories 64 --learn-trajectories 16 --learn-horizon 2 --metric "
+    "path,state,acf,distribution --output ";
 
 std::string rows(const scratch& folder, const std::string& name) {
   return without_times_in_csv(contents(folder / (name + "/rows.csv")));
