@@ -71,7 +71,8 @@ void journal::write(const json& line) {
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
-    refuse("cannot write {}: is the disk full? What is in it counts when you --resume", path_.string());
+    throw journal_failure(fmt::format(
+        "cannot write {}: is the disk full? What is in it counts when you --resume", path_.string()));
   }
 }
 

@@ -108,10 +108,16 @@ void require_folder(const std::filesystem::path& folder) {
   }
 }
 
-void make_folder(const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
+  std::vector<fs::path> made;
+  for (fs::path there = fs::absolute(folder); !fs::exists(there, failure); there = there.parent_path()) {
+    if (there.has_filename()) made.insert(made.begin(), there);
+  }
+  fs::create_directories(folder, failure);
   if (failure) refuse("cannot make the folder {}: {}", folder.string(), failure.message());
+  return made;
 }
 
 void complain(std::string text) {

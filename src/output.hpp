@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "json.hpp"
 #include "nysalt/report/plot.hpp"
@@ -31,8 +32,8 @@ void require_writable(const std::filesystem::path& file);
 /// Throws refusal now if a folder could not be made there later, or not be written into.
 void require_folder(const std::filesystem::path& folder);
 
-/// Makes a folder, and those it lies in, where there is none.
-void make_folder(const std::filesystem::path& folder);
+/// Makes a folder, and those it lies in, where there is none; which were made, the outermost first.
+std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder);
 
 /// The folder that a file is in.
 std::filesystem::path folder_of(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <optional>
 
 #include "../commands.hpp"
@@ -14,6 +15,8 @@ namespace nysalt::program {
 
 namespace {
 
+constexpr const char* journal_name = "journal.jsonl";
+
 /// The report on the very question, if it is there.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
   std::ifstream input(folder / "report.json");
@@ -23,30 +26,46 @@ std::optional<json> answer(const std::filesystem::path& folder, const json& ques
   return report;
 }
 
+/// Where what was asked cannot be, nothing of it stays.
+void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
+  const auto made = make_folder(folder);
+  journal kept(folder / journal_name, all.question(), resume);
+  if (kept.found() > 0) warn(fmt::format("{} finished parts are taken from the journal", kept.found()));
+  try {
+    all.learn_and_measure(kept);
+  } catch (const journal_failure&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    kept.remove();
+    std::error_code ignored;
+    for (auto its = made.rbegin(); its != made.rend(); ++its) std::filesystem::remove(*its, ignored);
+    throw;
+  }
+  write_report(all, folder);
+  kept.remove();
+}
+
 }  // namespace
 
 int compare(const compare_command& command, const common_settings& common) {
   comparison all(command, common);
   const std::filesystem::path folder(command.output);
-  journal kept;
   if (command.output.empty()) {
     if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");
+    journal nowhere;
+    all.learn_and_measure(nowhere);
   } else {
     require_folder(folder);
-    const auto file = folder / "journal.jsonl";
-    if (command.resume && !std::filesystem::exists(file)) {
+    if (command.resume && !std::filesystem::exists(folder / journal_name)) {
       if (const auto there = answer(folder, all.question())) {
         print(common.json ? text_of(*there) : fmt::format("It is finished: {}\n", command.output));
         return done;
       }
     }
-    make_folder(folder);
-    kept = journal(file, all.question(), command.resume);
-    if (kept.found() > 0) warn(fmt::format("{} finished parts are taken from the journal", kept.found()));
+    measure_in(folder, all, command.resume);
   }
-  all.learn_and_measure(kept);
-  if (!command.output.empty()) write_report(all, folder);
-  kept.remove();
   if (common.json) {
     print(text_of(document_of(all)));
   } else {

@@ -67,7 +67,8 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
   const auto must_all_be = [](const std::string& metric, const error_measure<6>& measure) {
     const auto all = document(
-        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b --steps 0.02 --trajectories 20 "
+        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b --steps 0.02 --fine-step 1e-4 "
+        "--trajectories 20 "
         "--learn-trajectories 5 " +
         metric);
     const auto& theta = all["fits"][0]["parameters"];
