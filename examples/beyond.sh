@@ -16,10 +16,10 @@ page=$folder/beyond.md
 
 say() { printf '\n%s\n' "$*" >>"$page"; }
 
-# From one heading of a report to the next, without it.
+# From the first such heading of a report to the next of any kind, without them.
 section() { # REPORT HEADING
   awk -v wanted="$2" '
-    /^##/ { inside = 0 }
+    inside && /^##/ { exit }
     inside { print }
     index($0, wanted) == 1 { inside = 1 }' "$1"
 }

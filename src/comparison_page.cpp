@@ -38,12 +38,19 @@ std::string listed_front(const std::vector<const row*>& front) {
   return text.empty() ? "none" : text;
 }
 
+/// To the first digit of the error: 125 ± 10, 48.4 ± 0.5.
+std::string with_error(double x, double error) {
+  if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.4g}", x);
+  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(error))));
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", x, error, decimals);
+}
+
 /// A cost, or between which rows or beyond which it lies.
 std::string text_of(const threshold_crossing& its, double unit) {
   const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
   switch (its.kind) {
     case crossing_kind::found:
-      return fmt::format("{} ± {:.1g}", number(its.x), its.standard_error * unit);
+      return with_error(its.x * unit, its.standard_error * unit);
     case crossing_kind::bracketed:
       return fmt::format("{} to {}", number(its.first_above), number(its.last_below));
     case crossing_kind::below_all:
@@ -104,8 +111,8 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
     report.picture(std::move(picture), caption);
   }
   if (const auto drawn = drawn_methods(all, m).size(); drawn < all.command().methods.size()) {
-    report.text(fmt::format("{} of {} methods are drawn: those that are best at some cost, and the cheapest.",
-                            drawn, all.command().methods.size()));
+    report.text(fmt::format("{} of {} methods are drawn: the cheapest of both kinds at an error of {:g}.",
+                            drawn, all.command().methods.size(), all.command().levels.front()));
   }
   report.table(rows_of(all, m));
   std::vector<std::string> sentences = meanings_of_marks(all, m);

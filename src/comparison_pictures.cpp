@@ -84,22 +84,14 @@ figure against_cost(const comparison& all, std::size_t m, const char* name, cons
 }  // namespace
 
 std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t most = 6;  // of each kind
   const auto& methods = all.command().methods;
-  if (methods.size() <= most) return methods;
+  if (methods.size() <= 2 * most) return methods;
   std::set<std::string> chosen;
-  for (const auto cost : {evaluations_of, seconds_of}) {
-    for (const row* its : pareto_front(all, m, cost)) chosen.insert(its->method);
-  }
-  // Then the cheapest of both kinds in turn.
-  const auto costs = costs_at(all, m, all.command().levels.front());
-  for (std::size_t wanted = 1; wanted <= methods.size(); ++wanted) {
-    for (const bool learned : {true, false}) {
-      std::size_t found = 0;
-      for (const cost_at_level& its : costs) {
-        if (its.is_learned != learned || ++found != wanted || chosen.size() >= most) continue;
-        chosen.insert(its.method);
-      }
+  for (const bool learned : {true, false}) {
+    std::size_t found = 0;
+    for (const cost_at_level& its : costs_at(all, m, all.command().levels.front())) {
+      if (its.is_learned == learned && ++found <= most) chosen.insert(its.method);
     }
   }
   std::vector<std::string> result;

@@ -10,7 +10,7 @@
 
 namespace nysalt::program {
 
-/// All methods, or where they are too many for a picture those that are best somewhere, and the cheapest.
+/// All methods, or where they are too many for a picture the cheapest of both kinds at the first level.
 std::vector<std::string> drawn_methods(const comparison& all, std::size_t metric);
 /// Against evaluations, and against seconds.
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t metric);

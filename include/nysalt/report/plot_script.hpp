@@ -78,6 +78,9 @@ inline std::string axes(const panel& its) {
   const bool log_y = its.log_log && !its.linear_y;
   text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
   if (its.log_log) text += log_y ? "set logscale xy\n" : "set logscale x\n";
+  // Whole decades would leave much of a logarithmic axis empty.
+  text += its.log_log ? "set autoscale xfix\nset offsets graph 0.05, graph 0.05, 0, 0\n"
+                      : "set autoscale x\nset offsets 0, 0, 0, 0\n";
   text += has_key_beside(its) ? "set key outside right top vertical Left reverse samplen 4\n"
                               : "set key outside top center horizontal Right noreverse samplen 4\n";
   text += "unset label\nunset arrow\n";
