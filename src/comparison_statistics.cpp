@@ -221,6 +221,7 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
     }));
   }
   take(metric, step, all, found);
+  if (metrics_[metric].name == "acf") references_.erase({metric, step});  // another step has others
 }
 
 }  // namespace nysalt::program
