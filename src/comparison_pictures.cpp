@@ -6,9 +6,11 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "comparison_output.hpp"
+#include "nysalt/report/work_precision.hpp"
 
 namespace nysalt::program {
 
@@ -21,37 +23,24 @@ std::string plain(std::string text) {
   return text;
 }
 
-/// One curve a method, from cheap to dear; what does not count is hollow.
-std::vector<curve> curves_of(const comparison& all, std::size_t m, double (*cost)(const row&)) {
-  std::vector<curve> result;
-  for (const auto& method : drawn_methods(all, m)) {
-    curve its{.label = method, .x = {}, .y = {}};
-    std::vector<const row*> rows;
-    for (const row& one : all.rows()) {
-      if (one.method == method) rows.push_back(&one);
-    }
-    std::ranges::sort(rows, {}, [&](const row* one) { return cost(*one); });
-    for (const row* one : rows) {
-      const estimate& value = one->findings[m].value;
-      its.x.push_back(cost(*one));
-      its.y.push_back(value.mean);
-      its.error.push_back(value.standard_error);
-      its.hollow.push_back(!is_ranked(all, m, *one));
-      its.emphasised = one->is_learned;
-    }
-    result.push_back(its);
+/// Of all methods, or of those with these names.
+std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
+                                          const std::optional<std::vector<std::string>>& named = {}) {
+  std::vector<work_precision_row> result;
+  for (const row& its : all.rows()) {
+    if (named && std::ranges::count(*named, its.method) == 0) continue;
+    const finding& one = its.findings[m];
+    result.push_back({.method = its.method,
+                      .step = its.nominal,
+                      .evaluations_per_time = its.evaluations_per_time,
+                      .seconds_per_time = its.seconds_per_time.least,
+                      .error = one.value,
+                      .diverged = one.diverged,
+                      .trajectories = all.command().trajectories,
+                      .learned = its.is_learned,
+                      .counts = is_ranked(all, m, its)});
   }
   return result;
-}
-
-curve front_of(const comparison& all, std::size_t m, double (*cost)(const row&)) {
-  curve its{.label = "best at its cost", .x = {}, .y = {}};
-  its.front = true;
-  for (const row* one : pareto_front(all, m, cost)) {
-    its.x.push_back(cost(*one));
-    its.y.push_back(one->findings[m].value.mean);
-  }
-  return its;
 }
 
 /// One that stands for all steps, as they differ little: the least.
@@ -72,11 +61,16 @@ std::vector<level> levels_of(const comparison& all, std::size_t m) {
 }
 
 figure against_cost(const comparison& all, std::size_t m, const char* name, const char* label,
-                    double (*cost)(const row&)) {
-  panel its{.title = {}, .x_label = label, .y_label = quantity(all, m), .log_log = true, .curves = {}};
+                    double work_precision_row::*field, double (*cost)(const row&)) {
+  panel its = work_precision_panel(points_of(all, m, drawn_methods(all, m)), "", label, field);
+  its.y_label = quantity(all, m);
   its.linear_y = all.metrics()[m].is_acceptance();
-  its.curves = curves_of(all, m, cost);
-  if (const curve front = front_of(all, m, cost); front.x.size() > 1) its.curves.push_back(front);
+  std::vector<std::size_t> front;
+  for (const row* best : pareto_front(all, m, cost)) {
+    front.push_back(static_cast<std::size_t>(best - all.rows().data()));
+  }
+  if (front.size() > 1)
+    its.curves.push_back(front_curve(points_of(all, m), front, field, "best at its cost"));
   its.levels = levels_of(all, m);
   return {.name = plain(all.metrics()[m].text()) + name, .panels = {its}};
 }
@@ -101,8 +95,10 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
 }
 
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t m) {
-  return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time", evaluations_of),
-          against_cost(all, m, "_against_seconds", "seconds per unit time", seconds_of)};
+  return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time",
+                       &work_precision_row::evaluations_per_time, evaluations_of),
+          against_cost(all, m, "_against_seconds", "seconds per unit time",
+                       &work_precision_row::seconds_per_time, seconds_of)};
 }
 
 std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
