@@ -40,7 +40,7 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
   echo '```' >>"$page"
   say "![$title: against evaluations](beyond/$name/${metric}_against_evaluations.svg)"
   say "![$title: against seconds](beyond/$name/${metric}_against_seconds.svg)"
-  say "What an error of $level costs ([the whole report](beyond/$name/report.md)):"
+  say "What an error of $level costs ([every row](beyond/$name/rows.csv), by every metric):"
   section "$report" "### The cost of an error of $level" >>"$page"
   say "Best at its cost:"
   section "$report" "### Best at its cost" >>"$page"

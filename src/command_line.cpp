@@ -303,7 +303,9 @@ int run_parsed(const CLI::App& command, typed& to) {
     if (given(command, "--levels")) to.compare.levels = numbers(to.levels, "--levels");
     const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
       const auto is_of_these = [&](const std::string& text) {
-        return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0;
+        const bool names_its_own =
+            std::string(option) == "--observable" && text.find(':') != std::string::npos;
+        return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
       };
       if (!given(command, option) || std::ranges::any_of(to.compare.metrics, is_of_these)) return;
       refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(to.compare.metrics));

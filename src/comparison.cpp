@@ -156,6 +156,8 @@ json comparison::asked() const {
           {"placement", command_.placement},
           {"horizon", command_.horizon},
           {"trajectories", command_.trajectories},
+          {"equal_cost", command_.equal_cost},
+          {"levels", command_.levels},
           {"range", command_.range},
           {"bins", command_.bins},
           {"longest_lag", command_.longest_lag},

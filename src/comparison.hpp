@@ -73,6 +73,7 @@ class comparison {
   double work_of_learning(const row& its) const;
   double work_of_paths(const group& all) const;
   double work_of_law(double evaluations_per_time) const;
+  double work_of_reference() const;             // of one ensemble for a law
   double evaluations_of(const row& its) const;  // by unit time, without the start
 
   void learn(row& its, journal& kept);
@@ -80,14 +81,15 @@ class comparison {
   std::vector<asked_metric> along_paths() const;
   /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
   std::optional<double> fine_step_for(double step, const std::vector<tabulated>& methods) const;
+  double refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const;
   void take(std::size_t metric, double step, const group& all, const json& found);
   void measure_acceptance(std::size_t metric, double step, const group& all, journal& kept);
   void measure_law(std::size_t metric, double step, const group& all, journal& kept);
   statistics_plan statistics_at(std::size_t metric, double step) const;
   void prepare_bins(std::size_t metric);
-  double step_of_reference(std::size_t metric, double step) const;
   gathered_statistics reference(std::size_t metric, double step, int number, int finer);
   const std::vector<gathered_statistics>& references_at(std::size_t metric, double step);
+  std::optional<double> null_model_of_law(std::size_t metric, double step, const drawn_law& law);
   backdrop behind_law(std::size_t metric, double step);
   finding law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all);
   void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
@@ -104,7 +106,7 @@ class comparison {
   backdrops behind_;
   std::vector<std::string> warnings_;
   std::vector<std::optional<equal_bins>> bins_;  // by metric
-  std::map<std::pair<std::size_t, double>, std::vector<gathered_statistics>> references_;
+  std::vector<gathered_statistics> references_;  // of the metric and step at hand
   progress shown_;
 };
 

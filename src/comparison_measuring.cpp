@@ -68,8 +68,7 @@ void comparison::expect_work() {
     if (!along_paths().empty()) work += work_of_paths(all);
     for (const asked_metric& metric : metrics_) {
       if (!metric.is_of_law()) continue;
-      const double reference = system_->fastest_rate() / fine_angle * reference_evaluations;
-      work += 6.0 * work_of_law(reference);
+      work += 6.0 * work_of_reference();
       for (const row* its : all) work += work_of_law(evaluations_of(*its));
     }
   }
@@ -103,26 +102,32 @@ double comparison::work_of_law(double evaluations_per_time) const {
   return evaluations_per_time * command_.horizon * static_cast<double>(command_.trajectories);
 }
 
+double comparison::work_of_reference() const {
+  return work_of_law(system_->fastest_rate() / fine_angle * reference_evaluations);
+}
+
 void comparison::learn(row& its, journal& kept) {
   const method_source& source = families_.at(its.method);
   const auto where = placement_in(source, *system_, placement_asked(command_.placement));
-  const json found = kept.once(fmt::format("{} learned at {}", its.method, its.step), [&] {
+  const std::string part = fmt::format("{} learned at {}", its.method, its.step);
+  if (kept.has(part)) shown_.skip(work_of_learning(its));
+  const json found = kept.once(part, [&] {
     const learn_plan plan = plan_for(*source.family, where, its.step, command_.learning, common_);
     const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(its));
     json fit{{"method", its.method}};
     fit.update(fit_json(learned.fit));
     return json{{"fit", fit}, {"theta", theta_of(learned.fit)}};
   });
-  fits_.push_back(found["fit"]);
+  fits_.push_back(found.at("fit"));
   const run_time_family family = placed(*source.family, where);
-  const auto theta = found["theta"].get<std::vector<double>>();
+  const auto theta = found.at("theta").get<std::vector<double>>();
   const Eigen::VectorXd its_theta = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   its.coefficients.emplace(
       family.name, family.letters, family.coefficients(its_theta),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
-  if (found["fit"]["usable"].get<bool>()) return;
+  if (found.at("fit").at("usable").get<bool>()) return;
   its.reason = "the fit is not usable: ";
-  its.reason += found["fit"]["reason"].get<std::string>();
+  its.reason += found.at("fit").at("reason").get<std::string>();
 }
 
 std::vector<asked_metric> comparison::along_paths() const {
@@ -131,31 +136,44 @@ std::vector<asked_metric> comparison::along_paths() const {
   return result;
 }
 
-/// A pilot on a few trajectories tells the errors of the rows and of a coarse reference. That takes what
-/// keeps it a hundred times below them, as its error falls with the sixth power of its step.
-std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
-  if (command_.learning.fine_step) return command_.learning.fine_step;
-  const auto ranking = system_->fine_step_for_ranking(step);
-  if (!ranking) return std::nullopt;
-  constexpr double coarser = 4.0;
-  constexpr double usual = 10.0 * coarser;  // is so many times finer
-  constexpr std::int64_t few = 16;
+/// How many times finer the reference should be for its error to be a hundred times below those of the rows,
+/// as that falls with the sixth power of its step.
+double comparison::refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const {
   constexpr double share = 0.01;
   constexpr double order = 6.0;
-  const double coarse = step / std::max(1.0, std::round(step / (coarser * *ranking)));
-  errors_plan pilot{.trajectories = plan_at(step), .metrics = along_paths(), .fine_step = coarse};
-  pilot.trajectories.count = std::min(few, command_.trajectories);
-  double finer = 1.0;
+  double most = 0.0;
   for (const auto& found : system_->errors(methods, pilot, {})) {
     if (!found.reference_error) continue;
     for (const method_error& its : found.methods) {
-      if (std::isnan(its.error.mean)) continue;
-      const double ratio = found.reference_error->mean / (share * its.error.mean);
-      finer = std::max(finer, std::pow(ratio, 1.0 / order));
+      if (!std::isnan(its.error.mean)) most = std::max(most, found.reference_error->mean / its.error.mean);
     }
   }
-  if (!(finer < usual)) return std::nullopt;
-  return step / std::ceil(finer * step / coarse - 1e-9);
+  return std::pow(most / share, 1.0 / order);
+}
+
+/// Pilots on a few trajectories tell the errors of the rows and of a coarse reference, which is refined until
+/// it is good enough, or the usual one is.
+std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
+  if (command_.learning.fine_step) return command_.learning.fine_step;
+  const auto ranking = system_->fine_step_for_ranking(step);
+  const auto paths = along_paths();
+  const bool needs_one =
+      std::ranges::any_of(paths, [](const asked_metric& its) { return its.name != "energy"; });
+  if (!ranking || !needs_one) return std::nullopt;
+  constexpr double coarser = 4.0;
+  constexpr double usual = 10.0;  // is so many times finer than for ranking
+  constexpr std::int64_t few = 16;
+  errors_plan pilot{.trajectories = plan_at(step), .metrics = paths};
+  pilot.trajectories.count = std::min(few, command_.trajectories);
+  double parts = std::max(1.0, std::round(step / (coarser * *ranking)));
+  while (parts < usual * step / *ranking) {
+    pilot.fine_step = step / parts;
+    const double finer = refinement(pilot, methods);
+    if (finer <= 1.0) return pilot.fine_step;
+    constexpr double least = 1.3;  // where chaos hides how much finer it must be
+    parts = std::ceil(std::max(finer, least) * parts);
+  }
+  return std::nullopt;
 }
 
 namespace {
@@ -170,11 +188,22 @@ json findings_of(const std::vector<method_error>& all, std::int64_t trajectories
   return result;
 }
 
-json backdrop_json(const trajectory_errors_result& found) {
+/// What the flow conserves stays at its start but for rounding: there is no null model then, and chaos does
+/// not touch it.
+bool is_conserved(const trajectory_errors_result& found) {
+  constexpr double rounding = 1e-10;  // relative, over long runs
+  const double noise = found.reference_error ? 10.0 * found.reference_error->mean : 0.0;
+  return found.null_model && found.null_model->mean <= std::max(noise, rounding);
+}
+
+/// `share`: of its own error that a reference sees of itself.
+json backdrop_json(const trajectory_errors_result& found, double share) {
   backdrop its{.reference = found.reference};
-  if (found.reference_error) its.reference_error = found.reference_error->mean;
-  if (found.null_model) its.null_model = found.null_model->mean;
-  its.predictable_until = found.predictable_until;
+  if (found.reference_error) its.reference_error = found.reference_error->mean / share;
+  if (!is_conserved(found)) {
+    if (found.null_model) its.null_model = found.null_model->mean;
+    its.predictable_until = found.predictable_until;
+  }
   return to_json(its);
 }
 
@@ -182,14 +211,20 @@ json backdrop_json(const trajectory_errors_result& found) {
 
 /// What a part of the journal says of one metric at one step.
 void comparison::take(std::size_t metric, double step, const group& all, const json& found) {
-  behind_[{metric, step}] = backdrop_from(found["behind"]);
-  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = finding_from(found["findings"][k]);
+  behind_[{metric, step}] = backdrop_from(found.at("behind"));
+  const json& findings = found.at("findings");
+  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = finding_from(findings.at(k));
 }
 
 void comparison::measure_paths(double step, const group& all, journal& kept) {
   if (all.empty()) return;
-  shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
-  const json found = kept.once(fmt::format("paths at {}", step), [&] {
+  const std::string part = fmt::format("paths at {}", step);
+  if (kept.has(part)) {
+    shown_.skip(work_of_paths(all));
+  } else {
+    shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
+  }
+  const json found = kept.once(part, [&] {
     std::vector<tabulated> methods;
     for (const row* its : all) methods.push_back(*its->coefficients);
     constexpr double perturbation = 1e-6;
@@ -198,16 +233,18 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .fine_step = fine_step_for(step, methods),
                            .null_model = true,
                            .perturbation = perturbation};
+    // BAOAB along a path is of order one: of twice as many steps it differs by half of its error.
+    const double share = system_->its_bath().sigma() > 0.0 ? 0.5 : 1.0;
     json result = json::array();
     for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
-      result.push_back(
-          {{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
+      result.push_back({{"behind", backdrop_json(its, share)},
+                        {"findings", findings_of(its.methods, command_.trajectories)}});
     }
     return result;
   });
   std::size_t next = 0;
   for (std::size_t m = 0; m < metrics_.size(); ++m) {
-    if (metrics_[m].is_along_paths()) take(m, step, all, found[next++]);
+    if (metrics_[m].is_along_paths()) take(m, step, all, found.at(next++));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "comparison_output.hpp"
 #include "refusal.hpp"
@@ -29,7 +30,7 @@ std::string quantity(const comparison& all, std::size_t m) {
 namespace {
 
 std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
-std::string in_full(double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string(); }
+std::string in_full(double x) { return std::isnan(x) ? std::string() : fmt::format("{}", x); }
 std::string in_full(const std::optional<double>& x) { return x ? in_full(*x) : std::string(); }
 
 std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
@@ -47,15 +48,35 @@ table rows_of(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
   table result({"method", "step", "evaluations/time", "ns/time", "median +", metric.value(), "standard error",
                 "diverged", "marks"});
+  const auto shown = [&](double x) {
+    return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
+  };
   for (const row& its : all.rows()) {
     const finding& one = its.findings[m];
     const timed_job& seconds = its.seconds_per_time;
     result.add({its.method, fmt::format("{:g}", its.nominal), fmt::format("{:.1f}", its.evaluations_per_time),
                 fmt::format("{:.0f}", 1e9 * seconds.least),
                 fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
-                in_short(one.value.mean), in_short(one.value.standard_error),
+                shown(one.value.mean), in_short(one.value.standard_error),
                 fmt::format("{}/{}", one.diverged, all.command().trajectories), joined_marks(all, m, its)});
   }
+  for (const auto& [name, value] : free_of_cost(all, m)) {
+    result.add({name, "-", "0.0", "0", "-", in_short(value), "-", "-", ""});
+  }
+  return result;
+}
+
+std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t m) {
+  std::vector<std::pair<std::string, double>> result;
+  const auto add = [&](const char* name, std::optional<double> backdrop::*field) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [key, its] : all.behind()) {
+      if (key.first == m) least = std::min(least, (its.*field).value_or(least));
+    }
+    if (std::isfinite(least)) result.emplace_back(name, least);
+  };
+  add("null model", &backdrop::null_model);
+  add("floor of sampling", &backdrop::floor);
   return result;
 }
 
@@ -105,8 +126,8 @@ std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
 
 table backdrops_of(const comparison& all, std::size_t m) {
   const bool is_of_law = all.metrics()[m].is_of_law();
-  table result({"step sizes", "reference", "its own error, at most", "null model, at least",
-                is_of_law ? "floor of sampling" : "predictable until"},
+  table result({"step sizes", "reference", is_of_law ? "its finer self, at most" : "its own error, at most",
+                "null model, at least", is_of_law ? "floor of sampling" : "predictable until"},
                2);
   const auto shown = [](const std::optional<double>& x) { return x ? in_short(*x) : std::string("-"); };
   for (const auto& [from, to, its] : spans_of(all, m)) {
@@ -116,6 +137,14 @@ table backdrops_of(const comparison& all, std::size_t m) {
                 shown(its.reference_error), shown(its.null_model), is_of_law ? shown(its.floor) : horizon});
   }
   return result;
+}
+
+/// To the first digit of the error: 125 ± 10, 48.4 ± 0.5.
+std::string with_error(const estimate& its) {
+  if (std::isnan(its.mean)) return "-";
+  if (!(its.standard_error > 0.0)) return fmt::format("{:.4g}", its.mean);
+  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(its.standard_error))));
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", its.mean, its.standard_error, decimals);
 }
 
 table equal_cost_table(const comparison& all, std::size_t m) {
@@ -130,7 +159,7 @@ table equal_cost_table(const comparison& all, std::size_t m) {
     result.add({pair.learned->method, fmt::format("{:g}", pair.learned->nominal),
                 fmt::format(fmt::runtime(format), pair.learned->findings[m].value.mean), pair.best->method,
                 fmt::format(fmt::runtime(format), pair.best->findings[m].value.mean),
-                fmt::format("{:.2g}", gain(all, m, pair)), fmt::format("{:.2g}", seconds)});
+                with_error(gain(all, m, pair)), fmt::format("{:.2g}", seconds)});
   }
   return result;
 }
@@ -281,8 +310,9 @@ std::string csv_of(const comparison& all) {
                   in_full(its.evaluations_per_time), in_full(its.seconds_per_time.least),
                   in_full(its.seconds_per_time.median), in_full(one.value.mean),
                   in_full(one.value.standard_error), fmt::format("{}", one.diverged),
-                  in_full(against.reference_error), in_full(against.null_model), in_full(against.floor),
-                  in_full(against.predictable_until), joined_marks(all, m, its), one.reason});
+                  all.metrics()[m].is_of_law() ? std::string() : in_full(against.reference_error),
+                  in_full(against.null_model), in_full(against.floor), in_full(against.predictable_until),
+                  joined_marks(all, m, its), one.reason});
     }
   }
   return result.csv();

@@ -43,20 +43,11 @@ std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
   return result;
 }
 
-/// One that stands for all steps, as they differ little: the least.
 std::vector<level> levels_of(const comparison& all, std::size_t m) {
   std::vector<level> result;
-  const auto add = [&](const char* label, std::optional<double> backdrop::*field) {
-    std::optional<double> least;
-    for (const auto& [key, its] : all.behind()) {
-      if (key.first == m && its.*field && std::isfinite(*(its.*field))) {
-        least = std::min(least.value_or(*(its.*field)), *(its.*field));
-      }
-    }
-    if (least && *least > 0.0) result.push_back({label, *least});
-  };
-  add("null model", &backdrop::null_model);
-  add("floor of sampling", &backdrop::floor);
+  for (const auto& [name, value] : free_of_cost(all, m)) {
+    if (value > 0.0) result.push_back({name, value});
+  }
   return result;
 }
 
@@ -84,9 +75,12 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
   std::set<std::string> chosen;
   for (const bool learned : {true, false}) {
     std::size_t found = 0;
-    for (const cost_at_level& its : costs_at(all, m, all.command().levels.front())) {
-      if (its.is_learned == learned && ++found <= most) chosen.insert(its.method);
-    }
+    const auto add = [&](bool is_learned, const std::string& method) {
+      if (is_learned != learned || found == most || !chosen.insert(method).second) return;
+      ++found;
+    };
+    for (const auto& its : costs_at(all, m, all.command().levels.front())) add(its.is_learned, its.method);
+    for (const row& its : all.rows()) add(its.is_learned, its.method);  // where no cost is known
   }
   std::vector<std::string> result;
   std::ranges::copy_if(methods, std::back_inserter(result),
@@ -123,7 +117,7 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
       its.curves.push_back({.label = one.method, .x = law->x, .y = law->y});
     }
     if (its.curves.empty()) continue;
-    result.push_back({.name = plain(fmt::format("{}_at_{:g}", metric.text(), nominal)), .panels = {its}});
+    result.push_back({.name = plain(fmt::format("{}_at_{}", metric.text(), nominal)), .panels = {its}});
   }
   return result;
 }

@@ -54,11 +54,21 @@ double floor_of(std::span<const gathered_statistics> all) {
 /// Of independent ensembles, with less noise than each has; they share their x.
 drawn_law mean_law(std::span<const gathered_statistics> all) {
   drawn_law result = drawn(all.front());
-  for (double& y : result.y) y /= static_cast<double>(all.size());
-  for (const auto& other : all.subspan(1)) {
-    const auto y = drawn(other).y;
-    for (std::size_t i = 0; i < y.size(); ++i) result.y[i] += y[i] / static_cast<double>(all.size());
+  const double share = 1.0 / static_cast<double>(all.size());
+  const auto add = [&](double& to, double value, bool is_first) {
+    to = (is_first ? 0.0 : to) + share * value;
+  };
+  double variance = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const drawn_law its = drawn(all[k]);
+    for (std::size_t i = 0; i < its.y.size(); ++i) add(result.y[i], its.y[i], k == 0);
+    add(result.mean.mean, its.mean.mean, k == 0);
+    variance += std::pow(share * its.mean.standard_error, 2.0);
+    if (!its.kinetic_temperature) continue;
+    add(*result.kinetic_temperature, *its.kinetic_temperature, k == 0);
+    add(*result.half_step_kinetic_temperature, *its.half_step_kinetic_temperature, k == 0);
   }
+  result.mean.standard_error = std::sqrt(variance);
   return result;
 }
 
@@ -138,20 +148,15 @@ void comparison::require_samples_in_range(std::size_t metric,
          bins->high, metrics_[metric].observable, all.front().mean.mean);
 }
 
-/// Their trajectories have numbers of their own, hence starts and noise of their own. The law does not depend
-/// on the step of those who are compared with it: one set serves all, at the smallest.
-double comparison::step_of_reference(std::size_t metric, double step) const {
-  if (metrics_[metric].name == "acf") return step;
-  return std::ranges::min(rows_, {}, &row::step).step;
-}
-
+/// Their trajectories have numbers of their own, hence starts and noise of their own. They are sampled when
+/// the methods are at that step: the floor is of as many samples.
 gathered_statistics comparison::reference(std::size_t metric, double step, int number, int finer) {
   statistics_plan plan = statistics_at(metric, step);
   plan.trajectories.seed = seed_for(role::reference, common_.seed);
   plan.first = number * plan.trajectories.count;
   plan.finer = finer;
   shown_.part(fmt::format("reference {} of {} at step {:g}", number + 1, references + 1, step),
-              work_of_law(finer * reference_evaluations * system_->fastest_rate() / fine_angle));
+              finer * work_of_reference());
   auto found = system_->reference_statistics(plan, metrics_[metric].observable, command_.learning.fine_step,
                                              shown_.counter(plan.trajectories.count));
   if (found.lost.empty()) return found;
@@ -161,35 +166,43 @@ gathered_statistics comparison::reference(std::size_t metric, double step, int n
 }
 
 const std::vector<gathered_statistics>& comparison::references_at(std::size_t metric, double step) {
-  auto& all = references_[{metric, step_of_reference(metric, step)}];
-  if (!all.empty()) return all;
-  for (int k = 0; k < references; ++k) {
-    all.push_back(reference(metric, step_of_reference(metric, step), k, 1));
-  }
-  require_samples_in_range(metric, all);
-  return all;
+  if (!references_.empty()) return references_;
+  for (int k = 0; k < references; ++k) references_.push_back(reference(metric, step, k, 1));
+  require_samples_in_range(metric, references_);
+  return references_;
 }
 
-/// The null model stays where it starts: its law is that of the starts, and it forgets nothing.
+/// What stays where it starts: its law is that of the starts, and it forgets nothing. Nothing where the
+/// starts are of the law already, as far as so many tell.
+std::optional<double> comparison::null_model_of_law(std::size_t metric, double step, const drawn_law& law) {
+  if (metrics_[metric].name == "acf") {
+    double sum = 0.0;
+    for (const double rho : law.y) sum += (1.0 - rho) * (1.0 - rho);
+    return std::sqrt(sum / static_cast<double>(law.y.size() - 1));
+  }
+  statistics_plan frozen = statistics_at(metric, step);
+  frozen.trajectories.steps = 0;
+  frozen.trajectories.seed = seed_for(role::reference, common_.seed);
+  std::vector<gathered_statistics> starts;
+  double distance = 0.0;
+  for (int k = 0; k < references; ++k) {
+    frozen.first = (references + 1 + k) * frozen.trajectories.count;
+    starts.push_back(system_->reference_statistics(frozen, metrics_[metric].observable, {}, {}));
+    distance += distance_to(starts.back(), references_).mean / references;
+  }
+  constexpr double seen = 1.5;
+  if (distance < seen * floor_of(starts)) return std::nullopt;
+  return distance;
+}
+
 backdrop comparison::behind_law(std::size_t metric, double step) {
   const auto& all = references_at(metric, step);
-  const double at = step_of_reference(metric, step);
-  const auto finer = reference(metric, at, references, 2);
-  backdrop its{.reference = system_->reference_of_statistics(at, command_.learning.fine_step),
+  const auto finer = reference(metric, step, references, 2);
+  backdrop its{.reference = system_->reference_of_statistics(step, command_.learning.fine_step),
                .reference_error = distance_to(finer, all).mean,
                .floor = floor_of(all),
                .law = mean_law(all)};
-  if (metrics_[metric].name == "distribution") {
-    statistics_plan frozen = statistics_at(metric, at);
-    frozen.trajectories.steps = 0;
-    frozen.trajectories.seed = seed_for(role::reference, common_.seed);
-    its.null_model =
-        distance_to(system_->reference_statistics(frozen, metrics_[metric].observable, {}, {}), all).mean;
-  } else {
-    double sum = 0.0;
-    for (const double rho : its.law->y) sum += (1.0 - rho) * (1.0 - rho);
-    its.null_model = std::sqrt(sum / static_cast<double>(its.law->y.size() - 1));
-  }
+  its.null_model = null_model_of_law(metric, step, *its.law);
   return its;
 }
 
@@ -209,19 +222,21 @@ finding comparison::law_of(std::size_t metric, const row& its, std::span<const g
 }
 
 void comparison::measure_law(std::size_t metric, double step, const group& all, journal& kept) {
-  prepare_bins(metric);
-  const std::string name = metrics_[metric].text();
-  json found{{"findings", json::array()}};
   if (all.empty()) return;
-  found["behind"] = kept.once(fmt::format("reference of {} at {}", name, step),
-                              [&] { return to_json(behind_law(metric, step)); });
+  prepare_bins(metric);
+  references_.clear();
+  const std::string name = metrics_[metric].text();
+  const std::string part = fmt::format("reference of {} at {}", name, step);
+  if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
+  json found{{"behind", kept.once(part, [&] { return to_json(behind_law(metric, step)); })},
+             {"findings", json::array()}};
   for (const row* its : all) {
-    found["findings"].push_back(kept.once(fmt::format("{} of {} at {}", name, its->method, step), [&] {
-      return to_json(law_of(metric, *its, references_at(metric, step)));
-    }));
+    const std::string its_part = fmt::format("{} of {} at {}", name, its->method, step);
+    if (kept.has(its_part)) shown_.skip(work_of_law(its->evaluations_per_time));
+    found["findings"].push_back(
+        kept.once(its_part, [&] { return to_json(law_of(metric, *its, references_at(metric, step))); }));
   }
   take(metric, step, all, found);
-  if (metrics_[metric].name == "acf") references_.erase({metric, step});  // another step has others
 }
 
 }  // namespace nysalt::program

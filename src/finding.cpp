@@ -21,11 +21,11 @@ void put(json& into, const char* name, const std::optional<double>& value) {
 }
 std::optional<double> taken(const json& from, const char* name) {
   if (!from.contains(name)) return std::nullopt;
-  return number_from(from[name]);
+  return number_from(from.at(name));
 }
 
 json to_json(const estimate& its) { return {number(its.mean), number(its.standard_error)}; }
-estimate estimate_from(const json& text) { return {number_from(text[0]), number_from(text[1])}; }
+estimate estimate_from(const json& text) { return {number_from(text.at(0)), number_from(text.at(1))}; }
 
 json numbers(const std::vector<double>& all) {
   json result = json::array();
@@ -48,10 +48,10 @@ json to_json(const drawn_law& its) {
   return result;
 }
 drawn_law law_from(const json& text) {
-  return {.x = numbers_from(text["x"]),
-          .y = numbers_from(text["y"]),
-          .mean = estimate_from(text["mean"]),
-          .effective_sample_size = number_from(text["effective_sample_size"]),
+  return {.x = numbers_from(text.at("x")),
+          .y = numbers_from(text.at("y")),
+          .mean = estimate_from(text.at("mean")),
+          .effective_sample_size = number_from(text.at("effective_sample_size")),
           .kinetic_temperature = taken(text, "kinetic_temperature"),
           .half_step_kinetic_temperature = taken(text, "half_step_kinetic_temperature")};
 }
@@ -85,10 +85,10 @@ json to_json(const finding& its) {
 }
 
 finding finding_from(const json& text) {
-  finding its{.value = estimate_from(text["value"]),
-              .reason = text["reason"].get<std::string>(),
-              .diverged = text["diverged"].get<std::int64_t>()};
-  if (text.contains("law")) its.law = law_from(text["law"]);
+  finding its{.value = estimate_from(text.at("value")),
+              .reason = text.at("reason").get<std::string>(),
+              .diverged = text.at("diverged").get<std::int64_t>()};
+  if (text.contains("law")) its.law = law_from(text.at("law"));
   return its;
 }
 
@@ -103,12 +103,12 @@ json to_json(const backdrop& its) {
 }
 
 backdrop backdrop_from(const json& text) {
-  backdrop its{.reference = text["reference"].get<std::string>(),
+  backdrop its{.reference = text.at("reference").get<std::string>(),
                .reference_error = taken(text, "reference_error"),
                .null_model = taken(text, "null_model"),
                .predictable_until = taken(text, "predictable_until"),
                .floor = taken(text, "floor")};
-  if (text.contains("law")) its.law = law_from(text["law"]);
+  if (text.contains("law")) its.law = law_from(text.at("law"));
   return its;
 }
 

@@ -14,10 +14,20 @@
 namespace nysalt::program {
 
 namespace {
+
 constexpr const char* format = "nysalt journal";
+
+std::string line_of(const json& its) {
+  return its.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
+}  // namespace
+
 journal::journal(const std::filesystem::path& file, const json& question, bool resume) : path_(file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
+    refuse("cannot write {}: it is no ordinary file; name another --output", path_.string());
+  }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0)
     refuse("cannot write {}: is the folder writable, and the disk not full?", path_.string());
@@ -25,50 +35,67 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", path_.string());
   }
-  const std::size_t whole = read(question);
+  const std::string head = line_of({{"format", format}, {"question", question}});
+  const std::size_t whole = read(question, head);
   if (!resume && !found_.empty()) {
     refuse("{} holds {} finished parts of a run that was stopped: --resume goes on, or remove the file",
            path_.string(), found_.size());
   }
   if (ftruncate(descriptor, static_cast<off_t>(whole)) != 0) refuse("cannot write {}", path_.string());
   std::fseek(file_.get(), 0, SEEK_END);
-  if (whole == 0) write({{"format", format}, {"question", question}});
+  if (whole == 0) write(head);
 }
 
+namespace {
+
+[[noreturn]] void refuse_foreign(const std::filesystem::path& path) {
+  refuse("{} is no journal, or was edited: remove it to begin anew", path.string());
+}
+
+void require_same(const json& its, const json& question, const std::filesystem::path& path) {
+  if (its == question) return;
+  std::string changed;
+  for (const auto& [name, value] : question.items()) {
+    if (its.is_object() && its.contains(name) && its[name] == value) continue;
+    changed += changed.empty() ? name : ", " + name;
+  }
+  refuse("{} is of another question ({}): ask the same, or remove the file to begin anew", path.string(),
+         changed.empty() ? "it asks for more" : changed);
+}
+
+}  // namespace
+
 /// The length of its whole lines.
-std::size_t journal::read(const json& question) {
+std::size_t journal::read(const json& question, const std::string& head) {
   std::ifstream input(path_, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(input), {}};
   std::size_t at = 0;
   for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
     const json line = json::parse(std::string_view(text).substr(at, end - at), nullptr, false);
-    const bool is_head = at == 0 && line.is_object() && line.value("format", "") == format;
-    const bool is_part = at > 0 && line.is_object() && line.contains("part") && line.contains("result");
-    if (!is_head && !is_part) {
-      refuse("{} is no journal, or was edited: remove it to begin anew", path_.string());
-    }
-    if (is_part) {
-      found_[line["part"].get<std::string>()] = line["result"];
+    if (at == 0) {
+      if (!line.is_object() || line.value("format", json()) != format || !line.contains("question")) {
+        refuse_foreign(path_);
+      }
+      require_same(line["question"], question, path_);
       continue;
     }
-    if (line["question"] == question) continue;
-    std::string changed;
-    for (const auto& [name, value] : question.items()) {
-      if (line["question"].contains(name) && line["question"][name] == value) continue;
-      changed += changed.empty() ? name : ", " + name;
+    if (!line.is_object() || !line.contains("result") || !line.value("part", json()).is_string()) {
+      refuse_foreign(path_);
     }
-    refuse("{} is of another question ({}): ask the same, or remove the file to begin anew", path_.string(),
-           changed.empty() ? "it asks for more" : changed);
+    found_[line["part"].get<std::string>()] = line["result"];
   }
+  // A line that was cut off: of ours, if it is the first.
+  if (at == 0 && !head.starts_with(text)) refuse_foreign(path_);
   return at;
 }
 
 void journal::keep(const std::string& part, const json& result) {
-  if (file_) write({{"part", part}, {"result", result}});
+  if (!file_) return;
+  write(line_of({{"part", part}, {"result", result}}));
+  has_written_ = true;
 }
 
-void journal::write(const json& line) {
-  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
     throw journal_failure(fmt::format(

@@ -26,11 +26,14 @@ class journal {
   journal() = default;
   /// In `file`, of the `question`: parts that were finished for the same question count if `resume`. Throws
   /// refusal if there is a journal and not `resume`, if it is of another question or no journal, if another
-  /// process writes it, or if it cannot be written.
+  /// process writes it, or if it cannot be written. A file that is no journal is left as it is.
   journal(const std::filesystem::path& file, const json& question, bool resume);
 
   /// How many parts were there at the start.
   std::size_t found() const { return found_.size(); }
+  bool has(const std::string& part) const { return found_.contains(part); }
+  /// Nothing was finished, now or before.
+  bool is_empty() const { return found_.empty() && !has_written_; }
   /// What a part came to, by its name: if it is not there, work() tells, and that is kept. Throws
   /// journal_failure if it cannot be written.
   json once(const std::string& part, const auto& work) {
@@ -47,13 +50,14 @@ class journal {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::size_t read(const json& question);
+  std::size_t read(const json& question, const std::string& head);
   void keep(const std::string& part, const json& result);
-  void write(const json& line);
+  void write(const std::string& text);
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;
   std::map<std::string, json> found_;
+  bool has_written_ = false;
 };
 
 }  // namespace nysalt::program

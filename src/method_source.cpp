@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "method_source.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -26,6 +28,9 @@ bool is_file_name(const std::string& text) {
 }  // namespace
 
 method_source find_method(const std::string& typed) {
+  if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
+    refuse("a method's name holds a line break or the like: rename the file");
+  }
   method_source source;
   source.typed = typed;
   std::string text = typed;

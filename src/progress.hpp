@@ -22,6 +22,8 @@ class progress {
   void expect(double work);
   /// Begins a part of the work; what was begun before is done.
   void part(std::string what, double work = 0.0);
+  /// Work that was expected and need not be done.
+  void skip(double work) { expected_ -= work; }
   /// To be called with the number of units of the part that are done, out of `total`; from any thread.
   std::function<void(std::int64_t)> counter(std::int64_t total);
   /// Takes the line away.

@@ -29,9 +29,11 @@ std::string to_string(mark which) {
 std::string meaning(mark which) {
   switch (which) {
     case mark::reference:
-      return "the reference's own error is more than a tenth of this one; not ranked";
+      return "the reference's own error is more than a tenth of this one, or is seen above the floor; not "
+             "ranked";
     case mark::null:
-      return "no better than the null model, which stays as it was at the start";
+      return "no better than the null model, which stays as it was at the start and costs nothing; not "
+             "ranked";
     case mark::floor:
       return "not above the floor of sampling by two standard errors: nothing is seen of the method";
     case mark::horizon:
@@ -66,9 +68,11 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
   const asked_metric& metric = all.metrics()[m];
   const double error = one.value.mean;
   constexpr double known_well = 0.1;
-  if (metric.is_along_paths() && against.reference_error.value_or(0.0) > known_well * error) {
+  constexpr double above_floor = 1.5;
+  const double known = against.reference_error.value_or(0.0);
+  if (metric.is_along_paths() && known > known_well * error) result.push_back(mark::reference);
+  if (metric.is_of_law() && known > above_floor * against.floor.value_or(known))
     result.push_back(mark::reference);
-  }
   if (against.null_model && error >= *against.null_model) result.push_back(mark::null);
   if (against.floor) {
     const double scatter = std::isnan(one.value.standard_error) ? 0.0 : one.value.standard_error;
@@ -77,17 +81,21 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
   if (against.predictable_until.value_or(std::numeric_limits<double>::infinity()) < all.command().horizon) {
     result.push_back(mark::horizon);
   }
-  if (one.diverged > 0) result.push_back(mark::diverged);
+  if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }
 
-bool is_ranked(const comparison& all, std::size_t m, const row& its) {
+bool is_known(const comparison& all, std::size_t m, const row& its) {
   const finding& one = its.findings[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
   const auto marks = marks_of(all, m, its);
   return std::ranges::none_of(marks, [](mark found) {
     return found == mark::reference || found == mark::horizon || found == mark::diverged;
   });
+}
+
+bool is_ranked(const comparison& all, std::size_t m, const row& its) {
+  return is_known(all, m, its) && std::ranges::count(marks_of(all, m, its), mark::null) == 0;
 }
 
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
@@ -109,23 +117,36 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
   return result;
 }
 
-double gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
-  const double learned = pair.learned->findings[m].value.mean;
-  const double best = pair.best->findings[m].value.mean;
-  return all.metrics()[m].is_acceptance() ? (1.0 - best) / (1.0 - learned) : best / learned;
+estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
+  estimate learned = pair.learned->findings[m].value;
+  estimate best = pair.best->findings[m].value;
+  if (all.metrics()[m].is_acceptance()) {
+    learned.mean = 1.0 - learned.mean;
+    best.mean = 1.0 - best.mean;
+  }
+  if (learned.mean == 0.0 || best.mean == 0.0) return {};
+  const double ratio = best.mean / learned.mean;
+  return {ratio, ratio * std::hypot(best.standard_error / best.mean, learned.standard_error / learned.mean)};
 }
 
 double evaluations_of(const row& its) { return its.evaluations_per_time; }
 double seconds_of(const row& its) { return its.seconds_per_time.least; }
+
+namespace {
+/// Of acceptances what is rejected.
+double error_of(const comparison& all, std::size_t m, const row& its) {
+  const double value = its.findings[m].value.mean;
+  return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
+}
+}  // namespace
 
 std::vector<const row*> pareto_front(const comparison& all, std::size_t m, double (*cost)(const row&)) {
   std::vector<const row*> ranked;
   std::vector<cost_and_error> points;
   for (const row& its : all.rows()) {
     if (!is_ranked(all, m, its)) continue;
-    const double value = its.findings[m].value.mean;
     ranked.push_back(&its);
-    points.push_back({cost(its), all.metrics()[m].is_acceptance() ? 1.0 - value : value});
+    points.push_back({cost(its), std::max(error_of(all, m, its), behind(all, m, its).floor.value_or(0.0))});
   }
   std::vector<const row*> front;
   for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
@@ -141,10 +162,10 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
   for (const row& its : all.rows()) {
     if (its.method != method) continue;
     const finding& one = its.findings[m];
-    const bool counts = is_ranked(all, m, its);
+    const bool counts = is_known(all, m, its);
     const bool is_lost = one.diverged > 0;
     if (!counts && !is_lost) continue;
-    const double error = counts ? one.value.mean : std::numeric_limits<double>::infinity();
+    const double error = counts ? error_of(all, m, its) : std::numeric_limits<double>::infinity();
     result.push_back({cost(its), error, one.value.standard_error});
   }
   std::ranges::sort(result, std::greater{}, &error_at::x);

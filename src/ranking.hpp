@@ -13,11 +13,11 @@ namespace nysalt::program {
 
 /// Why a value is to be taken with care, in the words of the report.
 enum class mark {
-  reference,  // the reference's own error is more than a tenth of it
+  reference,  // the reference's own error is more than a tenth of it, or seen above the floor
   null,       // no better than what stays as it was at the start
   floor,      // no more than sampling makes
   horizon,    // beyond the time for which a path can be followed
-  diverged    // of those trajectories alone that did not diverge
+  diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);
 std::string meaning(mark which);
@@ -25,7 +25,10 @@ std::string meaning(mark which);
 /// The marks of one finding; none where there is no value.
 std::vector<mark> marks_of(const comparison& all, std::size_t metric, const row& its);
 
-/// Whether it has a value of all trajectories, that says something of the method and not of chaos.
+/// Whether it has a value of all trajectories, that says something of the method, and not of chaos or of the
+/// reference.
+bool is_known(const comparison& all, std::size_t metric, const row& its);
+/// The same, and it is better than doing nothing.
 bool is_ranked(const comparison& all, std::size_t metric, const row& its);
 
 /// A learned method, and the best of the others that cost no more evaluations.
@@ -35,10 +38,12 @@ struct at_equal_cost {
 };
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metric);
 
-/// How many times smaller the error of the learned one is; of acceptances, what is rejected.
-double gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
+/// How many times smaller the error of the learned one is; of acceptances, what is rejected. Its standard
+/// error is that of independent errors: too large, as they share trajectories. NaN where nothing is rejected.
+estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
 
-/// Those that none of the ranked beats in cost and error, from the cheapest on.
+/// Those that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are
+/// ties.
 std::vector<const row*> pareto_front(const comparison& all, std::size_t metric, double (*cost)(const row&));
 double evaluations_of(const row& its);
 double seconds_of(const row& its);

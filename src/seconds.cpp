@@ -32,7 +32,7 @@ std::vector<timed_job> seconds_per_time(const bundled_system& system,
     simulated.push_back(time * static_cast<double>(plan.count) * repeats);
     round += taken * repeats;
   }
-  const int rounds = static_cast<int>(std::clamp(seconds / round, 1.0, 15.0));
+  const int rounds = static_cast<int>(std::clamp(seconds / round, 3.0, 15.0));
   auto result = interleaved_seconds(jobs, rounds);
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i].least /= simulated[i];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../comparison.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <new>
 #include <optional>
 
 #include "../commands.hpp"
@@ -19,6 +19,9 @@ constexpr const char* journal_name = "journal.jsonl";
 
 /// The report on the very question, if it is there.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
+  for (const char* file : {"report.html", "report.md", "rows.csv"}) {
+    if (!std::filesystem::exists(folder / file)) return std::nullopt;
+  }
   std::ifstream input(folder / "report.json");
   json report = json::parse(input, nullptr, false);
   if (!report.is_object() || report.value("question", json()) != question) return std::nullopt;
@@ -26,21 +29,26 @@ std::optional<json> answer(const std::filesystem::path& folder, const json& ques
   return report;
 }
 
-/// Where what was asked cannot be, nothing of it stays.
+bool has_value(const json& report) {
+  const json rows = report.value("rows", json::array());
+  return std::ranges::any_of(rows, [](const json& its) { return !its.contains("reason"); });
+}
+
+/// Where it cannot be, nothing stays but what was finished.
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   const auto made = make_folder(folder);
   journal kept(folder / journal_name, all.question(), resume);
   if (kept.found() > 0) warn(fmt::format("{} finished parts are taken from the journal", kept.found()));
   try {
     all.learn_and_measure(kept);
-  } catch (const journal_failure&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    kept.remove();
-    std::error_code ignored;
-    for (auto its = made.rbegin(); its != made.rend(); ++its) std::filesystem::remove(*its, ignored);
+  } catch (const json::exception&) {
+    refuse("{} is not whole, or was edited: remove it to begin anew", (folder / journal_name).string());
+  } catch (...) {
+    if (kept.is_empty()) {
+      kept.remove();
+      std::error_code ignored;
+      for (auto its = made.rbegin(); its != made.rend(); ++its) std::filesystem::remove(*its, ignored);
+    }
     throw;
   }
   write_report(all, folder);
@@ -61,7 +69,7 @@ int compare(const compare_command& command, const common_settings& common) {
     if (command.resume && !std::filesystem::exists(folder / journal_name)) {
       if (const auto there = answer(folder, all.question())) {
         print(common.json ? text_of(*there) : fmt::format("It is finished: {}\n", command.output));
-        return done;
+        return has_value(*there) ? done : no_result;
       }
     }
     measure_in(folder, all, command.resume);

@@ -45,7 +45,7 @@ inline bool draw(const figure& f, const std::filesystem::path& folder) {
     const std::string picture = f.name + "." + kind;
     const std::string command =
         fmt::format("cd {} && gnuplot -e \"kind='{}'; target='{}.tmp'\" ./{}.gp 2>/dev/null",
-                    detail::quoted(folder.string(), R"('\'')"), kind, picture, f.name);
+                    detail::quoted_for_shell(folder.string()), kind, picture, f.name);
     if (std::system(command.c_str()) == 0) {
       std::filesystem::rename(folder / (picture + ".tmp"), folder / picture);
       continue;

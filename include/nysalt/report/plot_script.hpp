@@ -22,7 +22,7 @@ inline std::string plot_data(const figure& f) {
   std::string text;
   for (const auto& panel : f.panels) {
     for (const auto& curve : panel.curves) {
-      text += fmt::format("# {}: {}\n", panel.title, curve.label);
+      text += fmt::format("# {}\n", on_one_line(fmt::format("{}: {}", panel.title, curve.label)));
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double error = i < curve.error.size() && std::isfinite(curve.error[i]) ? curve.error[i] : 0.0;
         const bool finite = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
