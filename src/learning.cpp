@@ -9,7 +9,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learnable.hpp"
-#include "nysalt/learning/solve.hpp"
+#include "nysalt/learning/fit.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 
