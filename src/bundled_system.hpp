@@ -18,9 +18,13 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
+
+namespace nysalt {
+class stability_guard;
+}
 
 namespace nysalt::program {
 
@@ -47,11 +51,7 @@ struct learn_plan {
   bool from_there_alone = false;  // and no other
 };
 
-/// A problem of learning, and how far the energies of its data go.
-struct learnable {
-  learning_problem problem;
-  std::optional<energy_range> energies;
-};
+struct learnable;  // learnable.hpp: what it takes is dear to compile
 
 struct learned_scheme {
   fit_summary fit;

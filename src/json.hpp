@@ -10,8 +10,6 @@ namespace nysalt::program {
 using json = nlohmann::ordered_json;
 
 /// For people and files; bytes that are no UTF-8, as names of files may hold, become U+FFFD.
-inline std::string text_of(const json& document) {
-  return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-}
+std::string text_of(const json& document);
 
 }  // namespace nysalt::program

@@ -8,7 +8,8 @@
 
 #include "catalogue.hpp"
 #include "checks.hpp"
-#include "nysalt/learning/solve.hpp"
+#include "learnable.hpp"
+#include "nysalt/learning/fit.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "catalogue.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"

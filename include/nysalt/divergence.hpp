@@ -39,16 +39,7 @@ class divergence {
     return !sound;
   }
 
-  /// That of the trajectory in lane k.
-  divergence<S, double> in_lane(int k) const { return {*system_, lane(initial_, k), lane(most_, k)}; }
-
  private:
-  template <System, Scalar>
-  friend class divergence;
-
-  divergence(const S& system, const T& initial, const T& most)
-      : system_(&system), initial_(initial), most_(most) {}
-
   static double energy_of_bath(const S& system) {
     if constexpr (HasBath<S>) {
       const bath& its = system.bath();

@@ -5,8 +5,11 @@
 #include <array>
 #include <optional>
 
-#include "nysalt/learning/solve.hpp"
+#include "nysalt/learning/fit.hpp"
 #include "nysalt/method.hpp"
+#if !defined NYSALT_COMPILED_ONCE
+#include "nysalt/learning/solve.hpp"
+#endif
 
 namespace nysalt {
 

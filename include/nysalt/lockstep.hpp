@@ -22,7 +22,7 @@ namespace nysalt {
 /// that diverges drops out, and the others go on.
 ///
 /// Divergence is looked for every 64 steps and where go_on ends, as in integrate(); where it is found, that
-/// lane's stretch is gone through again, alone, to name the first bad step.
+/// stretch is gone through again to name the first bad step.
 template <class Stepper, Scalar T>
 class lockstep {
  public:
@@ -79,26 +79,21 @@ class lockstep {
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[static_cast<std::size_t>(k)]; }
 
  private:
+  /// The last stretch once more, a step at a time, until the first bad step of each lane that failed is
+  /// known.
   void drop(const condition& failed, std::int64_t end) {
-    for (int k = 0; k < lanes; ++k) {
-      if (!lane(failed, k)) continue;
-      set_lane(live_, k, false);
-      diverged_at_[static_cast<std::size_t>(k)] = first_bad_step(k, end);
-    }
-  }
-
-  std::int64_t first_bad_step(int k, std::int64_t end) const {
-    const auto diverged = diverged_.in_lane(k);
-    const auto& all = good_.state;
-    const auto one = lane(static_cast<const state&>(all), k);
-    open_run<double, dimension> run{
-        {one, one.q}, good_.step, good_.trajectory + static_cast<std::uint64_t>(k)};
-    for (Eigen::Index i = 0; i < one.size(); ++i) run.state.f[i] = lane(all.f[i], k);
-    while (run.step < end) {
+    live_ = both(live_, !failed);
+    open_run<T, dimension> run = good_;
+    condition unknown = failed;
+    while (any(unknown)) {
       stepper_->advance(run, 1);
-      if (diverged(stepper_->synchronous(run))) break;
+      condition found = unknown;  // at the end of the stretch at the latest
+      if (run.step < end) found = both(unknown, diverged_(stepper_->synchronous(run)));
+      for (int k = 0; k < lanes; ++k) {
+        if (lane(found, k)) diverged_at_[static_cast<std::size_t>(k)] = run.step;
+      }
+      unknown = both(unknown, !found);
     }
-    return run.step;
   }
 
   condition good_at(std::int64_t n) const {

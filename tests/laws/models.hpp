@@ -204,10 +204,7 @@ inline constexpr bool fits = (!M::requires_quadratic_kinetic ||
 
 /// All methods as data, with members drawn from the families: a law about them is compiled once a system.
 /// That a method steps as its table does is a law of its own, in laws/data_laws.hpp.
-inline std::vector<tabulated> methods_as_data(draws& random) {
-  std::vector<tabulated> all;
-  for_each<methods>([&]<class M>() { all.emplace_back(any_method<M>(random)); });
-  return all;
-}
+/// Itself it is compiled once, in methods_as_data.cpp.
+std::vector<tabulated> methods_as_data(draws& random);
 
 }  // namespace nysalt::test

@@ -11,17 +11,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "nysalt/derivatives/stability_window.hpp"
 #include "nysalt/derivatives/turning_points.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/scalars/series.hpp"
 
 namespace nysalt {
-
-/// Stable for low <= z <= high, but for a single point where the matrix is a Jordan block.
-struct stability_window {
-  double low;
-  double high;
-};
 
 namespace detail {
 
@@ -166,12 +161,6 @@ template <Method M>
 double stability_limit(const M& method) {
   const auto windows = stability_windows(method);
   return windows.empty() || windows.front().low > 0.0 ? 0.0 : windows.front().high;
-}
-
-/// Whether all z in low..high lie in one window.
-inline bool is_stable(const std::vector<stability_window>& windows, double low, double high) {
-  return std::any_of(windows.begin(), windows.end(),
-                     [&](const auto& window) { return window.low <= low && high <= window.high; });
 }
 
 }  // namespace nysalt

@@ -27,7 +27,8 @@ inline Eigen::VectorXd descend_at_edge(const objective& loss,
   int passes = 1;
   double length = 1.0;
   while (length > shortest && passes < most_passes && here.is_finite() && here.value > 0.0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(here.normal_matrix(free, free));
+    const Eigen::MatrixXd of_free = here.normal_matrix(free, free);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(of_free);
     const double least = 1e-12 * axes.eigenvalues().maxCoeff();
     bool has_moved = false;
     for (Eigen::Index k = 0; k < axes.eigenvalues().size() && passes < most_passes; ++k) {

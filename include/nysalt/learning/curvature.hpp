@@ -44,7 +44,9 @@ class curvature {
  public:
   curvature(const Eigen::MatrixXd& hessian, std::vector<Eigen::Index> free)
       : size_(hessian.rows()), free_(std::move(free)) {
-    if (!free_.empty()) solver_.compute(hessian(free_, free_));
+    if (free_.empty()) return;
+    const Eigen::MatrixXd of_free = hessian(free_, free_);
+    solver_.compute(of_free);
   }
 
   /// Directions along which the loss does not rise beyond the error of the Hessian, in all parameters.

@@ -9,17 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/objection.hpp"
-#include "nysalt/learning/problem.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
-
-struct fit {
-  Eigen::VectorXd theta;
-  fit_summary summary;
-};
 
 namespace detail {
 
@@ -69,7 +64,7 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
 }  // namespace detail
 
 /// Throws std::invalid_argument for options that the family cannot take. Cost: see learn().
-inline fit solve(const learning_problem& problem) {
+fit solve(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;

@@ -22,6 +22,11 @@
 
 namespace nysalt {
 
+#if defined NYSALT_COMPILED_ONCE
+extern template std::vector<stability_window> stability_windows<run_time_word>(const run_time_word&,
+                                                                               const std::vector<double>&);
+#endif
+
 /// Knows the frequencies of a system: those of its frequency_bands(), or, where it declares none and its
 /// kinetic energy is quadratic, all from 0 to the highest along some states; 2 % more on either side. Outside
 /// of them a word may be unstable: gaps() tells where. Words with rotations are stable on the quadratic part
