@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "nysalt/report/work_precision.hpp"
 
@@ -47,4 +48,24 @@ BOOST_AUTO_TEST_CASE(the_panel_has_a_curve_for_each_method) {
   const auto by_seconds =
       work_precision_panel(power_law(), "b", "time", &work_precision_row::seconds_per_time);
   BOOST_TEST(by_seconds.curves[1].x[0] == 1e-9 * 200);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_learned_is_emphasised_and_what_does_not_count_is_hollow) {
+  auto rows = power_law();
+  rows[1].learned = true;
+  rows[2].counts = false;  // the cheapest of method a
+  const auto its = work_precision_panel(rows, "", "cost", &work_precision_row::evaluations_per_time);
+  BOOST_TEST(!its.curves[0].emphasised);
+  BOOST_TEST(its.curves[1].emphasised);
+  BOOST_TEST((its.curves[0].hollow == std::vector<bool>{true, false, false}));
+  BOOST_TEST((its.curves[1].hollow == std::vector<bool>{false}));
+}
+
+BOOST_AUTO_TEST_CASE(a_front_goes_from_cheap_to_dear) {
+  const auto front = front_curve(power_law(), {3, 0, 2}, &work_precision_row::evaluations_per_time);
+  BOOST_TEST(front.front);
+  BOOST_TEST(front.x == (std::vector<double>{100, 400, 1600}), boost::test_tools::per_element());
+  BOOST_TEST(front.y[2] == 7 * std::pow(1600, -2));
+  BOOST_CHECK_THROW(front_curve(power_law(), {4}, &work_precision_row::evaluations_per_time),
+                    std::out_of_range);
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/report/escaped.hpp"
+
 namespace nysalt {
 
 /// Rows of text under named columns, for people (text, Markdown) and for machines (CSV).
@@ -28,7 +30,31 @@ class table {
   }
 
   std::string text() const { return lay_out("", "  ", "", '-'); }
-  std::string markdown() const { return lay_out("| ", " | ", " |", '-'); }
+  std::string markdown() const {
+    table safe(*this);
+    for (auto& cell : safe.columns_) cell = markdown_escaped(cell);
+    for (auto& row : safe.rows_) {
+      for (auto& cell : row) cell = markdown_escaped(cell);
+    }
+    return safe.lay_out("| ", " | ", " |", '-');
+  }
+
+  /// Numbers are of class n.
+  std::string html() const {
+    std::string result = "<table>\n<thead>\n";
+    const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
+      result += "<tr>";
+      for (std::size_t j = 0; j < cells.size(); ++j) {
+        result +=
+            fmt::format("<{0}{1}>{2}</{0}>", tag, j < left_ ? "" : " class=\"n\"", html_escaped(cells[j]));
+      }
+      result += "</tr>\n";
+    };
+    line(columns_, "th");
+    result += "</thead>\n<tbody>\n";
+    for (const auto& row : rows_) line(row, "td");
+    return result + "</tbody>\n</table>\n";
+  }
 
   /// RFC 4180: cells with commas, quotes or line breaks are quoted.
   std::string csv() const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct work_precision_row {
   std::int64_t diverged;
   std::int64_t trajectories;
   std::optional<double> floor = {};  // of sampling: what the error would be of a method without any
+  bool learned = false;
+  bool counts = true;  // false where the error says nothing: beyond a limit; drawn hollow
 };
 
 /// `value` is what the errors are called, if they are others.
@@ -53,7 +56,8 @@ inline table work_precision_table(const std::vector<work_precision_row>& rows,
   return result;
 }
 
-/// Error against a cost, a curve a method, from cheap to dear; rows without a finite error leave a gap.
+/// Error against a cost, a curve a method, from cheap to dear; rows without a finite error leave a gap. What
+/// is learned is emphasised, and the method of that name. Levels and a front are for the caller to add.
 inline panel work_precision_panel(std::vector<work_precision_row> rows, const std::string& emphasised,
                                   const std::string& x_label, double work_precision_row::*cost) {
   panel result;
@@ -65,7 +69,8 @@ inline panel work_precision_panel(std::vector<work_precision_row> rows, const st
   };
   for (const auto& row : rows) {  // curves in the order of the table
     if (curve_of(row.method) != result.curves.end()) continue;
-    result.curves.push_back({.label = row.method, .x = {}, .y = {}, .emphasised = row.method == emphasised});
+    const bool thick = row.learned || row.method == emphasised;
+    result.curves.push_back({.label = row.method, .x = {}, .y = {}, .emphasised = thick});
   }
   std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return a.*cost < b.*cost; });
   for (const auto& row : rows) {
@@ -73,6 +78,21 @@ inline panel work_precision_panel(std::vector<work_precision_row> rows, const st
     at->x.push_back(row.*cost);
     at->y.push_back(row.error.mean);
     at->error.push_back(row.error.standard_error);
+    at->hollow.push_back(!row.counts);
+  }
+  return result;
+}
+
+/// The Pareto front as a curve of that panel: `front` are the places in `rows` of those that no other beats
+/// in both. Throws std::out_of_range if there is no such place.
+inline curve front_curve(const std::vector<work_precision_row>& rows, std::vector<std::size_t> front,
+                         double work_precision_row::*cost, const std::string& label = "Pareto front") {
+  std::sort(front.begin(), front.end(),
+            [&](std::size_t a, std::size_t b) { return rows.at(a).*cost < rows.at(b).*cost; });
+  curve result{.label = label, .x = {}, .y = {}, .front = true};
+  for (const std::size_t place : front) {
+    result.x.push_back(rows.at(place).*cost);
+    result.y.push_back(rows.at(place).error.mean);
   }
   return result;
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSL-1.0
+// A report as a value: written once, read as Markdown and as a page of HTML.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/report/page_blocks.hpp"
+#include "nysalt/report/page_html.hpp"
+#include "nysalt/report/page_markdown.hpp"
+#include "nysalt/report/plot.hpp"
+#include "nysalt/report/table.hpp"
+
+namespace nysalt {
+
+/// Sentences (titles, paragraphs, items, captions) have `code`, **bold** and [text](link) and nothing else:
+/// every other character stands for itself, also `<`. Cells of tables and commands have no markup at all.
+///
+///     page report("Speed against error");
+///     report.text("Run with `nysalt compare`.");
+///     report.picture(figure, "Error against cost.");
+///     for (const figure& f : report.figures()) draw(f, folder);
+///     write_file(folder / "report.html", report.html(folder));
+class page {
+ public:
+  explicit page(std::string title) : title_(std::move(title)) {}
+
+  void heading(std::string text) { blocks_.push_back(heading_block{2, std::move(text)}); }
+  void subheading(std::string text) { blocks_.push_back(heading_block{3, std::move(text)}); }
+  void text(std::string paragraph) { blocks_.push_back(text_block{std::move(paragraph)}); }
+  void list(std::vector<std::string> items) { blocks_.push_back(list_block{std::move(items)}); }
+  void table(nysalt::table its) { blocks_.push_back(table_block{std::move(its)}); }
+  /// A command or an output, as it is.
+  void code(std::string text) { blocks_.push_back(code_block{std::move(text)}); }
+  /// Throws std::invalid_argument if the page has a picture of that name, as their files would be one, or if
+  /// the name is none that draw() takes.
+  void picture(figure its, std::string caption) {
+    detail::require_plain(its.name);
+    if (std::ranges::find(figures_, its.name, &figure::name) != figures_.end()) {
+      throw std::invalid_argument(
+          fmt::format("page: two pictures are named {}: give each a name of its own", its.name));
+    }
+    blocks_.push_back(picture_block{its.name, std::move(caption)});
+    figures_.push_back(std::move(its));
+  }
+
+  /// GitHub's Markdown; a picture is ![caption](PICTURES/NAME.svg) and its caption below.
+  std::string markdown(const std::string& pictures = "") const {
+    return page_markdown(title_, blocks_, pictures);
+  }
+  /// One page that needs no other file, no script and no network: the pictures that draw() left in the
+  /// folder stand in it. Where one is missing a sentence says so.
+  std::string html(const std::filesystem::path& pictures) const {
+    return page_html(title_, blocks_, pictures);
+  }
+  /// In the order of the page.
+  const std::vector<figure>& figures() const { return figures_; }
+
+ private:
+  std::string title_;
+  std::vector<page_block> blocks_;
+  std::vector<figure> figures_;
+};
+
+}  // namespace nysalt

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "nysalt/report/escaped.hpp"
+#include "nysalt/report/inline_svg.hpp"
+#include "nysalt/report/page_blocks.hpp"
+#include "nysalt/report/plain_words.hpp"
+
+namespace nysalt {
+
+namespace detail {
+
+/// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves; on paper no
+/// picture and no row breaks.
+inline constexpr std::string_view page_style = R"(
+body{font:16px/1.55 system-ui,sans-serif;color:#222;background:#fff}
+body{max-width:68rem;margin:2rem auto;padding:0 1rem}
+h1,h2,h3{line-height:1.25;margin:2rem 0 .6rem}
+h1{font-size:1.8rem;margin-top:0}
+h2{font-size:1.35rem;border-bottom:1px solid #ddd;padding-bottom:.2rem}
+h3{font-size:1.1rem}
+p,li,figcaption{max-width:46rem}
+a{color:#0b5394}
+nav{border-left:3px solid #ddd;padding-left:1rem}
+nav ul{list-style:none;padding:0;margin:0}
+code,pre{font:.9em ui-monospace,monospace;background:#f5f5f5}
+code{padding:.1em .25em}
+pre{padding:.7rem;overflow-x:auto}
+pre code{padding:0}
+.scroll{overflow-x:auto}
+table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
+th,td{padding:.2rem .7rem;text-align:left;white-space:nowrap;border-bottom:1px solid #e5e5e5}
+th{border-bottom:2px solid #bbb}
+th.n,td.n{text-align:right}
+figure{margin:1.5rem 0}
+figure svg{display:block;max-width:100%;height:auto}
+figcaption{color:#444;font-size:.92rem}
+.missing{color:#777;font-style:italic}
+@media print{
+body{max-width:none;margin:0;font-size:11pt}
+figure,tr{break-inside:avoid}
+h1,h2,h3{break-after:avoid}
+.scroll{overflow:visible}
+th,td{white-space:normal}
+a{color:inherit}
+}
+)";
+
+inline std::string html_sentence(std::string_view text) {
+  std::string result;
+  for (const words& its : plain_words(text)) {
+    const std::string inside = html_escaped(its.text);
+    switch (its.is) {
+      case words::kind::plain:
+        result += inside;
+        break;
+      case words::kind::code:
+        result += "<code>" + inside + "</code>";
+        break;
+      case words::kind::bold:
+        result += "<strong>" + inside + "</strong>";
+        break;
+      case words::kind::link:
+        result += fmt::format("<a href=\"{}\">{}</a>", html_escaped(its.address), inside);
+    }
+  }
+  return result;
+}
+
+/// A sentence without its marks, for attributes and for the title of the window.
+inline std::string html_plain(std::string_view text) {
+  std::string result;
+  for (const words& its : plain_words(text)) result += html_escaped(its.text);
+  return result;
+}
+
+struct html_of_block {
+  const std::filesystem::path& pictures;
+  int headings = 0;  // so far
+
+  std::string operator()(const heading_block& its) {
+    return fmt::format("<h{0} id=\"section-{1}\">{2}</h{0}>\n", its.level, ++headings,
+                       html_sentence(its.text));
+  }
+  std::string operator()(const text_block& its) const {
+    return fmt::format("<p>{}</p>\n", html_sentence(its.text));
+  }
+  std::string operator()(const list_block& its) const {
+    std::string result = "<ul>\n";
+    for (const auto& item : its.items) result += fmt::format("<li>{}</li>\n", html_sentence(item));
+    return result + "</ul>\n";
+  }
+  std::string operator()(const table_block& its) const {
+    return fmt::format("<div class=\"scroll\">\n{}</div>\n", its.its.html());
+  }
+  std::string operator()(const code_block& its) const {
+    return fmt::format("<pre><code>{}</code></pre>\n", html_escaped(its.text));
+  }
+  std::string operator()(const picture_block& its) const {
+    std::string drawn = inline_svg(pictures / (its.name + ".svg"), its.name, html_plain(its.caption));
+    if (drawn.empty()) {
+      drawn = fmt::format(
+          "<p class=\"missing\">The picture {0} is missing, as gnuplot is not there or failed: "
+          "<code>{0}.gp</code> and <code>{0}.dat</code> draw it later.</p>",
+          its.name);
+    }
+    return fmt::format("<figure>\n{}\n<figcaption>{}</figcaption>\n</figure>\n", drawn,
+                       html_sentence(its.caption));
+  }
+};
+
+/// What a page of more than three sections has at its top.
+inline std::string html_contents(const std::vector<page_block>& blocks) {
+  std::string items;
+  int headings = 0;
+  int sections = 0;
+  for (const auto& block : blocks) {
+    const auto* its = std::get_if<heading_block>(&block);
+    if (its == nullptr) continue;
+    ++headings;
+    if (its->level != 2) continue;
+    ++sections;
+    items += fmt::format("<li><a href=\"#section-{}\">{}</a></li>\n", headings, html_plain(its->text));
+  }
+  return sections > 3 ? fmt::format("<nav aria-label=\"Contents\">\n<ul>\n{}</ul>\n</nav>\n", items) : "";
+}
+
+}  // namespace detail
+
+inline std::string page_html(const std::string& title, const std::vector<page_block>& blocks,
+                             const std::filesystem::path& pictures) {
+  std::string result = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
+      detail::html_plain(title), detail::page_style, detail::html_sentence(title));
+  result += detail::html_contents(blocks);
+  detail::html_of_block write{pictures};
+  for (const auto& block : blocks) result += std::visit(write, block);
+  return result + "</body>\n</html>\n";
+}
+
+}  // namespace nysalt

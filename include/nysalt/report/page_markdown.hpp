@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "nysalt/report/escaped.hpp"
+#include "nysalt/report/page_blocks.hpp"
+#include "nysalt/report/plain_words.hpp"
+
+namespace nysalt {
+
+namespace detail {
+
+/// The longest run of backquotes in it: a fence of code has more.
+inline std::size_t longest_backquotes(std::string_view text) {
+  std::size_t longest = 0;
+  std::size_t run = 0;
+  for (const char c : text) {
+    run = c == '`' ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+inline std::string markdown_sentence(std::string_view text) {
+  std::string result;
+  for (const words& its : plain_words(text)) {
+    switch (its.is) {
+      case words::kind::plain:
+        result += markdown_escaped(its.text);
+        break;
+      case words::kind::code:
+        result += "`" + its.text + "`";
+        break;
+      case words::kind::bold:
+        result += "**" + markdown_escaped(its.text) + "**";
+        break;
+      case words::kind::link:
+        result += fmt::format("[{}]({})", markdown_escaped(its.text), its.address);
+    }
+  }
+  return result;
+}
+
+struct markdown_of_block {
+  const std::string& pictures;
+
+  std::string operator()(const heading_block& its) const {
+    return std::string(static_cast<std::size_t>(its.level), '#') + " " + markdown_sentence(its.text) + "\n";
+  }
+  std::string operator()(const text_block& its) const { return markdown_sentence(its.text) + "\n"; }
+  std::string operator()(const list_block& its) const {
+    std::string result;
+    for (const auto& item : its.items) result += fmt::format("- {}\n", markdown_sentence(item));
+    return result;
+  }
+  std::string operator()(const table_block& its) const { return its.its.markdown(); }
+  std::string operator()(const code_block& its) const {
+    const std::string fence(std::max<std::size_t>(3, longest_backquotes(its.text) + 1), '`');
+    return fmt::format("{0}\n{1}{2}{0}\n", fence, its.text, its.text.ends_with('\n') ? "" : "\n");
+  }
+  std::string operator()(const picture_block& its) const {
+    const std::string caption = markdown_sentence(its.caption);
+    const std::string folder = pictures.empty() || pictures.ends_with('/') ? pictures : pictures + "/";
+    return fmt::format("![{0}]({1}{2}.svg)\n\n{0}\n", caption, folder, its.name);
+  }
+};
+
+}  // namespace detail
+
+inline std::string page_markdown(const std::string& title, const std::vector<page_block>& blocks,
+                                 const std::string& pictures) {
+  std::string result = "# " + detail::markdown_sentence(title) + "\n";
+  for (const auto& block : blocks) result += "\n" + std::visit(detail::markdown_of_block{pictures}, block);
+  return result;
+}
+
+}  // namespace nysalt

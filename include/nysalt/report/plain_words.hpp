@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+// The little markup that the sentences of a report have: `code`, **bold** and [text](link).
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nysalt {
+
+struct words {
+  enum class kind { plain, code, bold, link };
+  kind is = kind::plain;
+  std::string text;
+  std::string address{};  // of a link
+};
+
+namespace detail {
+
+/// http, https, or a place beside the page or in it: a report names no other scheme (javascript: runs).
+inline bool is_plain_address(std::string_view address) {
+  const auto colon = address.find(':');
+  const bool relative = colon == std::string_view::npos || address.find('/') < colon;
+  return relative || address.starts_with("http://") || address.starts_with("https://");
+}
+
+/// What stands behind the opening mark at `at`, and where it goes on; nowhere if nothing closes it.
+inline std::pair<words, std::size_t> marked_words(std::string_view text, std::size_t at) {
+  constexpr auto nowhere = std::string_view::npos;
+  const auto enclosed = [&](std::string_view mark, words::kind kind) -> std::pair<words, std::size_t> {
+    const std::size_t from = at + mark.size();
+    const std::size_t end = text.substr(at).starts_with(mark) ? text.find(mark, from) : nowhere;
+    if (end == nowhere || end == from) return {{}, nowhere};
+    return {{kind, std::string(text.substr(from, end - from))}, end + mark.size()};
+  };
+  if (text[at] == '`') return enclosed("`", words::kind::code);
+  if (text[at] == '*') return enclosed("**", words::kind::bold);
+  const std::size_t middle = text.find("](", at);
+  const std::size_t end = middle == nowhere ? nowhere : text.find(')', middle);
+  if (end == nowhere) return {{}, nowhere};
+  const std::string_view address = text.substr(middle + 2, end - middle - 2);
+  if (!is_plain_address(address)) return {{}, nowhere};
+  return {{words::kind::link, std::string(text.substr(at + 1, middle - at - 1)), std::string(address)},
+          end + 1};
+}
+
+}  // namespace detail
+
+/// The runs of words of a sentence. A mark that nothing closes stands for itself; marks do not nest.
+inline std::vector<words> plain_words(std::string_view text) {
+  std::vector<words> result;
+  std::string plain;
+  const auto flush = [&] {
+    if (!plain.empty()) result.push_back({words::kind::plain, std::exchange(plain, {})});
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '`' || text[at] == '*' || text[at] == '[') {
+      auto [marked, next] = detail::marked_words(text, at);
+      if (next != std::string_view::npos) {
+        flush();
+        result.push_back(std::move(marked));
+        at = next;
+        continue;
+      }
+    }
+    plain += text[at++];
+  }
+  flush();
+  return result;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Whether a report shows its pictures: headless Chromium lays the page out, alone in a folder, and draws it.
+# usage: check_page.sh PAGE.html; exit code 0 if all is well, else 1 and a sentence.
+set -euo pipefail
+
+page=$1
+pictures=$(dirname "${BASH_SOURCE[0]}")
+fail() { printf 'check_page: %s: %s\n' "$page" "$*" >&2; exit 1; }
+
+command -v chromium >/dev/null || fail 'chromium is not installed: ./dev pictures installs it'
+[[ -s $page ]] || fail 'there is no such page'
+bytes=$(stat -c %s "$page")
+((bytes < 2000000)) || fail "it has $bytes bytes, and should stay below 2 MB"
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/page"
+cp "$page" "$scratch/page/report.html"
+
+browser() {  # OPTION... PAGE
+  local sandbox=()
+  ((EUID != 0)) || sandbox=(--no-sandbox)  # Chromium refuses to run as root with it
+  timeout 120 chromium --headless --disable-gpu --hide-scrollbars --user-data-dir="$scratch/profile" \
+    "${sandbox[@]}" --virtual-time-budget=10000 "${@:1:$#-1}" "file://${!#}" 2>"$scratch/log" ||
+    { tail -n 3 "$scratch/log" >&2; fail 'chromium could not show it'; }
+}
+
+# The line that a script of ours leaves in <pre id="found">.
+found() { sed -n 's|.*<pre id="found">\(.*\)</pre>.*|\1|p' "$1"; }
+
+# First what the page holds, and where: figures, pictures, height, what it asks for, one x,y,width,height each.
+{ cat "$scratch/page/report.html"; echo '<script>'; cat "$pictures/measure.js"; echo '</script>'; } \
+  >"$scratch/page/measured.html"
+browser --window-size=1200,1000 --dump-dom "$scratch/page/measured.html" >"$scratch/dom"
+read -r figures svgs height asked boxes <<<"$(found "$scratch/dom")"
+[[ -n ${asked-} ]] || fail 'its contents could not be measured'
+((svgs > 0 && svgs == figures)) || fail "it has $figures figures, but $svgs pictures"
+[[ $asked == nothing ]] || fail "it asks for $asked, and should stand alone"
+
+# Then the page as a person would see it, and how much of each picture is not white: in thousandths.
+((height < 16000)) || height=16000  # the tallest that Chromium draws
+browser --window-size="1200,$height" --screenshot="$scratch/page.png" "$scratch/page/report.html"
+{
+  echo "<body><script>const boxes = '$boxes';"
+  echo "const screenshot = 'data:image/png;base64,$(base64 -w 0 "$scratch/page.png")';"
+  cat "$pictures/ink.js"
+  echo '</script>'
+} >"$scratch/ink.html"
+browser --dump-dom "$scratch/ink.html" >"$scratch/dom"
+read -r -a inks <<<"$(found "$scratch/dom")"
+((${#inks[@]} == svgs)) || fail 'its screenshot could not be read'
+for k in "${!inks[@]}"; do
+  ((inks[k] >= 2)) || fail "picture $((k + 1)) of $svgs draws nothing"  # a frame alone has 5
+done
+printf '%s: %d bytes, %d pictures, of which %s thousandths are drawn\n' "$page" "$bytes" "$svgs" "${inks[*]}"

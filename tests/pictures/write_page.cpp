@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+// Pages for check_page.sh: write_page FOLDER writes one that is well, and some that must be found.
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "nysalt/report/page.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+figure errors() {
+  panel its{.title = "errors", .x_label = "cost", .y_label = "error", .log_log = true, .curves = {}};
+  for (int j = 0; j < 8; ++j) {
+    curve one{.label = "method " + std::to_string(j), .x = {}, .y = {}, .emphasised = j == 0};
+    for (int i = 0; i < 6; ++i) {
+      one.x.push_back((10.0 + j) * std::pow(2.0, i));
+      one.y.push_back(std::pow(one.x.back(), -2.0));
+      one.error.push_back(0.2 * one.y.back());
+      one.hollow.push_back(i == 0);
+    }
+    its.curves.push_back(one);
+  }
+  its.levels = {{"null model", 0.05}};
+  return {"errors", {its}};
+}
+
+figure lines() {
+  panel its;
+  its.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
+  return {"lines", {its}};
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  return text.replace(text.find(old), old.size(), by);
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  const std::filesystem::path folder = arguments[1];
+  std::filesystem::create_directories(folder);
+  page report("Pictures");
+  report.picture(errors(), "Error against cost, of `<b>&\"'`.");
+  report.picture(lines(), "A line.");
+  for (const auto& its : report.figures()) draw(its, folder);
+  const std::string well = report.html(folder);
+  write_file(folder / "well.html", well);
+  const std::size_t last = well.rfind("<svg");
+  const std::size_t end = well.rfind("</svg>");
+  const std::string broken = "<svg width=\"800\" height=\"520\"><path d=\"nonsense\"/>";
+  write_file(folder / "broken.html", well.substr(0, last) + broken + well.substr(end));
+  write_file(folder / "asking.html", replaced(well, "</h1>", "</h1><img src=\"http://127.0.0.1:9/x.png\">"));
+  write_file(folder / "heavy.html", well + std::string(2'000'000, ' '));
+  std::filesystem::remove(folder / "lines.svg");
+  write_file(folder / "missing.html", report.html(folder));
+}

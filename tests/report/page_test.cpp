@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSL-1.0
+// A page says what it was told, in Markdown and in HTML, and needs nothing but itself.
+#include <boost/test/unit_test.hpp>
+
+#include <regex>
+#include <set>
+#include <string>
+
+#include "../support/refusal.hpp"
+#include "../support/scratch.hpp"
+#include "nysalt/report/page.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+const std::string nasty = "<b>&\"'";
+
+/// As gnuplot writes: a prolog, titles, empty groups, ids that are used, one that is not and stands twice.
+const std::string svg = R"svg(<?xml version="1.0"?>
+<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">
+<svg width="8" viewBox="0 0 8 5" xmlns="http://www.w3.org/2000/svg">
+<title>Gnuplot</title>
+<defs><circle id='dot' r='1'/><clipPath id="clip"><rect/></clipPath></defs>
+<g id="plot_1" ><title>plot_1</title>
+<g fill="none">
+</g>
+<use xlink:href='#dot'/><path clip-path="url(#clip)"/><text> #dot</text></g>
+<g id="plot_1"><path/></g>
+</svg>
+)svg";
+
+figure named(const std::string& name) { return {name, {}}; }
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+std::multiset<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex expression(pattern);
+  std::multiset<std::string> result;
+  for (std::sregex_iterator i(text.begin(), text.end(), expression); i != std::sregex_iterator(); ++i) {
+    result.insert((*i)[1]);
+  }
+  return result;
+}
+
+page example() {
+  page its("Speed, `x_1` <now>");
+  its.heading("One");
+  its.text("See **this** and [that](a/b.md): 2 * 3 < `a*b`.");
+  its.list({"first", "second"});
+  nysalt::table cells({"method", "error"});
+  cells.add({"a|b", "1e-3"});
+  its.table(cells);
+  its.subheading("Two");
+  its.code("nysalt compare");
+  its.picture(named("p"), "A [picture].");
+  return its;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(markdown_is_as_expected) {
+  BOOST_TEST(example().markdown("pictures") ==
+             "# Speed, `x_1` \\<now\\>\n"
+             "\n## One\n"
+             "\nSee **this** and [that](a/b.md): 2 \\* 3 \\< `a*b`.\n"
+             "\n- first\n- second\n"
+             "\n| method | error |\n| ------ | ----- |\n| a\\|b   |  1e-3 |\n"
+             "\n### Two\n"
+             "\n```\nnysalt compare\n```\n"
+             "\n![A \\[picture\\].](pictures/p.svg)\n\nA \\[picture\\].\n");
+  BOOST_TEST(has(example().markdown(), "](p.svg)"));
+}
+
+BOOST_AUTO_TEST_CASE(code_with_backquotes_has_a_longer_fence) {
+  page its("t");
+  its.code("```\n");
+  BOOST_TEST(has(its.markdown(), "\n````\n```\n````\n"));
+}
+
+BOOST_AUTO_TEST_CASE(html_says_the_same) {
+  const scratch folder("page");
+  write_file(folder / "p.svg", svg);
+  const auto html = example().html(folder.path());
+  for (const char* words :
+       {"<!DOCTYPE html>", "<title>Speed, x_1 &lt;now&gt;</title>",
+        "<h1>Speed, <code>x_1</code> &lt;now&gt;</h1>",
+        "<p>See <strong>this</strong> and <a href=\"a/b.md\">that</a>: 2 * 3 &lt; <code>a*b</code>.</p>",
+        "<li>first</li>\n<li>second</li>", "<th class=\"n\">error</th>",
+        "<td>a|b</td><td class=\"n\">1e-3</td>", "<pre><code>nysalt compare</code></pre>",
+        "<svg role=\"img\" aria-label=\"A [picture].\"", "<figcaption>A [picture].</figcaption>"}) {
+    BOOST_TEST(has(html, words), "missing: " << words);
+  }
+  BOOST_TEST(!has(html, "<nav"));
+}
+
+BOOST_AUTO_TEST_CASE(what_looks_like_a_tag_is_text_wherever_it_stands) {
+  const scratch folder("page");
+  write_file(folder / "p.svg", svg);
+  page its(nasty);
+  its.heading(nasty);
+  its.subheading(nasty);
+  its.text(nasty + " `" + nasty + "` **" + nasty + "** [" + nasty + "](x?\"'&<)");
+  its.list({nasty});
+  nysalt::table cells({nasty, nasty});
+  cells.add({nasty, nasty});
+  its.table(cells);
+  its.code(nasty);
+  its.picture(named("p"), nasty);
+  const auto html = its.html(folder.path());
+  BOOST_TEST(!has(html, "<b>"));
+  BOOST_TEST(!has(html, "&\""));
+  BOOST_TEST(has(html, "aria-label=\"&lt;b&gt;&amp;&quot;&#39;\""));
+  BOOST_TEST(has(html, "href=\"x?&quot;&#39;&amp;&lt;\""));
+}
+
+BOOST_AUTO_TEST_CASE(a_link_that_would_run_something_is_no_link) {
+  page its("t");
+  its.text("[a](javascript:alert(1)) and [b](https://example.org/c) and [open](");
+  const auto html = its.html(".");
+  BOOST_TEST((matches(html, "href=\"([^\"]*)\"") == std::multiset<std::string>{"https://example.org/c"}));
+  BOOST_TEST(has(html, "[a](javascript:"));
+}
+
+BOOST_AUTO_TEST_CASE(pictures_have_ids_of_their_own_and_nothing_dangles) {
+  const scratch folder("page");
+  page its("t");
+  for (const char* name : {"p", "q"}) {
+    write_file(folder / (std::string(name) + ".svg"), svg);
+    its.picture(named(name), "c");
+  }
+  BOOST_TEST(its.figures().size() == 2U);
+  const auto html = its.html(folder.path());
+  const auto ids = matches(html, " id=[\"']([^\"']*)[\"']");
+  BOOST_TEST((ids == std::multiset<std::string>{"p-clip", "p-dot", "q-clip", "q-dot"}));
+  BOOST_TEST((matches(html, "(?:url\\(|href=')#([^)']*)") == ids));
+  for (const char* words : {"<?xml", "DTD", "Gnuplot", "plot_1", "fill=\"none\""}) {
+    BOOST_TEST(!has(html, words), "still there: " << words);
+  }
+  BOOST_TEST(has(html, "<text> #dot</text>"));  // what is seen stays
+}
+
+BOOST_AUTO_TEST_CASE(no_address_of_anything_outside_is_in_a_page) {
+  const scratch folder("page");
+  page its("t");
+  panel one;
+  one.curves.push_back({nasty, {0, 1}, {0, 1}});
+  its.picture({"p", {one, one}}, "c");
+  const bool drawn = draw(its.figures()[0], folder.path());
+  const auto html = its.html(folder.path());
+  BOOST_TEST(has(html, "<svg") == drawn);
+  const auto outside = matches(html, "([a-z:]*=?\"?https?:)");
+  BOOST_TEST((outside == (drawn ? std::multiset<std::string>{"xmlns:xlink=\"http:", "xmlns=\"http:"}
+                                : std::multiset<std::string>{})));
+  BOOST_TEST(!has(html, "<b>"));
+  const auto ids = matches(html, " id=[\"']([^\"']*)[\"']");
+  BOOST_TEST((ids.size() == std::set<std::string>(ids.begin(), ids.end()).size()));
+  if (drawn) BOOST_TEST(html.size() < contents(folder / "p.svg").size());
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_picture_is_a_sentence) {
+  const scratch folder("page");
+  for (const char* text : {"", "<svg", "</svg>", "</svg><svg>"}) {
+    write_file(folder / "p.svg", text);
+    BOOST_TEST(has(example().html(folder.path()), "The picture p is missing"));
+  }
+  BOOST_TEST(has(example().html(folder / "nowhere"), "The picture p is missing"));
+}
+
+BOOST_AUTO_TEST_CASE(more_than_three_sections_have_a_list_of_contents) {
+  page its("t");
+  for (const char* name : {"a", "b", "c"}) its.heading(name);
+  its.subheading("below");
+  BOOST_TEST(!has(its.html("."), "<nav"));
+  its.heading("`d`");
+  const auto html = its.html(".");
+  BOOST_TEST(has(html, "<a href=\"#section-5\">d</a>"));
+  BOOST_TEST(has(html, "<h2 id=\"section-5\"><code>d</code></h2>"));
+  BOOST_TEST(!has(html, "#section-4"));
+}
+
+BOOST_AUTO_TEST_CASE(two_pictures_of_one_name_are_refused) {
+  auto its = example();
+  BOOST_TEST(refuses<std::invalid_argument>([&] { its.picture(named("p"), "c"); }, {"two pictures", "p"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { its.picture(named("../p"), "c"); }, {"letters"}));
+  BOOST_TEST(its.figures().size() == 1U);
+}
