@@ -84,8 +84,8 @@ inline estimate crossing(const error_curve& curve, double threshold) {
     if (!std::isfinite(high.mean)) return {curve.at[i - 1], 0.5 * (curve.at[i] - curve.at[i - 1])};
     const double rise = std::log(high.mean / low.mean);
     const double part = std::log(threshold / low.mean) / rise;
-    const double relative = std::hypot((1.0 - part) * low.standard_error / low.mean,
-                                       part * high.standard_error / high.mean);
+    const double relative =
+        std::hypot((1.0 - part) * low.standard_error / low.mean, part * high.standard_error / high.mean);
     const double place = std::exp(x0 + part * (x1 - x0));
     return {place, place * relative * (x1 - x0) / rise};
   }

@@ -28,8 +28,8 @@ both_laws sweeps(const setting& its, double horizon) {
   const judged how{.horizon = horizon, .trajectories = its.pick<std::int64_t>(400, 16)};
   const auto narrow = chain();
   const auto wide = chain(omega, std::sqrt(omega));
-  return {errors_against_gap(its, *narrow, rivals, gaps, how), errors_against_gap(its, *wide, rivals, gaps, how),
-          gaps};
+  return {errors_against_gap(its, *narrow, rivals, gaps, how),
+          errors_against_gap(its, *wide, rivals, gaps, how), gaps};
 }
 
 /// One reading for each law.
@@ -44,9 +44,10 @@ std::string both(const both_laws& all, const std::function<std::string(const swe
 }
 
 std::string compare_command(const both_laws& all, double horizon) {
-  return fmt::format("nysalt compare --system fpu --methods verlet,verlet_2x,mclachlan2,learned:nystrom --steps {} "
-                     "--horizon {:g} --trajectories 400",
-                     steps_text(all.gaps), horizon);
+  return fmt::format(
+      "nysalt compare --system fpu --methods verlet,verlet_2x,mclachlan2,learned:nystrom --steps {} "
+      "--horizon {:g} --trajectories 400",
+      steps_text(all.gaps), horizon);
 }
 
 /// The largest gap with an error of 1 %, beside the printed one; the paper's grid has steps of `distance`
@@ -59,17 +60,18 @@ finding threshold(const both_laws& all, const std::string& name, double printed,
           "gap at which the average relative RMSE of I reaches 1 %",
           both(all, [&](const sweep& s) { return with_error(at(s)); }),
           verdict_of(choice_of_law, readings),
-          fmt::format("{}; within one distance of the paper's grid ({:g}) and two standard errors", told(readings),
-                      distance),
+          fmt::format("{}; within one distance of the paper's grid ({:g}) and two standard errors",
+                      told(readings), distance),
           ""};
 }
 
 finding slope_of_two(const both_laws& all, const std::string& name) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(10, 100); };
   const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
-  return {"T = 0.5: the error of " + name + " grows with slope 2", "exponent over gaps 10 .. 100",
-          both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
-          told(readings) + "; 2 to a tenth and two standard errors", ""};
+  return {
+      "T = 0.5: the error of " + name + " grows with slope 2",         "exponent over gaps 10 .. 100",
+      both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
+      told(readings) + "; 2 to a tenth and two standard errors",       ""};
 }
 
 finding two_magnitudes(const both_laws& all) {
@@ -78,7 +80,8 @@ finding two_magnitudes(const both_laws& all) {
   return {"T = 0.5: NySALT errs two magnitudes less than Verlet until gap 300",
           "least ratio of the errors for gaps up to 300",
           both(all, [&](const sweep& s) { return fmt::format("{:.3g}", ratio(s)); }),
-          verdict_of(choice_of_law, readings), told(readings) + "; its decimal logarithm, rounded, must be 2 or more",
+          verdict_of(choice_of_law, readings),
+          told(readings) + "; its decimal logarithm, rounded, must be 2 or more",
           ""};
 }
 
@@ -87,14 +90,18 @@ finding quadruple(const both_laws& all) {
   std::vector<reading> readings;
   std::string ours;
   for (const char* name : {"Verlet", "two half steps of Verlet", "McLachlan"}) {
-    const double ratio = crossing(all.narrow.of("NySALT"), 0.01).mean / crossing(all.narrow.of(name), 0.01).mean;
+    const double ratio =
+        crossing(all.narrow.of("NySALT"), 0.01).mean / crossing(all.narrow.of(name), 0.01).mean;
     ours += fmt::format("{}{:.2f} times that of {}", ours.empty() ? "" : ", ", ratio, name);
     readings.push_back({name, ratio >= 3.5});
   }
   return {"at T = 0.5 NySALT allows at least four times the step at 1 %",
-          "its gap at 1 % over that of others (deviation 1/omega)", ours,
-          verdict_of("the rival: at equal force evaluations it is two half steps of Verlet, or McLachlan", readings),
-          told(readings) + "; four, rounded", ""};
+          "its gap at 1 % over that of others (deviation 1/omega)",
+          ours,
+          verdict_of("the rival: at equal force evaluations it is two half steps of Verlet, or McLachlan",
+                     readings),
+          told(readings) + "; four, rounded",
+          ""};
 }
 
 void add_sweep(exhibit& to, const both_laws& all, double horizon) {
@@ -104,10 +111,11 @@ void add_sweep(exhibit& to, const both_laws& all, double horizon) {
   to.tables.push_back({"Variance 1/omega of the starts:", table_of(all.wide)});
   const panel narrow = panel_of(all.narrow, "deviation 1/omega", label);
   const panel wide = panel_of(all.wide, "variance 1/omega", label);
-  to.pictures.push_back({{"accuracy_" + name, {narrow, wide}, 1200, 520},
-                         fmt::format("Error of the total stiff energy over [0, {:g}] against the gap, M = 400. At "
-                                     "the same gap, all but Verlet take two force evaluations.",
-                                     horizon)});
+  to.pictures.push_back(
+      {{"accuracy_" + name, {narrow, wide}, 1200, 520},
+       fmt::format("Error of the total stiff energy over [0, {:g}] against the gap, M = 400. At "
+                   "the same gap, all but Verlet take two force evaluations.",
+                   horizon)});
   for (auto& one : to.findings) {
     if (one.command.empty()) one.command = compare_command(all, horizon);
   }
@@ -131,21 +139,27 @@ exhibit accuracy_on_long_times(const setting& its) {
   const both_laws all = sweeps(its, horizon);
   const auto up_to = [](const sweep& s) { return below_up_to(s.of("NySALT"), s.of("Verlet")); };
   const auto readings = in_both(all, [&](const sweep& s) { return up_to(s) >= 390.0; });
-  const finding smaller{"T = 100: up to gap 390 NySALT errs less than Verlet", "last gap up to which it does",
+  const finding smaller{"T = 100: up to gap 390 NySALT errs less than Verlet",
+                        "last gap up to which it does",
                         both(all, [&](const sweep& s) { return fmt::format("{:g}", up_to(s)); }),
-                        verdict_of(choice_of_law, readings), told(readings), ""};
+                        verdict_of(choice_of_law, readings),
+                        told(readings),
+                        ""};
   const auto slope = [](const sweep& s) { return s.of("NySALT").exponent_within(10, 50); };
   const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
   const finding linear{"T = 100: the error of NySALT depends linearly (slope 2) on the step up to gap 50",
                        "exponent over gaps 10 .. 50",
                        both(all, [&](const sweep& s) { return with_error(slope(s)); }),
-                       verdict_of(choice_of_law, is_two), told(is_two) + "; 2 to a tenth and two standard errors", ""};
-  exhibit result{"Accuracy at T = 100",
-                 "Figure 3 (bottom left), section 5.2",
-                 {linear, threshold(all, "Verlet", 50, 10, "T = 100"), threshold(all, "NySALT", 200, 50, "T = 100"),
-                  smaller},
-                 {"I is an adiabatic invariant: at T = 100 its relative error saturates near the deviation of I from "
-                  "its start, and 1 % is not far from that. Where curves flatten they tell of phases, and of chaos."}};
+                       verdict_of(choice_of_law, is_two),
+                       told(is_two) + "; 2 to a tenth and two standard errors",
+                       ""};
+  exhibit result{
+      "Accuracy at T = 100",
+      "Figure 3 (bottom left), section 5.2",
+      {linear, threshold(all, "Verlet", 50, 10, "T = 100"), threshold(all, "NySALT", 200, 50, "T = 100"),
+       smaller},
+      {"I is an adiabatic invariant: at T = 100 its relative error saturates near the deviation of I from "
+       "its start, and 1 % is not far from that. Where curves flatten they tell of phases, and of chaos."}};
   add_sweep(result, all, horizon);
   return result;
 }

@@ -28,7 +28,8 @@ double farthest(const against_omega& its, const std::vector<double>& omegas) {
   double worst = 0.0;
   for (std::size_t i = 0; i < omegas.size(); ++i) {
     if (omegas[i] < 30.0) continue;
-    worst = std::max({worst, std::abs(its.theta[i][0].mean - 0.5), std::abs(its.theta[i][1].mean - linear_beta1())});
+    worst = std::max(
+        {worst, std::abs(its.theta[i][0].mean - 0.5), std::abs(its.theta[i][1].mean - linear_beta1())});
   }
   return worst;
 }
@@ -57,8 +58,8 @@ figure picture_of(const std::vector<against_omega>& all, const std::vector<doubl
 }  // namespace
 
 exhibit parameters_against_omega(const setting& its) {
-  const std::vector<double> omegas = its.pick<std::vector<double>>(
-      {2, 4, 8, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100}, {2, 50});
+  const std::vector<double> omegas =
+      its.pick<std::vector<double>>({2, 4, 8, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100}, {2, 50});
   std::vector<against_omega> all{{"qp", {}}, {"modes", {}}};
   for (const double one : omegas) {
     const auto system = chain(one);
@@ -79,13 +80,15 @@ exhibit parameters_against_omega(const setting& its) {
           "Figure 2 (left), section 5.2",
           {{"for omega >= 30 the parameters are close to those of the linear system",
             "largest distance of b1 and beta1 from (0.5, " + fmt::format("{:.4f})", linear_beta1()),
-            fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas), farthest(all[1], omegas)),
+            fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas),
+                        farthest(all[1], omegas)),
             verdict_of("the coordinates of the loss", readings), told(readings) + "; close: to a hundredth",
             "nysalt learn --system fpu --omega 50 --step 0.02 --coordinates modes"}},
           {"M = 100 trajectories over Ttr = 1/2, delta = 1/omega."},
           {{"Learned parameters with the errors of the fit:", rows}},
           {{picture_of(all, omegas),
-            "Learned parameters against omega at delta = 1/omega, and those of the linear system (energy norm)."}}};
+            "Learned parameters against omega at delta = 1/omega, and those of the linear system (energy "
+            "norm)."}}};
 }
 
 exhibit convergence_in_trajectories(const setting& its) {
@@ -100,10 +103,11 @@ exhibit convergence_in_trajectories(const setting& its) {
   exhibit result = exhibit_of(found, "-0.45", -0.45, "deterministic");
   result.title = "Convergence of the estimators in the number of trajectories";
   result.place = "Figure 2 (right), section 5.2";
-  result.findings.push_back(
-      {"with M = 2 the error is below 1e-3", "mean error of (b1 + beta1)/2 at M = 2",
-       with_error(found.at_least), verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
-       "below 1e-3 within two standard errors", "nysalt learn --system fpu --step 0.02 --trajectories 2"});
+  result.findings.push_back({"with M = 2 the error is below 1e-3", "mean error of (b1 + beta1)/2 at M = 2",
+                             with_error(found.at_least),
+                             verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
+                             "below 1e-3 within two standard errors",
+                             "nysalt learn --system fpu --step 0.02 --trajectories 2"});
   for (auto& one : result.findings) {
     if (one.command.empty()) one.command = "nysalt learn --system fpu --step 0.02 --trajectories 256";
   }

@@ -14,7 +14,8 @@ namespace {
 lesson usual(const setting& its) { return {.trajectories = its.pick<std::int64_t>(100, 10)}; }
 
 std::int64_t diverged(const std::vector<record>& runs) {
-  return std::count_if(runs.begin(), runs.end(), [](const record& run) { return run.diverged_at.has_value(); });
+  return std::count_if(runs.begin(), runs.end(),
+                       [](const record& run) { return run.diverged_at.has_value(); });
 }
 
 struct at_step {
@@ -31,7 +32,11 @@ at_step stability_at(const setting& its, const bundled_system& system, double st
   const auto lost = [&](const tabulated& method) {
     return diverged(followed(its, system, method, step, horizon, horizon, count, {"stiff_energy"}));
   };
-  return {step, theta_with_errors(learned), learned.fit.usable, limit_of(learned.method), lost(learned.method),
+  return {step,
+          theta_with_errors(learned),
+          learned.fit.usable,
+          limit_of(learned.method),
+          lost(learned.method),
           lost(two_stages(0.5, 0.40))};
 }
 
@@ -57,7 +62,8 @@ exhibit largest_stable_step(const setting& its) {
     const double horizon = rounded * std::ceil(its.pick(150.0, 5.0) / rounded);
     all.push_back(stability_at(its, *system, rounded, horizon, count));
   }
-  table rows({"delta", "b1", "beta1", "its linear limit/omega", "usable", "lost, learned", "lost, (0.5, 0.40)"}, 0);
+  table rows(
+      {"delta", "b1", "beta1", "its linear limit/omega", "usable", "lost, learned", "lost, (0.5, 0.40)"}, 0);
   for (const auto& one : all) {
     rows.add({fmt::format("{:.3f}", one.step), with_error(one.theta[0]), with_error(one.theta[1]),
               fmt::format("{:.4f}", one.limit / omega), one.usable ? "yes" : "no",
@@ -73,8 +79,10 @@ exhibit largest_stable_step(const setting& its) {
           "text after Figure 4, section 5.2",
           {{"stable beyond 2/omega, up to close to sqrt(20/3)/omega = 0.0516",
             "last step up to which no trajectory diverges by time 150",
-            fmt::format("learned {:.3f}, fixed (0.5, 0.40) {:.3f}; steps are {:g} apart", learned, fixed, distance),
-            verdict_of("whether parameters are learned at each step", readings), told(readings) + "; close: within 5 %",
+            fmt::format("learned {:.3f}, fixed (0.5, 0.40) {:.3f}; steps are {:g} apart", learned, fixed,
+                        distance),
+            verdict_of("whether parameters are learned at each step", readings),
+            told(readings) + "; close: within 5 %",
             "nysalt stability --family nystrom --parameters 0.5,0.4 --system fpu --step 0.05"}},
           {fmt::format("{} trajectories to time 150. Learning here asks for linear stability at the chain's "
                        "frequencies; the parameters move with it, and with them the limit.",
@@ -104,7 +112,8 @@ std::vector<crossed> cross(const setting& its, const std::vector<double>& steps)
     const auto mclachlan = classical("mclachlan2", *stiff);
     const auto on_stiff = errors_at(its, *stiff, {from_stiff, from_soft, mclachlan}, step, how);
     const auto on_soft = errors_at(its, *soft, {from_soft, from_stiff, mclachlan}, step, how);
-    for (const auto& [name, found] : {std::pair{"stiff-dominated", &on_stiff}, std::pair{"soft-dominated", &on_soft}}) {
+    for (const auto& [name, found] :
+         {std::pair{"stiff-dominated", &on_stiff}, std::pair{"soft-dominated", &on_soft}}) {
       all.push_back({name, step, error_of(found->methods[0]), error_of(found->methods[1]),
                      error_of(found->methods[2]), found->of_reference});
     }
@@ -116,7 +125,8 @@ std::vector<crossed> cross(const setting& its, const std::vector<double>& steps)
 
 exhibit other_starts(const setting& its) {
   const auto all = cross(its, its.pick<std::vector<double>>({0.01, 0.02, 0.03}, {0.02}));
-  table rows({"tested on", "delta", "learned there", "learned on the others", "ratio", "McLachlan", "reference's own"});
+  table rows({"tested on", "delta", "learned there", "learned on the others", "ratio", "McLachlan",
+              "reference's own"});
   std::vector<reading> readings;
   std::string ours;
   for (const char* kind : {"stiff-dominated", "soft-dominated"}) {
@@ -126,7 +136,8 @@ exhibit other_starts(const setting& its) {
       const double ratio = one.other.mean / one.own.mean;
       worst = std::max(worst, std::isfinite(ratio) ? ratio : std::numeric_limits<double>::infinity());
       rows.add({kind, fmt::format("{:g}", one.step), with_error(one.own), with_error(one.other),
-                fmt::format("{:.2f}", ratio), with_error(one.mclachlan), fmt::format("{:.0e}", one.of_reference)});
+                fmt::format("{:.2f}", ratio), with_error(one.mclachlan),
+                fmt::format("{:.0e}", one.of_reference)});
     }
     readings.push_back({std::string("tests on ") + kind + " starts", worst <= 2.0});
     ours += fmt::format("{}{:.2f} on {} starts", ours.empty() ? "" : ", ", worst, kind);
@@ -134,10 +145,12 @@ exhibit other_starts(const setting& its) {
   return {"Starts of another kind than those learned from",
           "text of section 5.1",
           {{"trained on one type of starts only, NySALT can predict the dynamics of the other type",
-            "largest ratio of the error of the scheme learned on the others to that learned there, state on [0, 0.5]",
+            "largest ratio of the error of the scheme learned on the others to that learned there, state on "
+            "[0, 0.5]",
             ours, verdict_of("which starts are tested on", readings),
             told(readings) + "; at most twice the error of the scheme that was learned there", ""}},
-          {"Stiff-dominated starts are the paper's (5.5). Soft-dominated ones have the same stiff springs, and the "
+          {"Stiff-dominated starts are the paper's (5.5). Soft-dominated ones have the same stiff springs, "
+           "and the "
            "energy omega^2 in the soft ones: x_0 = omega^(1/2), y_0 = omega/3^(1/2)."},
           {{"Error of the state (energy norm):", rows}},
           {}};
@@ -145,7 +158,8 @@ exhibit other_starts(const setting& its) {
 
 namespace {
 
-/// Root mean square over trajectories of the difference of states, in sqrt(omega^2 q^2 + p^2), at each sample.
+/// Root mean square over trajectories of the difference of states, in sqrt(omega^2 q^2 + p^2), at each
+/// sample.
 std::vector<double> state_errors(const std::vector<record>& runs, const std::vector<record>& reference) {
   constexpr std::size_t width = 12;
   std::vector<double> result;
@@ -165,9 +179,11 @@ std::vector<double> state_errors(const std::vector<record>& runs, const std::vec
   return result;
 }
 
-const std::vector<std::string> whole_state{"q1", "q2", "q3", "q4", "q5", "q6", "p1", "p2", "p3", "p4", "p5", "p6"};
+const std::vector<std::string> whole_state{"q1", "q2", "q3", "q4", "q5", "q6",
+                                           "p1", "p2", "p3", "p4", "p5", "p6"};
 
-estimate exponent_between(const std::vector<double>& t, const std::vector<double>& e, double low, double high) {
+estimate exponent_between(const std::vector<double>& t, const std::vector<double>& e, double low,
+                          double high) {
   std::vector<double> x;
   std::vector<double> y;
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -186,21 +202,24 @@ exhibit growth_of_error(const setting& its) {
   const auto count = its.pick<std::int64_t>(64, 16);
   constexpr double sample = 0.2;
   panel picture{"", "time", "error of the state", true, {}};
-  table rows({"delta", "exponent on [0.2, 2]", "exponent on [2, 10]", "saturated (half of the last error) at"}, 0);
-  const auto reference = followed(its, *system, classical("srkn11b", *system), 0.5 * reference_step(sample), horizon,
-                                  sample, count, whole_state);
+  table rows(
+      {"delta", "exponent on [0.2, 2]", "exponent on [2, 10]", "saturated (half of the last error) at"}, 0);
+  const auto reference = followed(its, *system, classical("srkn11b", *system), 0.5 * reference_step(sample),
+                                  horizon, sample, count, whole_state);
   std::vector<reading> readings;
   std::string ours;
   for (const double step : {0.005, 0.01, 0.02}) {
     const auto learned = learn_at(its, *system, step, usual(its)).method;
-    const auto e = state_errors(followed(its, *system, learned, step, horizon, sample, count, whole_state), reference);
+    const auto e =
+        state_errors(followed(its, *system, learned, step, horizon, sample, count, whole_state), reference);
     std::vector<double> t;
     for (std::size_t i = 0; i < e.size(); ++i) t.push_back(sample * static_cast<double>(i + 1));
     const estimate early = exponent_between(t, e, 0.2, 2.0);
     const estimate later = exponent_between(t, e, 2.0, 10.0);
     const auto half = std::find_if(e.begin(), e.end(), [&](double x) { return x > 0.5 * e.back(); });
     const double saturated = t[static_cast<std::size_t>(half - e.begin())];
-    rows.add({fmt::format("{:g}", step), with_error(early), with_error(later), fmt::format("{:.3g}", saturated)});
+    rows.add(
+        {fmt::format("{:g}", step), with_error(early), with_error(later), fmt::format("{:.3g}", saturated)});
     picture.curves.push_back({fmt::format("delta = {:g}", step), t, e, {}, step == 0.02});
     if (step != 0.02) continue;
     for (const auto& [name, its_own] : {std::pair{"[0.2, 2]", early}, std::pair{"[2, 10]", later}}) {
@@ -208,16 +227,18 @@ exhibit growth_of_error(const setting& its) {
       ours += fmt::format("{}{} on {}", ours.empty() ? "" : ", ", with_error(its_own), name);
     }
   }
-  return {"Growth of the global error",
-          "section 3.4",
-          {{"the error grows at most linearly in time, C h^(p+1) i, up to i = C' h^(-p-1)",
-            "exponent of the error of the state (energy norm) against time at delta = 0.02", ours,
-            verdict_of("the time", readings), told(readings) + "; 1 to a fifth and two standard errors. The theorem is "
-                                                               "of integrable systems near their tori; the chain is chaotic",
-            "nysalt compare --system fpu --methods learned:nystrom --steps 0.02 --horizon 10 --metric state"}},
-          {},
-          {{"Growth of the error of the learned schemes:", rows}},
-          {{{"growth_of_error", {picture}}, "Error of the state of learned schemes against time."}}};
+  return {
+      "Growth of the global error",
+      "section 3.4",
+      {{"the error grows at most linearly in time, C h^(p+1) i, up to i = C' h^(-p-1)",
+        "exponent of the error of the state (energy norm) against time at delta = 0.02", ours,
+        verdict_of("the time", readings),
+        told(readings) + "; 1 to a fifth and two standard errors. The theorem is "
+                         "of integrable systems near their tori; the chain is chaotic",
+        "nysalt compare --system fpu --methods learned:nystrom --steps 0.02 --horizon 10 --metric state"}},
+      {},
+      {{"Growth of the error of the learned schemes:", rows}},
+      {{{"growth_of_error", {picture}}, "Error of the state of learned schemes against time."}}};
 }
 
 namespace {
@@ -244,8 +265,8 @@ exhibit conserved_action(const setting& its) {
   const auto count = its.pick<std::int64_t>(32, 16);
   constexpr double sample = 0.12;  // a multiple of all steps
   const std::vector<std::string> watched{"stiff_energy", "energy"};
-  const auto by_reference = followed(its, *system, classical("srkn11b", *system), reference_step(sample), horizon, sample,
-                                     count, watched);
+  const auto by_reference = followed(its, *system, classical("srkn11b", *system), reference_step(sample),
+                                     horizon, sample, count, watched);
   const estimate exact = mean_and_error(largest_change(by_reference, 0, 1.0));
   table rows({"delta", "I, whole time", "I, first tenth", "H, whole time", "H, first tenth"}, 0);
   rows.add({"reference", with_error(exact), with_error(mean_and_error(largest_change(by_reference, 0, 0.1))),
@@ -272,22 +293,26 @@ exhibit conserved_action(const setting& its) {
   };
   const std::vector<reading> readings{{"I, the stiff energy", rises_at_least_as(of_I)},
                                       {"H, the energy", rises_at_least_as(of_H)}};
-  return {"Actions over long times",
-          "section 3.4",
-          {{"an action stays within C h^p of its start over long times", 
-            "exponent of the largest change up to time 10^4 against the step, for I and for H",
-            fmt::format("I {}, H {}; exact dynamics change I by {}", with_error(exponent(steps, of_I)),
-                        with_error(exponent(steps, of_H)), with_error(exact)),
-            verdict_of("what is called an action", readings),
-            told(readings) + "; at least 2 within two standard errors. I is an adiabatic invariant, no action: it moves "
-                             "by itself, however small the step",
-            "nysalt run --system fpu --method srkn6b --step 0.02 --horizon 10000 --sample-every 10 --observables "
-            "stiff_energy,energy"},
-           {"and does so without a drift", "largest change of H over the whole time over that of the first tenth, worst step",
-            fmt::format("{:.2f}", drift), verdict_of(drift <= 2.0), "at most 2: a drift would give 10", ""}},
-          {},
-          {{fmt::format("Largest relative change up to time {:g}, mean over {} trajectories:", horizon, count), rows}},
-          {}};
+  return {
+      "Actions over long times",
+      "section 3.4",
+      {{"an action stays within C h^p of its start over long times",
+        "exponent of the largest change up to time 10^4 against the step, for I and for H",
+        fmt::format("I {}, H {}; exact dynamics change I by {}", with_error(exponent(steps, of_I)),
+                    with_error(exponent(steps, of_H)), with_error(exact)),
+        verdict_of("what is called an action", readings),
+        told(readings) +
+            "; at least 2 within two standard errors. I is an adiabatic invariant, no action: it moves "
+            "by itself, however small the step",
+        "nysalt run --system fpu --method srkn6b --step 0.02 --horizon 10000 --sample-every 10 --observables "
+        "stiff_energy,energy"},
+       {"and does so without a drift",
+        "largest change of H over the whole time over that of the first tenth, worst step",
+        fmt::format("{:.2f}", drift), verdict_of(drift <= 2.0), "at most 2: a drift would give 10", ""}},
+      {},
+      {{fmt::format("Largest relative change up to time {:g}, mean over {} trajectories:", horizon, count),
+        rows}},
+      {}};
 }
 
 }  // namespace nysalt::program::paper

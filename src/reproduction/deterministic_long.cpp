@@ -49,7 +49,8 @@ std::vector<double> curve_against(const std::vector<record>& runs, const std::ve
   for (std::size_t m = 0; m < reference.size(); ++m) {
     for (std::size_t i = 0; i < mean.size(); ++i) {
       const bool there = runs[m].values.size() >= 3 * (i + 1);
-      const double e = there ? error(energies_at(runs[m], frozen ? 0 : i), energies_at(reference[m], i)) : 2.0;
+      const double e =
+          there ? error(energies_at(runs[m], frozen ? 0 : i), energies_at(reference[m], i)) : 2.0;
       mean[i] += e / static_cast<double>(reference.size());
     }
   }
@@ -93,8 +94,8 @@ panel energies_panel(const record& run, double sample, const std::string& title)
 }
 
 /// The reference of long runs: the same starts, omega h = .05, and half of it to see its own error.
-std::vector<record> reference_runs(const setting& its, const bundled_system& system, double sample, double horizon,
-                                   std::int64_t count, int finer = 1) {
+std::vector<record> reference_runs(const setting& its, const bundled_system& system, double sample,
+                                   double horizon, std::int64_t count, int finer = 1) {
   const double step = reference_step(sample) / finer;
   return followed(its, system, classical("srkn11b", system), step, horizon, sample, count, stiff);
 }
@@ -121,7 +122,8 @@ transitions follow_transitions(const setting& its) {
   const double sample = 25.0 * step;
   const double horizon = its.pick(300.0, 5.0);
   const auto count = its.pick<std::int64_t>(400, 16);
-  const tabulated learned = learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
+  const tabulated learned =
+      learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
   transitions all{step, sample, reference_runs(its, *system, sample, horizon, count), {}, {}, 0};
   for (const auto& [name, method] : {std::pair<std::string, tabulated>{"NySALT", learned},
                                      {"suboptimal (0.45, 0.43)", two_stages(0.45, 0.43)},
@@ -148,15 +150,17 @@ finding smaller_than_suboptimal(const transitions& all, const std::string& what,
   const double end = all.sample * static_cast<double>(all.last);
   const std::vector<reading> readings{{"the whole time", holds(late)},
                                       {fmt::format("the times up to {:.3g}", end), holds(early)}};
-  return {fmt::format("over [0, 300] NySALT preserves the {} with errors significantly smaller than the suboptimal "
-                      "(0.45, 0.43)",
-                      what),
+  return {fmt::format(
+              "over [0, 300] NySALT preserves the {} with errors significantly smaller than the suboptimal "
+              "(0.45, 0.43)",
+              what),
           "mean over times of the L1 error without its factor delta, NySALT and suboptimal",
-          fmt::format("whole time {} and {}; up to t = {:.3g} {} and {}", with_error(late[0]), with_error(late[1]), end,
-                      with_error(early[0]), with_error(early[1])),
+          fmt::format("whole time {} and {}; up to t = {:.3g} {} and {}", with_error(late[0]),
+                      with_error(late[1]), end, with_error(early[0]), with_error(early[1])),
           verdict_of("the time", readings),
-          told(readings) + "; paired over trajectories, by more than two standard errors. Beyond that time the "
-                           "reference itself is not known to 1 % (its finer self differs), and errors tell of chaos",
+          told(readings) +
+              "; paired over trajectories, by more than two standard errors. Beyond that time the "
+              "reference itself is not known to 1 % (its finer self differs), and errors tell of chaos",
           ""};
 }
 
@@ -177,7 +181,8 @@ exhibit energy_transitions(const setting& its) {
     return result;
   };
   const double end = all.sample * static_cast<double>(all.last);
-  table rows({"method", "energies, whole time", "energies, predictable", "angles, whole time", "angles, predictable"});
+  table rows({"method", "energies, whole time", "energies, predictable", "angles, whole time",
+              "angles, predictable"});
   const auto add = [&](const std::string& name, const std::vector<record>& runs, bool frozen) {
     const auto cell = [&](distance error, std::size_t last) {
       return with_error(mean_and_error(means_up_to(runs, all.reference, error, last, frozen)));
@@ -192,15 +197,21 @@ exhibit energy_transitions(const setting& its) {
           "Figure 3 (right), section 5.2",
           {smaller_than_suboptimal(all, "energies", energy_error),
            smaller_than_suboptimal(all, "phase angles", angle_error)},
-          {fmt::format("The printed errors hold a factor delta, which makes them depend on the step without saying "
-                       "more: here they are without it, and with delta = {:g} they are so much smaller.",
-                       all.step),
-           fmt::format("The reference (srkn11b, omega h = 0.05) and its finer self differ by more than 1 % of I from "
-                       "t = {:.3g} on: the chain is chaotic.",
-                       end)},
+          {fmt::format(
+               "The printed errors hold a factor delta, which makes them depend on the step without saying "
+               "more: here they are without it, and with delta = {:g} they are so much smaller.",
+               all.step),
+           fmt::format(
+               "The reference (srkn11b, omega h = 0.05) and its finer self differ by more than 1 % of I from "
+               "t = {:.3g} on: the chain is chaotic.",
+               end)},
           {{fmt::format("Means over times and trajectories; predictable: up to t = {:.3g}.", end), rows}},
-          {{{"energy_transitions", {curves(energy_error, "energies"), curves(angle_error, "phase angles")}, 1200, 480},
-            "L1 errors of the stiff energies and of the phase angles at delta = 1/omega, mean over trajectories."}}};
+          {{{"energy_transitions",
+             {curves(energy_error, "energies"), curves(angle_error, "phase angles")},
+             1200,
+             480},
+            "L1 errors of the stiff energies and of the phase angles at delta = 1/omega, mean over "
+            "trajectories."}}};
 }
 
 namespace {
@@ -231,7 +242,8 @@ exhibit energies_at_200(const setting& its) {
   const double fine = its.pick(1e-4, 1e-3);
   constexpr double step = 0.02;
   constexpr double sample = 0.2;
-  const tabulated learned = learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
+  const tabulated learned =
+      learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
   const tabulated verlet = classical("verlet", *system);
   const auto by_fine = followed(its, *system, verlet, fine, horizon, sample, count, stiff);
   const auto by_verlet = followed(its, *system, verlet, step, horizon, sample, count, stiff);
@@ -243,9 +255,11 @@ exhibit energies_at_200(const setting& its) {
   const estimate more = paired_difference(of_learned, of_fine);
   const estimate verlet_mean = mean_and_error(of_verlet);
   const bool keeps = more.mean <= 0.2 * fine_mean.mean + 2.0 * more.standard_error;
-  const std::string quantity = "root mean square of (I - I_0)/I_0 over the samples; fine steps have " + with_error(fine_mean);
-  const std::string command = "nysalt run --system fpu --method verlet --step 0.02 --horizon 500 --trajectories 64 "
-                              "--sample-every 10 --observables stiff_energy,stiff_energy_1,stiff_energy_2,stiff_energy_3";
+  const std::string quantity =
+      "root mean square of (I - I_0)/I_0 over the samples; fine steps have " + with_error(fine_mean);
+  const std::string command =
+      "nysalt run --system fpu --method verlet --step 0.02 --horizon 500 --trajectories 64 "
+      "--sample-every 10 --observables stiff_energy,stiff_energy_1,stiff_energy_2,stiff_energy_3";
   return {"Energies at delta = 0.02",
           "Figure 1, section 2",
           {{"Verlet at delta = 0.02 is inaccurate", quantity, with_error(verlet_mean),
@@ -254,7 +268,8 @@ exhibit energies_at_200(const setting& its) {
            {"at delta = 0.02 NySALT is as accurate as fine steps, and I is well conserved", quantity,
             with_error(mean_and_error(of_learned)), verdict_of(keeps),
             "at most a fifth more than that of fine steps, within two standard errors", ""}},
-          {"Along one path nothing is predictable to t = 500; what is compared is how far I goes from its start."},
+          {"Along one path nothing is predictable to t = 500; what is compared is how far I goes from its "
+           "start."},
           {},
           {{{"energies_at_200",
              {energies_panel(by_fine[0], sample, fmt::format("Verlet, h = {:g}", fine)),
@@ -282,10 +297,13 @@ finding blow_up(const std::vector<record>& by_verlet, double step) {
   for (const auto& run : by_verlet) at.push_back(blown_up_at(run, step));
   const double latest = *std::max_element(at.begin(), at.end());
   const double earliest = *std::min_element(at.begin(), at.end());
-  return {"at delta = 2/omega Verlet blows up within time 1", "time at which I is ten times its start, over trajectories",
+  return {"at delta = 2/omega Verlet blows up within time 1",
+          "time at which I is ten times its start, over trajectories",
           std::isfinite(latest) ? fmt::format("{:.2f} .. {:.2f}", earliest, latest) : "not all do",
-          verdict_of(latest <= 1.0), "the latest must be at most 1",
-          "nysalt run --system fpu --method verlet --step 0.04 --horizon 2 --trajectories 64 --observables stiff_energy"};
+          verdict_of(latest <= 1.0),
+          "the latest must be at most 1",
+          "nysalt run --system fpu --method verlet --step 0.04 --horizon 2 --trajectories 64 --observables "
+          "stiff_energy"};
 }
 
 }  // namespace
@@ -300,7 +318,8 @@ exhibit energies_at_400(const setting& its) {
   const auto by_verlet = followed(its, *system, classical("verlet", *system), step, 4.0, step, count, stiff);
   const auto by_learned = followed(its, *system, learned.method, step, horizon, sample, count, stiff);
   const auto reference = reference_runs(its, *system, sample, horizon, count);
-  const auto lost = std::count_if(by_learned.begin(), by_learned.end(), [](const auto& r) { return r.diverged_at; });
+  const auto lost =
+      std::count_if(by_learned.begin(), by_learned.end(), [](const auto& r) { return r.diverged_at; });
   const std::size_t last = reference[0].values.size() / 3 - 1;
   table rows({"up to time", "NySALT", "frozen at the start"}, 0);
   std::vector<reading> readings;
@@ -313,28 +332,32 @@ exhibit energies_at_400(const setting& its) {
     rows.add({time, with_error(mean_and_error(its_own)), with_error(mean_and_error(frozen))});
     const estimate gain = paired_difference(frozen, its_own);
     readings.push_back({"times up to " + time, gain.mean > 2.0 * gain.standard_error});
-    ours += fmt::format("{}{} against {} up to {}", ours.empty() ? "" : "; ", with_error(mean_and_error(its_own)),
-                        with_error(mean_and_error(frozen)), time);
+    ours += fmt::format("{}{} against {} up to {}", ours.empty() ? "" : "; ",
+                        with_error(mean_and_error(its_own)), with_error(mean_and_error(frozen)), time);
   }
-  return {"Energies at delta = 2/omega",
-          "Figure 4, section 5.2",
-          {blow_up(by_verlet, step),
-           {"at delta = 2/omega NySALT remains stable to time 150", "trajectories that diverge",
-            fmt::format("{} of {}", lost, count), verdict_of(lost == 0), "none must",
-            "nysalt compare --system fpu --methods verlet,learned:nystrom --steps 0.04 --horizon 150 --trajectories 200"},
-           {"it captures the main patterns of the energy transfer up to time 150",
-            "mean over times of sum |I_j - I_j^ref|/I^ref, against energies that are frozen at their start", ours,
-            verdict_of("the time", readings), told(readings) + "; it must be below the frozen ones by two standard errors",
-            "nysalt compare --system fpu --methods learned:nystrom --steps 0.04 --horizon 150 --trajectories 200 "
-            "--metric exchange"}},
-          {},
-          {{"Error of the exchange:", rows}},
-          {{{"energies_at_400",
-             {energies_panel(reference[0], sample, "reference"), energies_panel(by_learned[0], sample, "NySALT, delta = 0.04"),
-              energies_panel(by_verlet[0], step, "Verlet, delta = 0.04")},
-             1500,
-             460},
-            "Stiff energies along one trajectory."}}};
+  return {
+      "Energies at delta = 2/omega",
+      "Figure 4, section 5.2",
+      {blow_up(by_verlet, step),
+       {"at delta = 2/omega NySALT remains stable to time 150", "trajectories that diverge",
+        fmt::format("{} of {}", lost, count), verdict_of(lost == 0), "none must",
+        "nysalt compare --system fpu --methods verlet,learned:nystrom --steps 0.04 --horizon 150 "
+        "--trajectories 200"},
+       {"it captures the main patterns of the energy transfer up to time 150",
+        "mean over times of sum |I_j - I_j^ref|/I^ref, against energies that are frozen at their start", ours,
+        verdict_of("the time", readings),
+        told(readings) + "; it must be below the frozen ones by two standard errors",
+        "nysalt compare --system fpu --methods learned:nystrom --steps 0.04 --horizon 150 --trajectories 200 "
+        "--metric exchange"}},
+      {},
+      {{"Error of the exchange:", rows}},
+      {{{"energies_at_400",
+         {energies_panel(reference[0], sample, "reference"),
+          energies_panel(by_learned[0], sample, "NySALT, delta = 0.04"),
+          energies_panel(by_verlet[0], step, "Verlet, delta = 0.04")},
+         1500,
+         460},
+        "Stiff energies along one trajectory."}}};
 }
 
 }  // namespace nysalt::program::paper

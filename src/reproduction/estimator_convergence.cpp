@@ -18,7 +18,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// errors[k][repetition] at M = 2^(least + k).
-estimate exponent_of(const std::vector<double>& trajectories, const std::vector<std::vector<double>>& errors) {
+estimate exponent_of(const std::vector<double>& trajectories,
+                     const std::vector<std::vector<double>>& errors) {
   std::vector<double> slopes;
   for (std::size_t r = 0; r < errors.front().size(); ++r) {
     std::vector<double> of_one;
@@ -73,7 +74,8 @@ exhibit exhibit_of(const estimator_errors& found, const std::string& printed, do
                    const std::string& name) {
   table rows({"M", "error, reference from other data", "error, reference from the same data and more"}, 0);
   for (std::size_t k = 0; k < found.trajectories.size(); ++k) {
-    rows.add({fmt::format("{:g}", found.trajectories[k]), with_error(found.from_others[k]), with_error(found.nested[k])});
+    rows.add({fmt::format("{:g}", found.trajectories[k]), with_error(found.from_others[k]),
+              with_error(found.nested[k])});
   }
   const std::vector<reading> readings{
       {"a reference estimator from other data", agrees(found.exponent_from_others, exponent, 0.01)},
@@ -82,7 +84,10 @@ exhibit exhibit_of(const estimator_errors& found, const std::string& printed, do
     const error_curve all{found.trajectories, errors};
     return curve{label, found.trajectories, all.means(), all.bars(), first};
   };
-  const panel picture{"", "M", "mean error of b1 and beta1", true,
+  const panel picture{"",
+                      "M",
+                      "mean error of b1 and beta1",
+                      true,
                       {curve_of("reference from other data", found.from_others, true),
                        curve_of("reference from the same data and more", found.nested, false)}};
   return {"",
@@ -98,7 +103,8 @@ exhibit exhibit_of(const estimator_errors& found, const std::string& printed, do
             ""}},
           {},
           {{"Mean over repetitions of (|b1 - b1'| + |beta1 - beta1'|)/2:", rows}},
-          {{figure{"convergence_in_M_" + name, {picture}}, "Error of the estimators against the number of trajectories."}}};
+          {{figure{"convergence_in_M_" + name, {picture}},
+            "Error of the estimators against the number of trajectories."}}};
 }
 
 }  // namespace nysalt::program::paper

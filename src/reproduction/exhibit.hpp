@@ -86,7 +86,8 @@ inline std::string with_error(const estimate& x) {
   if (!(x.standard_error > 0.0) || !std::isfinite(x.standard_error)) return fmt::format("{:.5g}", x.mean);
   const int places = 1 - static_cast<int>(std::floor(std::log10(x.standard_error)));
   const double size = std::abs(x.mean);
-  if (places > 7 || places < 0 || size >= 1e5) return fmt::format("{:.3g} +- {:.1g}", x.mean, x.standard_error);
+  if (places > 7 || places < 0 || size >= 1e5)
+    return fmt::format("{:.3g} +- {:.1g}", x.mean, x.standard_error);
   return fmt::format("{:.{}f} +- {:.{}f}", x.mean, places, x.standard_error, places);
 }
 

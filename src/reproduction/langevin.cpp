@@ -26,17 +26,24 @@ constexpr const char* choice_of_starts = "the starts";
 finding threshold(const both_starts& all, const std::string& name, double printed, double distance) {
   const auto at = [&](const sweep& s) { return crossing(s.of(name), 0.1); };
   const auto readings = in_both(all, [&](const sweep& s) { return is_gap(at(s), printed, distance); });
-  return {fmt::format("{}: 10 % up to gap {:g}", name, printed), "gap at which the average relative RMSE of I reaches 10 %",
-          both(all, [&](const sweep& s) { return with_error(at(s)); }), verdict_of(choice_of_starts, readings),
-          fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", told(readings), distance), ""};
+  return {
+      fmt::format("{}: 10 % up to gap {:g}", name, printed),
+      "gap at which the average relative RMSE of I reaches 10 %",
+      both(all, [&](const sweep& s) { return with_error(at(s)); }),
+      verdict_of(choice_of_starts, readings),
+      fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", told(readings), distance),
+      ""};
 }
 
 finding slope_until(const both_starts& all, const std::string& name, double printed, double last) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(30, last); };
   const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), printed, 0.2); });
-  return {fmt::format("{}: slope {:g} until gap {:g}", name, printed, last), fmt::format("exponent over gaps 30 .. {:g}", last),
-          both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_starts, readings),
-          told(readings) + "; to a tenth and two standard errors", ""};
+  return {fmt::format("{}: slope {:g} until gap {:g}", name, printed, last),
+          fmt::format("exponent over gaps 30 .. {:g}", last),
+          both(all, [&](const sweep& s) { return with_error(slope(s)); }),
+          verdict_of(choice_of_starts, readings),
+          told(readings) + "; to a tenth and two standard errors",
+          ""};
 }
 
 finding smaller_from_70(const both_starts& all) {
@@ -54,8 +61,12 @@ finding smaller_from_70(const both_starts& all) {
     readings.push_back({rival, from <= 70.0});
     ours += fmt::format("{}from {:g} on below {}", ours.empty() ? "" : ", ", from, rival);
   }
-  return {"NySALT errs less than BAOAB after gap 70", "gap from which on it does (starts from one long trajectory)", ours,
-          verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings), told(readings), ""};
+  return {"NySALT errs less than BAOAB after gap 70",
+          "gap from which on it does (starts from one long trajectory)",
+          ours,
+          verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
+          told(readings),
+          ""};
 }
 
 finding placement_matters(const both_starts& all) {
@@ -66,16 +77,19 @@ finding placement_matters(const both_starts& all) {
     if (end.at[i] <= 200.0) ratios.push_back(end.errors[i].mean / symmetric.errors[i].mean);
   }
   const estimate ratio = mean_and_error(ratios);
-  return {"(not printed) the step of O stands at the end of the Nystrom step", "error with O at the end over that with O symmetric, mean over gaps up to 200",
-          with_error(ratio), verdict_of("the placement of O", {{"end", true}, {"symmetric", ratio.mean < 1.5}}),
-          "a ratio of 1.5 or more: what is said of the scheme is then said of this placement", ""};
+  return {"(not printed) the step of O stands at the end of the Nystrom step",
+          "error with O at the end over that with O symmetric, mean over gaps up to 200",
+          with_error(ratio),
+          verdict_of("the placement of O", {{"end", true}, {"symmetric", ratio.mean < 1.5}}),
+          "a ratio of 1.5 or more: what is said of the scheme is then said of this placement",
+          ""};
 }
 
 }  // namespace
 
 exhibit errors_along_paths(const setting& its) {
-  const std::vector<double> gaps =
-      its.pick<std::vector<double>>({10, 30, 50, 70, 100, 130, 160, 190, 200, 250, 300, 330, 350, 390, 450}, {100, 200});
+  const std::vector<double> gaps = its.pick<std::vector<double>>(
+      {10, 30, 50, 70, 100, 130, 160, 190, 200, 250, 300, 330, 350, 390, 450}, {100, 200});
   const lesson how{.trajectories = its.pick<std::int64_t>(512, 16),
                    .horizon = 1.0,
                    .where = placement::end,
@@ -87,29 +101,35 @@ exhibit errors_along_paths(const setting& its) {
                                   {"McLachlan, O symmetric", "mclachlan2@symmetric"},
                                   {"NySALT", "", how},
                                   {"learned, O symmetric", "", symmetric}};
-  const judged test{.horizon = 1.0, .trajectories = its.pick<std::int64_t>(10'000, 32), .fine_step = gap_step};
+  const judged test{
+      .horizon = 1.0, .trajectories = its.pick<std::int64_t>(10'000, 32), .fine_step = gap_step};
   const auto pooled = chain_in_bath(its, "trajectory");
   const auto gibbs = chain_in_bath(its, "gibbs");
   const both_starts all{errors_against_gap(its, *pooled, rivals, gaps, test),
                         errors_against_gap(its, *gibbs, rivals, gaps, test), gaps};
-  exhibit result{"Errors along paths",
-                 "Figure 6 (left), section 5.3",
-                 {slope_until(all, "BAOAB", 2.0, 200), slope_until(all, "NySALT", 1.0, 450), smaller_from_70(all),
-                  threshold(all, "BAOAB", 70, 30), threshold(all, "NySALT", 190, 30), placement_matters(all)},
-                 {fmt::format("M = {} trajectories; all methods and the reference (BAOAB, h = 1e-4) feel the same noise.",
-                              test.trajectories)},
-                 {{"Starts from one long trajectory, as in the paper:", table_of(all.pooled)},
-                  {"Gibbs starts:", table_of(all.gibbs)}},
-                 {{{"errors_along_paths",
-                    {panel_of(all.pooled, "one long trajectory", "average relative RMSE of I"),
-                     panel_of(all.gibbs, "Gibbs starts", "average relative RMSE of I")},
-                    1200,
-                    520},
-                   "Error of the total stiff energy over [0, 1]. BAOAB takes one force evaluation a step, all others two."}}};
+  exhibit result{
+      "Errors along paths",
+      "Figure 6 (left), section 5.3",
+      {slope_until(all, "BAOAB", 2.0, 200), slope_until(all, "NySALT", 1.0, 450), smaller_from_70(all),
+       threshold(all, "BAOAB", 70, 30), threshold(all, "NySALT", 190, 30), placement_matters(all)},
+      {fmt::format(
+          "M = {} trajectories; all methods and the reference (BAOAB, h = 1e-4) feel the same noise.",
+          test.trajectories)},
+      {{"Starts from one long trajectory, as in the paper:", table_of(all.pooled)},
+       {"Gibbs starts:", table_of(all.gibbs)}},
+      {{{"errors_along_paths",
+         {panel_of(all.pooled, "one long trajectory", "average relative RMSE of I"),
+          panel_of(all.gibbs, "Gibbs starts", "average relative RMSE of I")},
+         1200,
+         520},
+        "Error of the total stiff energy over [0, 1]. BAOAB takes one force evaluation a step, all others "
+        "two."}}};
   for (auto& one : result.findings) {
     one.command = fmt::format(
-        "nysalt compare --system fpu {} --start trajectory --methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric "
-        "--learn-trajectories 512 --learn-horizon 1 --fine-step 0.0001 --horizon 1 --trajectories 10000 --steps {}",
+        "nysalt compare --system fpu {} --start trajectory --methods "
+        "baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric "
+        "--learn-trajectories 512 --learn-horizon 1 --fine-step 0.0001 --horizon 1 --trajectories 10000 "
+        "--steps {}",
         bath_options, steps_text(gaps));
   }
   return result;

@@ -26,7 +26,8 @@ struct against_gap {
   std::vector<std::vector<std::vector<double>>> theta{};  // [parameter][gap][repetition]
 };
 
-void learn_all(const setting& its, against_gap& one, const std::vector<double>& gaps, std::uint64_t repetitions) {
+void learn_all(const setting& its, against_gap& one, const std::vector<double>& gaps,
+               std::uint64_t repetitions) {
   const auto system = chain_in_bath(its, one.start);
   one.theta.assign(2, std::vector<std::vector<double>>(gaps.size()));
   for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -68,7 +69,8 @@ double largest_scatter(const against_gap& one) {
 }
 
 figure picture_of(const std::vector<against_gap>& all, const std::vector<double>& gaps) {
-  std::vector<panel> panels{{"b1", "gap", "b1", true, {}, "[*:*]", true}, {"beta1", "gap", "beta1", true, {}, "[*:*]", true}};
+  std::vector<panel> panels{{"b1", "gap", "b1", true, {}, "[*:*]", true},
+                            {"beta1", "gap", "beta1", true, {}, "[*:*]", true}};
   for (const std::size_t k : {0, 1}) {
     for (const auto& one : all) {
       curve its{one.name, gaps, {}, {}, one.start == "trajectory"};
@@ -121,18 +123,25 @@ exhibit parameters_against_gap(const setting& its) {
     scatters += fmt::format("{}{:.4f} ({})", scatters.empty() ? "" : ", ", largest_scatter(one), one.name);
   }
   const std::string command = fmt::format(
-      "nysalt learn --system fpu {} --start trajectory --placement end --trajectories 512 --horizon 1 --step 0.02", bath_options);
-  return {"Optimal parameters against the gap, in a bath",
-          "Figure 5 (right), section 5.3",
-          {{"the mean of both estimators is close to the optimum of the linear Langevin system",
-            "largest distance of the mean of b1 and beta1 from it over all gaps", distances,
-            verdict_of("the coordinates of the loss and the starts", near), told(near) + "; close: to a hundredth", command},
-           {"the error bar is barely noticeable", "largest standard deviation over repetitions", scatters,
-            verdict_of("the coordinates of the loss and the starts", narrow), told(narrow) + "; at most a hundredth", command}},
-          {fmt::format("M = {} trajectories over Ttr = 1 by BAOAB with h = 1e-4, {} repetitions; O at the end.",
-                       its.pick(512, 16), repetitions)},
-          {{"Mean and standard deviation over the repetitions:", rows}},
-          {{picture_of(all, gaps), "Learned parameters in the bath against the gap; bars are the standard deviation over repetitions."}}};
+      "nysalt learn --system fpu {} --start trajectory --placement end --trajectories 512 --horizon 1 --step "
+      "0.02",
+      bath_options);
+  return {
+      "Optimal parameters against the gap, in a bath",
+      "Figure 5 (right), section 5.3",
+      {{"the mean of both estimators is close to the optimum of the linear Langevin system",
+        "largest distance of the mean of b1 and beta1 from it over all gaps", distances,
+        verdict_of("the coordinates of the loss and the starts", near),
+        told(near) + "; close: to a hundredth", command},
+       {"the error bar is barely noticeable", "largest standard deviation over repetitions", scatters,
+        verdict_of("the coordinates of the loss and the starts", narrow),
+        told(narrow) + "; at most a hundredth", command}},
+      {fmt::format("M = {} trajectories over Ttr = 1 by BAOAB with h = 1e-4, {} repetitions; O at the end.",
+                   its.pick(512, 16), repetitions)},
+      {{"Mean and standard deviation over the repetitions:", rows}},
+      {{picture_of(all, gaps),
+        "Learned parameters in the bath against the gap; bars are the standard deviation over "
+        "repetitions."}}};
 }
 
 exhibit convergence_in_noisy_trajectories(const setting& its) {
@@ -148,12 +157,15 @@ exhibit convergence_in_noisy_trajectories(const setting& its) {
   result.title = "Convergence of the estimators in a bath";
   result.place = "Figure 5 (left), section 5.3";
   const estimate at_most = found.from_others.back();
-  result.findings.push_back({"with M = 512 the errors are below 1e-2", "mean error at the largest M", with_error(at_most),
+  result.findings.push_back({"with M = 512 the errors are below 1e-2", "mean error at the largest M",
+                             with_error(at_most),
                              verdict_of(at_most.mean - 2.0 * at_most.standard_error < 1e-2),
                              "below 1e-2 within two standard errors", ""});
   for (auto& one : result.findings) {
     one.command = fmt::format(
-        "nysalt learn --system fpu {} --start trajectory --placement end --trajectories 512 --horizon 1 --step 0.02", bath_options);
+        "nysalt learn --system fpu {} --start trajectory --placement end --trajectories 512 --horizon 1 "
+        "--step 0.02",
+        bath_options);
   }
   return result;
 }

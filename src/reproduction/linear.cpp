@@ -33,8 +33,7 @@ two_parameters energy_optimum(double z) {
   return minimum_near({0.5, 0.4}, [z](const two_parameters& at) { return energy_loss(at, z); });
 }
 two_parameters printed_optimum(double z, double its_omega) {
-  return minimum_near({0.5, 0.4},
-                      [=](const two_parameters& at) { return printed_loss(at, z, its_omega); });
+  return minimum_near({0.5, 0.4}, [=](const two_parameters& at) { return printed_loss(at, z, its_omega); });
 }
 
 const std::vector<double> angles{0.1, 0.5, 1.0, 1.5, 2.0};
@@ -46,8 +45,9 @@ bool is_printed_optimum(const two_parameters& found) {  // "b1 = 0.5 and beta1 a
 finding value_of_optimum() {
   const auto by_energy = energy_optimum(1.0);
   const auto as_printed = printed_optimum(1.0, omega);
-  const std::vector<reading> readings{{"the energy norm", is_printed_optimum(by_energy)},
-                                      {"Sigma = diag(1, Omega^2) as printed", is_printed_optimum(as_printed)}};
+  const std::vector<reading> readings{
+      {"the energy norm", is_printed_optimum(by_energy)},
+      {"Sigma = diag(1, Omega^2) as printed", is_printed_optimum(as_printed)}};
   return {"b1* = 0.5, beta1* about 0.40",
           "the minimum at delta omega = 1 (omega = 50 for the printed Sigma)",
           fmt::format("energy norm {:.5f}, {:.5f}; printed Sigma {:.5f}, {:.5f}", by_energy[0], by_energy[1],
@@ -61,7 +61,8 @@ finding independence_of_omega() {
   double by_energy = 0.0;
   double as_printed = 0.0;
   for (const double other : {1.0, 10.0, 50.0}) {
-    as_printed = std::max(as_printed, std::abs(printed_optimum(1.0, other)[1] - printed_optimum(1.0, 1.0)[1]));
+    as_printed =
+        std::max(as_printed, std::abs(printed_optimum(1.0, other)[1] - printed_optimum(1.0, 1.0)[1]));
     const auto in_units = [&](const two_parameters& at) {  // the same norm, written in q and p
       matrix E = one_step(at, 1.0 / other, other * other) - exact_step(1.0 / other, other * other, 0.0);
       E(0, 1) *= other;
@@ -76,8 +77,9 @@ finding independence_of_omega() {
           "largest change of beta1* from omega = 1 to 50 at delta omega = 1",
           fmt::format("energy norm {:.1e}; printed Sigma {:.4f}", by_energy, as_printed),
           verdict_of("the weights of the loss", readings),
-          told(readings) + "; a change of half the last printed digit (.005) is none. diag(1, Omega^2) adds "
-                           "squares of different units",
+          told(readings) +
+              "; a change of half the last printed digit (.005) is none. diag(1, Omega^2) adds "
+              "squares of different units",
           ""};
 }
 
@@ -102,21 +104,23 @@ finding independence_of_delta() {
 }  // namespace
 
 exhibit linear_optimum(const setting&) {
-  table all({"delta omega", "beta1*, energy norm", "beta1*, printed Sigma, omega = 1", "omega = 10", "omega = 50"},
-            0);
+  table all(
+      {"delta omega", "beta1*, energy norm", "beta1*, printed Sigma, omega = 1", "omega = 10", "omega = 50"},
+      0);
   for (const double z : angles) {
     all.add({fmt::format("{:g}", z), fmt::format("{:.6f}", energy_optimum(z)[1]),
              fmt::format("{:.6f}", printed_optimum(z, 1.0)[1]),
              fmt::format("{:.6f}", printed_optimum(z, 10.0)[1]),
              fmt::format("{:.6f}", printed_optimum(z, 50.0)[1])});
   }
-  return {"Optimal parameters of the linear system",
-          "Remark on optimal parameters, section 4.1",
-          {value_of_optimum(), independence_of_omega(), independence_of_delta()},
-          {"b1* is 1/2 by symmetry in the energy norm: exchanging the stages is b1 -> 1 - b1. beta1* tends to "
-           "0.403408 for small steps, the coefficient of McLachlan's method."},
-          {{"The minimum of the one-step error:", all}},
-          {}};
+  return {
+      "Optimal parameters of the linear system",
+      "Remark on optimal parameters, section 4.1",
+      {value_of_optimum(), independence_of_omega(), independence_of_delta()},
+      {"b1* is 1/2 by symmetry in the energy norm: exchanging the stages is b1 -> 1 - b1. beta1* tends to "
+       "0.403408 for small steps, the coefficient of McLachlan's method."},
+      {{"The minimum of the one-step error:", all}},
+      {}};
 }
 
 namespace {
@@ -144,20 +148,21 @@ estimate order_of(double beta_sum) {
 exhibit printed_constraint(const setting&) {
   const estimate as_printed = order_of(1.0);
   const estimate as_in_section_2 = order_of(0.5);
-  return {"The constraint on beta2",
-          "Proposition on the linear system, section 4.1",
-          {{"beta2 = 1 - beta1, of a method of second order",
-            "order at time 1 for Omega = 1, (b1, beta1) = (0.5, 0.4)",
-            fmt::format("{:.3f} with beta2 = 1 - beta1, {:.3f} with 1/2 - beta1", as_printed.mean,
-                        as_in_section_2.mean),
-            verdict_of(agrees(as_printed, 2.0, 0.2)),
-            "the order must be 2 to a tenth; beta1 + beta2 = 1/2 is what section 2 asks for, and is meant",
-            ""}}};
+  return {
+      "The constraint on beta2",
+      "Proposition on the linear system, section 4.1",
+      {{"beta2 = 1 - beta1, of a method of second order",
+        "order at time 1 for Omega = 1, (b1, beta1) = (0.5, 0.4)",
+        fmt::format("{:.3f} with beta2 = 1 - beta1, {:.3f} with 1/2 - beta1", as_printed.mean,
+                    as_in_section_2.mean),
+        verdict_of(agrees(as_printed, 2.0, 0.2)),
+        "the order must be 2 to a tenth; beta1 + beta2 = 1/2 is what section 2 asks for, and is meant", ""}}};
 }
 
 namespace {
 
-/// By the printed criterion, and by |lambda| <= 1: the fraction of z^2 in 0..20 that is called stable wrongly.
+/// By the printed criterion, and by |lambda| <= 1: the fraction of z^2 in 0..20 that is called stable
+/// wrongly.
 double wrongly_stable() {
   int wrong = 0;
   constexpr int samples = 2000;
@@ -198,10 +203,11 @@ exhibit linear_stability(const setting&) {
         "part of 0 < z < 20 that this calls stable and |lambda| <= 1 does not",
         fmt::format("{:.3f}", wrongly_stable()), verdict_of(wrongly_stable() == 0.0),
         "it must be none; between 20/3 and 10 one eigenvalue is below -1", ""},
-       {"the largest step of linear stability is enlarged", "limit over that of Verlet, a step and an evaluation",
+       {"the largest step of linear stability is enlarged",
+        "limit over that of Verlet, a step and an evaluation",
         fmt::format("{:.4f} and {:.4f}", limit / verlet, 0.5 * limit / verlet),
-        verdict_of("what is counted: a step takes two force evaluations, one of Verlet one", cost), told(cost),
-        "nysalt stability --method verlet"}}};
+        verdict_of("what is counted: a step takes two force evaluations, one of Verlet one", cost),
+        told(cost), "nysalt stability --method verlet"}}};
 }
 
 }  // namespace nysalt::program::paper

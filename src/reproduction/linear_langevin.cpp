@@ -43,22 +43,23 @@ exhibit linear_langevin_optimum(const setting&) {
              fmt::format("{:.4f}", slope_of_optimum(z, true))});
   }
   const auto is_printed = [](double slope) { return agrees({slope, 0.0}, -0.43, 0.01); };
-  const std::vector<reading> readings{{"small steps (delta omega = 0.2)", is_printed(slope_of_optimum(0.2, false))},
-                                      {"delta omega = 1", is_printed(slope_of_optimum(1.0, false))},
-                                      {"delta omega = 2", is_printed(slope_of_optimum(2.0, false))}};
-  return {"Optimal parameters of the linear Langevin system",
-          "Remark on optimal parameters, section 4.2",
-          {{"beta1* about 0.40 - 0.43 gamma/(Omega delta)",
-            "d beta1*/d(gamma/(Omega delta)) at b1 = 1/2, gamma -> 0, energy norm",
-            fmt::format("{:.4f}, {:.4f} and {:.4f} at delta omega = 0.2, 1 and 2", slope_of_optimum(0.2, false),
-                        slope_of_optimum(1.0, false), slope_of_optimum(2.0, false)),
-            verdict_of("the step: the remark expands in it", readings),
-            told(readings) + "; to the printed digits",
-            ""}},
-          {"The slope is of the placement, not of the system: with half of the bath before the step and half "
-           "behind there is none. In the setting of section 5.3 the shift is below 0.0005."},
-          {{"The slope:", all}},
-          {}};
+  const std::vector<reading> readings{
+      {"small steps (delta omega = 0.2)", is_printed(slope_of_optimum(0.2, false))},
+      {"delta omega = 1", is_printed(slope_of_optimum(1.0, false))},
+      {"delta omega = 2", is_printed(slope_of_optimum(2.0, false))}};
+  return {
+      "Optimal parameters of the linear Langevin system",
+      "Remark on optimal parameters, section 4.2",
+      {{"beta1* about 0.40 - 0.43 gamma/(Omega delta)",
+        "d beta1*/d(gamma/(Omega delta)) at b1 = 1/2, gamma -> 0, energy norm",
+        fmt::format("{:.4f}, {:.4f} and {:.4f} at delta omega = 0.2, 1 and 2", slope_of_optimum(0.2, false),
+                    slope_of_optimum(1.0, false), slope_of_optimum(2.0, false)),
+        verdict_of("the step: the remark expands in it", readings),
+        told(readings) + "; to the printed digits", ""}},
+      {"The slope is of the placement, not of the system: with half of the bath before the step and half "
+       "behind there is none. In the setting of section 5.3 the shift is below 0.0005."},
+      {{"The slope:", all}},
+      {}};
 }
 
 namespace {
@@ -103,11 +104,12 @@ exhibit linear_langevin_order(const setting&) {
   const estimate order = exponent(steps, errors);
   return {"Local strong order of the linear Langevin scheme",
           "Remark on the order, section 4.2",
-          {{"the local strong order is 1.5", "exponent of the root mean square error of one step, Omega = 1, gamma = 0.5",
+          {{"the local strong order is 1.5",
+            "exponent of the root mean square error of one step, Omega = 1, gamma = 0.5",
             fmt::format("{:.3f} (noise of q alone {:.3f}, of p alone {:.3f})", order.mean,
                         exponent(steps, of_q).mean, exponent(steps, of_p).mean),
-            verdict_of(agrees(order, 1.5, 0.1)), "to the printed digits; the covariance of the noise is integrated, no sampling",
-            ""}},
+            verdict_of(agrees(order, 1.5, 0.1)),
+            "to the printed digits; the covariance of the noise is integrated, no sampling", ""}},
           {"Globally this is the strong order 1: errors of independent steps add up as a root."}};
 }
 

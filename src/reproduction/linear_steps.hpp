@@ -66,8 +66,8 @@ inline two_parameters minimum_near(const two_parameters& start,
     const Eigen::Matrix2d symmetric = 0.5 * (hessian + hessian.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(symmetric);
     const Eigen::Vector2d curvature = axes.eigenvalues().cwiseAbs();
-    Eigen::Vector2d change = -axes.eigenvectors() *
-                             (axes.eigenvectors().transpose() * gradient).cwiseQuotient(curvature);
+    Eigen::Vector2d change =
+        -axes.eigenvectors() * (axes.eigenvectors().transpose() * gradient).cwiseQuotient(curvature);
     if (change.norm() > 0.05) change *= 0.05 / change.norm();
     for (int halvings = 0; halvings < 10 && at(x + change) > at(x); ++halvings) change *= 0.5;
     x += change;

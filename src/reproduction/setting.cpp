@@ -13,7 +13,9 @@
 
 namespace nysalt::program::paper {
 
-std::uint64_t setting::seed(std::uint64_t repetition) const { return (common.seed + repetition) % seed_limit; }
+std::uint64_t setting::seed(std::uint64_t repetition) const {
+  return (common.seed + repetition) % seed_limit;
+}
 
 namespace {
 trajectories_plan plan_of(const setting& its, double step, double horizon, std::int64_t count) {
@@ -91,8 +93,8 @@ std::vector<record> followed(const setting& its, const bundled_system& system, c
                              const std::vector<std::string>& observables) {
   std::vector<record> all;
   const auto keep = [&](std::int64_t, const record& one) { all.push_back(one); };
-  system.run(method, plan_of(its, step, horizon, trajectories), observables, std::llround(sample / step), keep,
-             {});
+  system.run(method, plan_of(its, step, horizon, trajectories), observables, std::llround(sample / step),
+             keep, {});
   return all;
 }
 

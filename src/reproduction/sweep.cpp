@@ -9,7 +9,8 @@
 namespace nysalt::program::paper {
 
 const error_curve& sweep::of(const std::string& name) const {
-  const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
   if (found == methods.end()) throw std::logic_error("no such method in this sweep: " + name);
   return found->curve;
 }
@@ -44,7 +45,8 @@ table table_of(const sweep& all) {
     std::vector<std::string> cells{fmt::format("{:g}", gaps[i])};
     for (const auto& one : all.methods) {
       const estimate& e = one.curve.errors[i];
-      cells.push_back(std::isfinite(e.mean) ? fmt::format("{:.2e} +- {:.0e}", e.mean, e.standard_error) : "diverges");
+      cells.push_back(std::isfinite(e.mean) ? fmt::format("{:.2e} +- {:.0e}", e.mean, e.standard_error)
+                                            : "diverges");
     }
     cells.push_back(fmt::format("{:.0e}", all.of_reference[i]));
     rows.add(cells);

@@ -21,8 +21,8 @@ struct sweep {
 /// A method of the sweep: a classical name with @PLACEMENT or without, or one learned at each step.
 struct rival {
   std::string name;
-  std::string classical;      // empty: learned
-  lesson how{};               // then
+  std::string classical;  // empty: learned
+  lesson how{};           // then
 };
 sweep errors_against_gap(const setting& its, const bundled_system& system, const std::vector<rival>& rivals,
                          const std::vector<double>& gaps, const judged& how);

@@ -48,7 +48,8 @@ struct printed_row {
   double b1, beta1;
 };
 const std::vector<printed_row> printed{{1, .499, .403}, {5, .500, .403}, {10, .499, .402}};
-const std::vector<std::array<double, 2>> generators{{2.0 / 3.0, 1.0 / 3.0}, {1.0 / 3.0, 1.0 / 3.0}, {0.5, 0.5}};
+const std::vector<std::array<double, 2>> generators{
+    {2.0 / 3.0, 1.0 / 3.0}, {1.0 / 3.0, 1.0 / 3.0}, {0.5, 0.5}};
 
 /// Of the three rows, for one way to read the text.
 struct column {
@@ -63,7 +64,8 @@ std::vector<estimate> fitted(const fpu_chain<3>& system, const pairs& data, cons
                              coordinates which, int threads) {
   fit_options options{.coordinates = which, .threads = threads};
   options.fixed.resize(2);
-  const auto [theta, summary] = solve(make_learning_problem(family_named("nystrom"), system, data, held_out, options));
+  const auto [theta, summary] =
+      solve(make_learning_problem(family_named("nystrom"), system, data, held_out, options));
   std::vector<estimate> result;
   for (const auto& p : summary.parameters) result.push_back({p.value, p.standard_error});
   return result;
@@ -131,28 +133,30 @@ exhibit table_1(const setting& its) {
   for (const auto& one : columns) {
     for (std::size_t r = 0; r < printed.size(); ++r) {
       all.add({one.name, fmt::format("{}", 1000 * printed[r].factor), fmt::format("{:.3f}", printed[r].b1),
-               with_error(one.first[r][0]), fmt::format("{:.3f}", printed[r].beta1), with_error(one.first[r][1])});
+               with_error(one.first[r][0]), fmt::format("{:.3f}", printed[r].beta1),
+               with_error(one.first[r][1])});
     }
     readings.push_back({one.name, is_as_printed(one)});
     between = std::max(between, one.between_generators);
     ours += (ours.empty() ? "" : "; ") + text_of_column(one);
   }
   const std::vector<reading> all_same{{"all", between < 5e-4}};
-  return {"Table 1: robustness to the data generator",
-          "Table 1, section 5.2",
-          {{"(b1, beta1) = (.499, .403), (.500, .403), (.499, .402) at gaps 1000, 5000 and 10000",
-            "the same, from M = 100 trajectories by generators with h = 1e-6", ours,
-            verdict_of("the coordinates of the loss and the training time", readings),
-            told(readings) + "; each number within half its last digit and two standard errors. The text says "
-                             "Ttr = 1/2 and not which coordinates",
-            "nysalt learn --system fpu --step 0.01 --trajectories 100 --horizon 1 --coordinates modes"},
-           {"the parameters are the same for three generators",
-            "largest difference between generators, all rows and readings", fmt::format("{:.1e}", between),
-            verdict_of(between < 5e-4), "below half the last printed digit", ""}},
-          {"The generators are the members (2/3, 1/3), (1/3, 1/3) and (1/2, 1/2); h = " +
-           fmt::format("{:g}.", its.pick(1e-6, 1e-4))},
-          {{"From the generator (2/3, 1/3); errors are those of the fit:", all}},
-          {}};
+  return {
+      "Table 1: robustness to the data generator",
+      "Table 1, section 5.2",
+      {{"(b1, beta1) = (.499, .403), (.500, .403), (.499, .402) at gaps 1000, 5000 and 10000",
+        "the same, from M = 100 trajectories by generators with h = 1e-6", ours,
+        verdict_of("the coordinates of the loss and the training time", readings),
+        told(readings) + "; each number within half its last digit and two standard errors. The text says "
+                         "Ttr = 1/2 and not which coordinates",
+        "nysalt learn --system fpu --step 0.01 --trajectories 100 --horizon 1 --coordinates modes"},
+       {"the parameters are the same for three generators",
+        "largest difference between generators, all rows and readings", fmt::format("{:.1e}", between),
+        verdict_of(between < 5e-4), "below half the last printed digit", ""}},
+      {"The generators are the members (2/3, 1/3), (1/3, 1/3) and (1/2, 1/2); h = " +
+       fmt::format("{:g}.", its.pick(1e-6, 1e-4))},
+      {{"From the generator (2/3, 1/3); errors are those of the fit:", all}},
+      {}};
 }
 
 }  // namespace nysalt::program::paper

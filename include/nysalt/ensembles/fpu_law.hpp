@@ -28,12 +28,13 @@ class fpu_law {
   /// Throws std::invalid_argument if the spread is negative, or it or the soft motion not finite.
   explicit fpu_law(const fpu_chain<Pairs>& chain, double spread = 1.0, const soft_motion& soft = {})
       : pairs_(chain.pairs()), omega_(chain.omega()), spread_(spread), soft_(soft) {
-    const bool finite = std::isfinite(spread) && std::isfinite(soft.displacement) && std::isfinite(soft.velocity);
+    const bool finite =
+        std::isfinite(spread) && std::isfinite(soft.displacement) && std::isfinite(soft.velocity);
     if (spread >= 0.0 && finite) return;
-    throw std::invalid_argument(
-        fmt::format("fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
-                    "{} and {}",
-                    spread, soft.displacement, soft.velocity));
+    throw std::invalid_argument(fmt::format(
+        "fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
+        "{} and {}",
+        spread, soft.displacement, soft.velocity));
   }
 
   /// Of the soft energy omega^2, half in motion (m y_0^2/2) and half in the two springs at the ends (x_0^4/2
