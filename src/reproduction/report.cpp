@@ -54,16 +54,17 @@ table summary_table(const finished_part& part) {
 }
 
 void describe(page& report, const finding& its) {
-  std::vector<std::string> facts{"Measured: " + its.quantity + ".", "Ours: " + its.ours + ".",
-                                 "**" + its.verdict + "**: " + its.reason + "."};
-  report.text("**Claim:** " + its.claim + ".");
+  const std::vector<std::string> facts{fmt::format("Measured: {}.", its.quantity),
+                                       fmt::format("Ours: {}.", its.ours),
+                                       fmt::format("**{}**: {}.", its.verdict, its.reason)};
+  report.text(fmt::format("**Claim:** {}.", its.claim));
   report.list(facts);
   if (!its.command.empty()) report.code(its.command);
 }
 
 void describe(page& report, const exhibit& one) {
   report.subheading(one.title);
-  report.text(one.place + ".");
+  report.text(fmt::format("{}.", one.place));
   for (const auto& its : one.findings) describe(report, its);
   for (const auto& remark : one.remarks) report.text(remark);
   for (const auto& [sentence, rows] : one.tables) {
@@ -104,8 +105,17 @@ json reproduction_report::document() const {
 }
 
 std::string reproduction_report::summary() const {
-  std::string text = quick_ ? std::string(of_quick_runs) + "\n\n" : "";
-  for (const auto& part : parts_) text += part.title + "\n\n" + summary_table(part).text() + "\n";
+  std::string text;
+  if (quick_) text += fmt::format("{}\n\n", of_quick_runs);
+  for (const auto& part : parts_) {
+    text += fmt::format("{}\n\n", part.title);
+    for (const auto& one : part.exhibits) {
+      for (const auto& its : one.findings) {
+        text += fmt::format("  {}\n    ours: {}\n    {}\n", its.claim, its.ours, its.verdict);
+      }
+    }
+    text += "\n";
+  }
   for (const auto& [verdict, count] : counted(parts_)) text += fmt::format("{}: {}\n", verdict, count);
   return text;
 }
@@ -133,7 +143,7 @@ void reproduction_report::write(const std::filesystem::path& folder) const {
     counts.push_back(fmt::format("{}: {}", verdict, count));
   report.list(counts);
   for (const auto& part : parts_) {
-    report.heading(part.title + ": summary");
+    report.heading(fmt::format("{}: summary", part.title));
     report.table(summary_table(part));
   }
   for (const auto& part : parts_) {

@@ -23,7 +23,7 @@ class reproduction_report {
   reproduction_report(std::vector<finished_part> parts, bool quick, const common_settings& common);
 
   json document() const;
-  /// Claim, ours, verdict: a line each.
+  /// Claim, ours, verdict of each finding, a line each.
   std::string summary() const;
   /// paper.md, paper.html and paper.json, and the pictures with scripts and data in paper/.
   void write(const std::filesystem::path& folder) const;
