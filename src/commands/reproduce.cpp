@@ -60,14 +60,17 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) require_folder(command.output);
   progress shown;
-  const paper::setting its{common, command.quick, shown};
+  const paper::setting its(common, command.quick);
   timetable plan(planned);
   std::vector<finished_part> finished;
   for (const auto& part : planned) {
     finished.push_back({part.name, part.title, {}});
     for (const auto& one : part.exhibits) {
       shown.part(plan.next(one));
+      const auto start = std::chrono::steady_clock::now();
       finished.back().exhibits.push_back(one.make(its));
+      const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+      finished.back().exhibits.back().seconds = passed.count();
     }
   }
   shown.clear();

@@ -38,6 +38,7 @@ struct exhibit {
   std::vector<std::string> remarks{};
   std::vector<std::pair<std::string, table>> tables{};  // each below a sentence
   std::vector<shown_figure> pictures{};
+  double seconds = 0.0;  // that it took
 };
 
 /// A way to read the text, and whether the claim holds in it.

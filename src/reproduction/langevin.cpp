@@ -69,20 +69,15 @@ finding smaller_from_70(const both_starts& all) {
           ""};
 }
 
-finding placement_matters(const both_starts& all) {
-  const auto& end = all.pooled.of("NySALT");
-  const auto& symmetric = all.pooled.of("learned, O symmetric");
+/// Error with O at the end over that with O symmetric, mean over the gaps up to 200.
+estimate price_of_the_end(const sweep& all) {
+  const auto& end = all.of("NySALT");
+  const auto& symmetric = all.of("learned, O symmetric");
   std::vector<double> ratios;
   for (std::size_t i = 0; i < end.at.size(); ++i) {
     if (end.at[i] <= 200.0) ratios.push_back(end.errors[i].mean / symmetric.errors[i].mean);
   }
-  const estimate ratio = mean_and_error(ratios);
-  return {"(not printed) the step of O stands at the end of the Nystrom step",
-          "error with O at the end over that with O symmetric, mean over gaps up to 200",
-          with_error(ratio),
-          verdict_of("the placement of O", {{"end", true}, {"symmetric", ratio.mean < 1.5}}),
-          "a ratio of 1.5 or more: what is said of the scheme is then said of this placement",
-          ""};
+  return mean_and_error(ratios);
 }
 
 }  // namespace
@@ -103,18 +98,22 @@ exhibit errors_along_paths(const setting& its) {
                                   {"learned, O symmetric", "", symmetric}};
   const judged test{
       .horizon = 1.0, .trajectories = its.pick<std::int64_t>(10'000, 32), .fine_step = gap_step};
-  const auto pooled = chain_in_bath(its, "trajectory");
-  const auto gibbs = chain_in_bath(its, "gibbs");
-  const both_starts all{errors_against_gap(its, *pooled, rivals, gaps, test),
-                        errors_against_gap(its, *gibbs, rivals, gaps, test), gaps};
+  const bundled_system& pooled = its.in_bath("trajectory");
+  const bundled_system& gibbs = its.in_bath("gibbs");
+  const both_starts all{errors_against_gap(its, pooled, rivals, gaps, test),
+                        errors_against_gap(its, gibbs, rivals, gaps, test), gaps};
   exhibit result{
       "Errors along paths",
       "Figure 6 (left), section 5.3",
       {slope_until(all, "BAOAB", 2.0, 200), slope_until(all, "NySALT", 1.0, 450), smaller_from_70(all),
-       threshold(all, "BAOAB", 70, 30), threshold(all, "NySALT", 190, 30), placement_matters(all)},
+       threshold(all, "BAOAB", 70, 30), threshold(all, "NySALT", 190, 30)},
       {fmt::format(
-          "M = {} trajectories; all methods and the reference (BAOAB, h = 1e-4) feel the same noise.",
-          test.trajectories)},
+           "M = {} trajectories; all methods and the reference (BAOAB, h = 1e-4) feel the same noise.",
+           test.trajectories),
+       fmt::format("NySALT has O at the end of the step, as the paper. With half of it before the step and "
+                   "half behind, "
+                   "at the same cost, errors up to gap 200 are smaller by a factor of {}.",
+                   with_error(price_of_the_end(all.pooled)))},
       {{"Starts from one long trajectory, as in the paper:", table_of(all.pooled)},
        {"Gibbs starts:", table_of(all.gibbs)}},
       {{{"errors_along_paths",

@@ -78,18 +78,18 @@ curve density_curve(const std::string& name, const histogram& its, bool emphasis
 
 laws measure_laws(const setting& its, const std::string& start, const std::vector<double>& gaps,
                   double shown_gap) {
-  const auto system = chain_in_bath(its, start);
+  const bundled_system& system = its.in_bath(start);
   const equal_bins bins{0.0, 1.0, 100};
-  const auto all = references(its, *system, 0.02, [&](statistics_plan& plan) { plan.bins = bins; });
+  const auto all = references(its, system, 0.02, [&](statistics_plan& plan) { plan.bins = bins; });
   laws result{start == "gibbs" ? "Gibbs starts" : "one long trajectory", floor_of_laws(all),
               empty_curves(gaps)};
   result.densities.push_back(density_curve("reference", *all[0].histogram, true));
   for (const double gap : gaps) {
-    const auto methods = methods_at(its, *system, gap * gap_step);
+    const auto methods = methods_at(its, system, gap * gap_step);
     for (std::size_t k = 0; k < methods.size(); ++k) {
       statistics_plan plan = plan_of(its, gap * gap_step, role::test);
       plan.bins = bins;
-      const auto found = system->statistics(methods[k], plan, observable, {});
+      const auto found = system.statistics(methods[k], plan, observable, {});
       auto& errors = result.methods[k].curve.errors;
       const bool stands = 2 * found.counted > plan.trajectories.count;
       // No error is known of a total variation; half the floor stands for it.
@@ -262,21 +262,21 @@ curve acf_curve(const std::string& name, const autocovariance& its, bool emphasi
 
 /// One ensemble of fine steps serves a gap, as its lags are those of the gap.
 acfs measure_acfs(const setting& its, const std::string& start, const std::vector<double>& gaps) {
-  const auto system = chain_in_bath(its, start);
+  const bundled_system& system = its.in_bath(start);
   acfs result{start == "gibbs" ? "Gibbs starts" : "one long trajectory", 0.0, empty_curves(gaps)};
   for (const double gap : gaps) {
     const double step = gap * gap_step;
     statistics_plan of_reference = plan_of(its, step, role::reference);
     of_reference.trajectories.count = its.pick<std::int64_t>(2000, 32);
     add_lags(of_reference);
-    const auto reference = system->reference_statistics(of_reference, observable, reference_step(step), {});
-    const auto methods = methods_at(its, *system, step);
+    const auto reference = system.reference_statistics(of_reference, observable, reference_step(step), {});
+    const auto methods = methods_at(its, system, step);
     if (gap == 190.0) result.rho.push_back(acf_curve("reference", *reference.autocovariance, true));
     for (std::size_t k = 0; k < methods.size(); ++k) {
       statistics_plan plan = plan_of(its, step, role::test);
       plan.trajectories.count = of_reference.trajectories.count;
       add_lags(plan);
-      const auto found = system->statistics(methods[k], plan, observable, {});
+      const auto found = system.statistics(methods[k], plan, observable, {});
       auto& errors = result.methods[k].curve.errors;
       if (2 * found.counted <= plan.trajectories.count) {
         errors.push_back({std::numeric_limits<double>::infinity(), 0.0});
@@ -380,20 +380,20 @@ double seconds_of(const std::function<void()>& job) {
 }  // namespace
 
 exhibit run_times(const setting& its) {
-  const auto system = chain_in_bath(its, "gibbs");
+  const bundled_system& system = its.in_bath("gibbs");
   constexpr double step = 190.0 * gap_step;
   std::optional<learned_scheme> learned;
-  const double learning = seconds_of([&] { learned = learn_at(its, *system, step, in_bath_lesson(its)); });
+  const double learning = seconds_of([&] { learned = learn_at(its, system, step, in_bath_lesson(its)); });
   // Of the steps alone; as many trajectories of fine steps as take a moment, the time is proportional.
   const auto seconds = [&](const tabulated& method, double its_step, std::int64_t count) {
-    const auto job = system->timed_run(method, {its_step, static_cast<std::int64_t>(40.0 / its_step), count,
-                                                seed_for(role::test, its.seed()), 1});
+    const auto job = system.timed_run(method, {its_step, static_cast<std::int64_t>(40.0 / its_step), count,
+                                               seed_for(role::test, its.seed()), 1});
     return seconds_of(job) * 10'000.0 / static_cast<double>(count);
   };
-  const double fine = seconds(classical("baoab", *system), gap_step, its.pick<std::int64_t>(320, 16));
+  const double fine = seconds(classical("baoab", system), gap_step, its.pick<std::int64_t>(320, 16));
   const double coarse = seconds(learned->method, step, its.pick<std::int64_t>(10'000, 320));
   const double half_baoab =
-      seconds(classical("baoab", *system), 0.5 * step, its.pick<std::int64_t>(10'000, 320));
+      seconds(classical("baoab", system), 0.5 * step, its.pick<std::int64_t>(10'000, 320));
   const double factor = fine / coarse;
   table rows({"job", "paper, s", "ours, s"});
   rows.add({"BAOAB, h = 1e-4, 10^4 trajectories to T = 40", "2078", fmt::format("{:.3g}", fine)});

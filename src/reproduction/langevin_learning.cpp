@@ -28,11 +28,11 @@ struct against_gap {
 
 void learn_all(const setting& its, against_gap& one, const std::vector<double>& gaps,
                std::uint64_t repetitions) {
-  const auto system = chain_in_bath(its, one.start);
+  const bundled_system& system = its.in_bath(one.start);
   one.theta.assign(2, std::vector<std::vector<double>>(gaps.size()));
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     for (std::uint64_t r = 0; r < repetitions; ++r) {
-      const auto learned = learn_at(its, *system, gaps[i] * gap_step,
+      const auto learned = learn_at(its, system, gaps[i] * gap_step,
                                     {.trajectories = its.pick<std::int64_t>(512, 16),
                                      .horizon = 1.0,
                                      .coordinates = one.coordinates,
@@ -145,8 +145,8 @@ exhibit parameters_against_gap(const setting& its) {
 }
 
 exhibit convergence_in_noisy_trajectories(const setting& its) {
-  const auto system = chain_in_bath(its, "trajectory");
-  const estimator_study study{.system = *system,
+  const bundled_system& system = its.in_bath("trajectory");
+  const estimator_study study{.system = system,
                               .step = 0.02,
                               .how = {.horizon = 1.0, .where = placement::end, .fine_step = gap_step},
                               .least = 2,

@@ -157,6 +157,11 @@ void reproduction_report::write(const std::filesystem::path& folder) const {
   write_result(folder / "paper.html", report.html(pictures), common_);
   json all = document();
   all["made"] = {{"date", today()}, {"machine", machine()}, {"compiler", compiler}, {"version", version}};
+  all["exhibits"] = json::array();
+  for (const auto& part : parts_) {
+    for (const auto& one : part.exhibits)
+      all["exhibits"].push_back({{"title", one.title}, {"seconds", one.seconds}});
+  }
   write_result(folder / "paper.json", text_of(all), common_);
 }
 

@@ -31,13 +31,15 @@ std::unique_ptr<bundled_system> chain(double its_omega, double spread) {
   return make_system(asked);
 }
 
-std::unique_ptr<bundled_system> chain_in_bath(const setting& its, const std::string& start) {
+const bundled_system& setting::in_bath(const std::string& start) const {
+  auto& system = baths_[start];
+  if (system) return *system;
   system_settings asked;
   asked.bath = {.friction = 0.01, .sigma = 0.05, .temperature = {}};
   asked.start = start;
-  auto system = make_system(asked);
-  system->prepare_starts(seed_for(role::training, its.seed()));
-  return system;
+  system = make_system(asked);
+  system->prepare_starts(seed_for(role::training, seed()));
+  return *system;
 }
 
 std::unique_ptr<bundled_system> soft_dominated_chain() { return make_soft_dominated_fpu(omega); }

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "../bundled_system.hpp"
-#include "../progress.hpp"
 #include "../settings.hpp"
 #include "curves.hpp"
 #include "exhibit.hpp"
@@ -20,10 +20,12 @@ inline constexpr double omega = 50.0;
 inline constexpr double gap_step = 1e-4;  // the paper's fine step: a step is gap times it
 
 /// How much is computed: all that is needed, or (quick) only so much that everything runs once.
-struct setting {
+class setting {
+ public:
   const common_settings& common;
   bool quick;
-  progress& shown;
+
+  setting(const common_settings& its, bool is_quick) : common(its), quick(is_quick) {}
 
   template <class T>
   T pick(T whole, T part) const {
@@ -31,12 +33,16 @@ struct setting {
   }
   /// The seed of a repetition, as a user would give it.
   std::uint64_t seed(std::uint64_t repetition = 0) const;
+  /// The chain in the paper's bath, gamma = .01 and sigma = .05, with starts `gibbs` or `trajectory`, which
+  /// are prepared once.
+  const bundled_system& in_bath(const std::string& start) const;
+
+ private:
+  mutable std::map<std::string, std::unique_ptr<bundled_system>> baths_;
 };
 
 /// The chain of the paper, alone. The spread multiplies the deviation 1/omega of its starts.
 std::unique_ptr<bundled_system> chain(double its_omega = omega, double spread = 1.0);
-/// In the paper's bath, gamma = .01 and sigma = .05, with starts `gibbs` or `trajectory`.
-std::unique_ptr<bundled_system> chain_in_bath(const setting& its, const std::string& start);
 /// Starts of which the soft springs hold omega^2, half of it moving and half of it stretched.
 std::unique_ptr<bundled_system> soft_dominated_chain();
 

@@ -76,8 +76,11 @@ struct markdown_of_block {
 
 inline std::string page_markdown(const std::string& title, const std::vector<page_block>& blocks,
                                  const std::string& pictures) {
-  std::string result = "# " + detail::markdown_sentence(title) + "\n";
-  for (const auto& block : blocks) result += "\n" + std::visit(detail::markdown_of_block{pictures}, block);
+  std::string result = fmt::format("# {}\n", detail::markdown_sentence(title));
+  for (const auto& block : blocks) {
+    result += '\n';
+    result += std::visit(detail::markdown_of_block{pictures}, block);
+  }
   return result;
 }
 
