@@ -6,6 +6,7 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
+#include "../progress.hpp"
 #include "../refusal.hpp"
 #include "../reproduction/parts.hpp"
 #include "../reproduction/report.hpp"

@@ -15,13 +15,6 @@ namespace {
 constexpr int ensembles = 4;  // of the reference: six pairs for the floor
 constexpr const char* observable = "stiff_energy";
 
-lesson in_bath_lesson(const setting& its) {
-  return {.trajectories = its.pick<std::int64_t>(512, 16),
-          .horizon = 1.0,
-          .where = placement::end,
-          .fine_step = gap_step};
-}
-
 statistics_plan plan_of(const setting& its, double step, role whose, int ensemble = 0) {
   const auto count = its.pick<std::int64_t>(10'000, 32);
   const double horizon = its.pick(40.0, 4.0);
@@ -64,9 +57,10 @@ struct laws {
 std::vector<named_curve> empty_curves(const std::vector<double>& gaps) {
   return {{"BAOAB", {gaps, {}}}, {"BAOAB with half steps", {gaps, {}}}, {"NySALT", {gaps, {}}}};
 }
-std::vector<tabulated> methods_at(const setting& its, const bundled_system& system, double step) {
+std::vector<tabulated> methods_at(const setting& its, const std::string& start, double gap) {
+  const bundled_system& system = its.in_bath(start);
   return {classical("baoab", system), classical("baoab_2x", system),
-          learn_at(its, system, step, in_bath_lesson(its)).method};
+          its.learned_in_bath(start, gap, placement::end)};
 }
 
 curve density_curve(const std::string& name, const histogram& its, bool emphasised) {
@@ -85,7 +79,7 @@ laws measure_laws(const setting& its, const std::string& start, const std::vecto
               empty_curves(gaps)};
   result.densities.push_back(density_curve("reference", *all[0].histogram, true));
   for (const double gap : gaps) {
-    const auto methods = methods_at(its, system, gap * gap_step);
+    const auto methods = methods_at(its, start, gap);
     for (std::size_t k = 0; k < methods.size(); ++k) {
       statistics_plan plan = plan_of(its, gap * gap_step, role::test);
       plan.bins = bins;
@@ -270,7 +264,7 @@ acfs measure_acfs(const setting& its, const std::string& start, const std::vecto
     of_reference.trajectories.count = its.pick<std::int64_t>(2000, 32);
     add_lags(of_reference);
     const auto reference = system.reference_statistics(of_reference, observable, reference_step(step), {});
-    const auto methods = methods_at(its, system, step);
+    const auto methods = methods_at(its, start, gap);
     if (gap == 190.0) result.rho.push_back(acf_curve("reference", *reference.autocovariance, true));
     for (std::size_t k = 0; k < methods.size(); ++k) {
       statistics_plan plan = plan_of(its, step, role::test);
@@ -383,7 +377,13 @@ exhibit run_times(const setting& its) {
   const bundled_system& system = its.in_bath("gibbs");
   constexpr double step = 190.0 * gap_step;
   std::optional<learned_scheme> learned;
-  const double learning = seconds_of([&] { learned = learn_at(its, system, step, in_bath_lesson(its)); });
+  const double learning = seconds_of([&] {
+    learned = learn_at(its, system, step,
+                       {.trajectories = its.pick<std::int64_t>(512, 16),
+                        .horizon = 1.0,
+                        .where = placement::end,
+                        .fine_step = gap_step});
+  });
   // Of the steps alone; as many trajectories of fine steps as take a moment, the time is proportional.
   const auto seconds = [&](const tabulated& method, double its_step, std::int64_t count) {
     const auto job = system.timed_run(method, {its_step, static_cast<std::int64_t>(40.0 / its_step), count,

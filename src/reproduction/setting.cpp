@@ -42,6 +42,15 @@ const bundled_system& setting::in_bath(const std::string& start) const {
   return *system;
 }
 
+const tabulated& setting::learned_in_bath(const std::string& start, double gap, placement where) const {
+  const std::tuple key{start, gap, where};
+  const auto known = learned_.find(key);
+  if (known != learned_.end()) return known->second;
+  const lesson how{
+      .trajectories = pick<std::int64_t>(512, 16), .horizon = 1.0, .where = where, .fine_step = gap_step};
+  return learned_.emplace(key, learn_at(*this, in_bath(start), gap * gap_step, how).method).first->second;
+}
+
 std::unique_ptr<bundled_system> soft_dominated_chain() { return make_soft_dominated_fpu(omega); }
 
 learned_scheme learn_at(const setting& its, const bundled_system& system, double step, const lesson& how) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "../bundled_system.hpp"
@@ -36,9 +37,12 @@ class setting {
   /// The chain in the paper's bath, gamma = .01 and sigma = .05, with starts `gibbs` or `trajectory`, which
   /// are prepared once.
   const bundled_system& in_bath(const std::string& start) const;
+  /// What the paper learns there (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
+  const tabulated& learned_in_bath(const std::string& start, double gap, placement where) const;
 
  private:
   mutable std::map<std::string, std::unique_ptr<bundled_system>> baths_;
+  mutable std::map<std::tuple<std::string, double, placement>, tabulated> learned_;
 };
 
 /// The chain of the paper, alone. The spread multiplies the deviation 1/omega of its starts.

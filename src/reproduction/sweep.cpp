@@ -22,10 +22,7 @@ sweep errors_against_gap(const setting& its, const bundled_system& system, const
   for (const double gap : gaps) {
     const double step = gap * gap_step;
     std::vector<tabulated> methods;
-    for (const auto& one : rivals) {
-      methods.push_back(one.classical.empty() ? learn_at(its, system, step, one.how).method
-                                              : classical(one.classical, system));
-    }
+    for (const auto& one : rivals) methods.push_back(one.at(gap));
     const auto found = errors_at(its, system, methods, step, how);
     all.of_reference.push_back(found.of_reference);
     for (std::size_t k = 0; k < rivals.size(); ++k) {

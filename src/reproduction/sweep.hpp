@@ -2,6 +2,8 @@
 // Errors of the learned scheme and its rivals against the step, as curves over the gap.
 #pragma once
 
+#include <functional>
+
 #include "parts.hpp"
 
 namespace nysalt::program::paper {
@@ -18,11 +20,10 @@ struct sweep {
   const error_curve& of(const std::string& name) const;
 };
 
-/// A method of the sweep: a classical name with @PLACEMENT or without, or one learned at each step.
+/// A method of the sweep, by its name and the step.
 struct rival {
   std::string name;
-  std::string classical;  // empty: learned
-  lesson how{};           // then
+  std::function<tabulated(double gap)> at;
 };
 sweep errors_against_gap(const setting& its, const bundled_system& system, const std::vector<rival>& rivals,
                          const std::vector<double>& gaps, const judged& how);
