@@ -18,6 +18,8 @@ struct surroundings {
 };
 
 std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its);
+/// Of three pairs, whose soft springs hold omega^2 at the start.
+std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega);
 std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& its);
 std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring,
                                                   const surroundings& its);

@@ -54,6 +54,7 @@ struct typed {
   compare_command compare;
   recommend_command recommend;
   stability_command stability;
+  reproduce_command reproduce;
   system_settings stability_system;
   std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics,
       levels;
@@ -275,6 +276,19 @@ void add_stability(CLI::App& app, typed& to) {
       "  nysalt stability --method bcss3 --system fpu --step 0.04");
 }
 
+void add_reproduce(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("reproduce", "the paper's tables and figures beside our own");
+  command.add_option("parts", to.reproduce.parts, "linear, deterministic, langevin [all; some ten minutes]");
+  command.add_option("--output", to.reproduce.output,
+                     "folder for paper.md, paper.html, paper.json and pictures");
+  command.add_flag("--quick", to.reproduce.quick, "few trajectories and steps, to see it run");
+  add_common(command, to.common);
+  command.footer(
+      "Examples:\n"
+      "  nysalt reproduce linear\n"
+      "  nysalt reproduce deterministic langevin --quick --output results");
+}
+
 bool given(const CLI::App& command, const std::string& option) { return command.count(option) > 0; }
 
 int run_parsed(const CLI::App& command, typed& to) {
@@ -317,6 +331,7 @@ int run_parsed(const CLI::App& command, typed& to) {
     belongs("--hmc-temperature", {"acceptance"});
     return compare(to.compare, to.common);
   }
+  if (name == "reproduce") return reproduce(to.reproduce, to.common);
   if (name == "recommend") {
     to.recommend.families = split(to.families, "--families");
     const auto belongs = [&](const char* option, const char* metric) {
@@ -387,6 +402,7 @@ int run_command_line(int argc, char** argv) {
   add_compare(app, to);
   add_recommend(app, to);
   add_stability(app, to);
+  add_reproduce(app, to);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());

@@ -118,4 +118,10 @@ struct stability_command {
   std::optional<double> step;
 };
 
+struct reproduce_command {
+  std::vector<std::string> parts;  // of the paper; empty: all
+  std::string output;              // a folder
+  bool quick = false;
+};
+
 }  // namespace nysalt::program

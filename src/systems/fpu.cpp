@@ -16,6 +16,14 @@ std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surrou
 }
 }  // namespace
 
+std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
+  const fpu_chain<3> chain(omega);
+  const json parameters{{"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
+  return std::make_unique<bundled_model<fpu_chain<3>, fpu_law<3>>>(
+      chain, surroundings{bath::of_sigma(0.0, 0.0), start::law}, fpu_law<3>::soft_dominated(chain),
+      model_facts{parameters, omega, "stiff_energy"});
+}
+
 std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its) {
   constexpr std::int64_t most = 1'000'000;  // a state of some tens of megabytes
   if (pairs > most) refuse("--pairs must be at most {}, got {}", most, pairs);

@@ -102,3 +102,24 @@ BOOST_AUTO_TEST_CASE(a_spread_multiplies_the_deviations) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { fpu_law<3>(chain, bad); }, {"spread", "not negative"}));
   }
 }
+
+BOOST_AUTO_TEST_CASE(soft_dominated_starts_hold_omega_squared_in_the_soft_springs) {
+  const auto soft = fpu_law<3>::soft_dominated(chain);
+  double stiff = 0.0;
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    const auto x = soft(3, n);
+    const double energy_of_soft = 0.5 * x.p.squaredNorm() + chain.potential(x.q) - chain.stiff_energy(x);
+    // The springs between pairs are stretched by some 2 x_1 = O(1/omega), and hold O(omega^-4) of the energy.
+    BOOST_TEST(std::abs(energy_of_soft / (omega * omega) - 1.0) <= 1e-4);
+    BOOST_TEST(std::abs(energy_of_soft - (law(3, n).p.squaredNorm())) >
+               1e3);  // the paper's starts hold little
+    stiff += chain.stiff_energy(x) / 1000.0;
+  }
+  BOOST_TEST(std::abs(stiff - 4.5) <= 0.5);  // as of the paper's starts: 3 (1 + 1/2 + ...)
+  BOOST_TEST(soft.description() == "fpu_law(omega=50, x_0=7.0710678118654755, y_0=28.86751345948129)");
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [] {
+        fpu_law<3>(chain, 1.0, {std::nan(""), 1.0});
+      },
+      {"soft", "finite"}));
+}

@@ -13,18 +13,35 @@
 
 namespace nysalt {
 
-/// Nearly harmonic states of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 = y_0 = 1 and
-/// x_1 = 1/omega + zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation spread/omega; the
-/// paper's spread is 1.
+/// x_0 and y_0 of every pair.
+struct soft_motion {
+  double displacement = 1.0;
+  double velocity = 1.0;
+};
+
+/// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given, and x_1 = 1/omega +
+/// zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation spread/omega. The paper's spread, x_0
+/// and y_0 are 1: nearly harmonic states. Those of soft_dominated are not.
 template <int Pairs>
 class fpu_law {
  public:
-  /// Throws std::invalid_argument if the spread is negative or not finite.
-  explicit fpu_law(const fpu_chain<Pairs>& chain, double spread = 1.0)
-      : pairs_(chain.pairs()), omega_(chain.omega()), spread_(spread) {
-    if (spread >= 0.0 && std::isfinite(spread)) return;
-    throw std::invalid_argument(
-        fmt::format("fpu_law: the spread must be finite and not negative, got {}", spread));
+  /// Throws std::invalid_argument if the spread is negative, or it or the soft motion not finite.
+  explicit fpu_law(const fpu_chain<Pairs>& chain, double spread = 1.0, const soft_motion& soft = {})
+      : pairs_(chain.pairs()), omega_(chain.omega()), spread_(spread), soft_(soft) {
+    const bool finite =
+        std::isfinite(spread) && std::isfinite(soft.displacement) && std::isfinite(soft.velocity);
+    if (spread >= 0.0 && finite) return;
+    throw std::invalid_argument(fmt::format(
+        "fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
+        "{} and {}",
+        spread, soft.displacement, soft.velocity));
+  }
+
+  /// Of the soft energy omega^2, half in motion (m y_0^2/2) and half in the two springs at the ends (x_0^4/2
+  /// together; those between start at rest).
+  static fpu_law soft_dominated(const fpu_chain<Pairs>& chain) {
+    const auto m = static_cast<double>(chain.pairs());
+    return fpu_law(chain, 1.0, {std::sqrt(chain.omega()), chain.omega() / std::sqrt(m)});
   }
 
   phase_point<double, fpu_chain<Pairs>::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
@@ -36,22 +53,27 @@ class fpu_law {
     for (Eigen::Index i = 0; i < pairs_; ++i) {
       const double x1 = (1.0 + spread_ * normals[2 * i]) / omega_;
       const double y1 = 1.0 + spread_ * normals[2 * i + 1] / omega_;
-      start.q[2 * i] = (1.0 - x1) * half;
-      start.q[2 * i + 1] = (1.0 + x1) * half;
-      start.p[2 * i] = (1.0 - y1) * half;
-      start.p[2 * i + 1] = (1.0 + y1) * half;
+      start.q[2 * i] = (soft_.displacement - x1) * half;
+      start.q[2 * i + 1] = (soft_.displacement + x1) * half;
+      start.p[2 * i] = (soft_.velocity - y1) * half;
+      start.p[2 * i + 1] = (soft_.velocity + y1) * half;
     }
     return start;
   }
   std::string description() const {
-    if (spread_ == 1.0) return fmt::format("fpu_law(omega={})", omega_);
-    return fmt::format("fpu_law(omega={}, spread={})", omega_, spread_);
+    std::string text = fmt::format("fpu_law(omega={}", omega_);
+    if (spread_ != 1.0) text += fmt::format(", spread={}", spread_);
+    if (soft_.displacement != 1.0 || soft_.velocity != 1.0) {
+      text += fmt::format(", x_0={}, y_0={}", soft_.displacement, soft_.velocity);
+    }
+    return text + ")";
   }
 
  private:
   Eigen::Index pairs_;
   double omega_;
   double spread_;
+  soft_motion soft_;
 };
 
 }  // namespace nysalt
