@@ -194,8 +194,6 @@ estimate exponent_between(const std::vector<double>& t, const std::vector<double
   return exponent(x, y);
 }
 
-}  // namespace
-
 /// Of one step: the errors over time, and where the phases of the stiff springs are off by so much that their
 /// part of the error can hardly grow: half of its largest value up to time 40, before chaos shows.
 struct growth {
