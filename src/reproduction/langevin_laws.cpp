@@ -159,27 +159,26 @@ finding at_one_gap(const std::vector<laws>& all, const std::string& name, double
           ""};
 }
 
-finding smaller_from_200(const std::vector<laws>& all, const std::string& rival) {
+finding smaller_from_200(const std::vector<laws>& all) {
   std::vector<reading> readings;
   std::string ours;
-  for (const auto& one : all) {
-    const auto& a = of(one.methods, "NySALT");
-    const auto& b = of(one.methods, rival);
-    bool below = true;
+  for (const char* rival : {"BAOAB", "BAOAB with half steps"}) {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < a.at.size(); ++i) {
-      if (a.at[i] <= 200.0) continue;
-      below = below && a.errors[i].mean < b.errors[i].mean;
-      least = std::min(least, b.errors[i].mean / a.errors[i].mean);
+    for (const auto& one : all) {
+      const auto& a = of(one.methods, "NySALT");
+      const auto& b = of(one.methods, rival);
+      for (std::size_t i = 0; i < a.at.size(); ++i) {
+        if (a.at[i] > 200.0) least = std::min(least, b.errors[i].mean / a.errors[i].mean);
+      }
     }
-    readings.push_back({one.name, below});
-    ours += fmt::format("{}{:.2f} ({})", ours.empty() ? "" : ", ", least, one.name);
+    readings.push_back({rival, least > 1.0});
+    ours += fmt::format("{}{:.2f} for {}", ours.empty() ? "" : ", ", least, rival);
   }
-  return {"NySALT has a smaller TVD than " + rival + " after gap 200",
-          "least ratio of the two after gap 200",
+  return {"NySALT has consistently smaller TVD than BAOAB after gap 200",
+          "least ratio of the rival's TVD to that of NySALT after gap 200, for both ways to start",
           ours,
-          verdict_of("the starts", readings),
-          told(readings) + "; above 1 at every gap",
+          verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
+          told(readings) + "; above 1 at every gap. At the floor such a ratio is chance",
           ""};
 }
 
@@ -205,7 +204,7 @@ exhibit law_of_energy(const setting& its) {
                       all, "NySALT", 450, "NySALT: TVD around 1e-2 even at gap 450",
                       [&](double v, double floor) { return rounds_to(v, -2.0) || v <= 1.5 * floor; },
                       "its decimal logarithm, rounded, must be -2, or it is at the floor"),
-                  smaller_from_200(all, "BAOAB"), smaller_from_200(all, "BAOAB with half steps")},
+                  smaller_from_200(all)},
                  {"The floor is the mean distance between pairs of four ensembles of the reference: no error "
                   "below it can be seen. "
                   "T = 40 is 0.4 of a relaxation time: this is how far a method has left the law of its "
