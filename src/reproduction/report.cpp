@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <map>
-#include <thread>
 
+#include "../machine.hpp"
 #include "../output.hpp"
 #include "build_info.hpp"
 #include "nysalt/report/page.hpp"
@@ -18,20 +17,6 @@ namespace nysalt::program::paper {
 namespace {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
-
-/// As Linux tells it; the kind of machine, not which one it is.
-std::string processor() {
-  std::ifstream facts("/proc/cpuinfo");
-  for (std::string line; std::getline(facts, line);) {
-    const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "an unknown processor";
-}
-
-std::string machine() {
-  return fmt::format("{}, {} cores", processor(), std::thread::hardware_concurrency());
-}
 
 std::map<std::string, int> counted(const std::vector<finished_part>& parts) {
   std::map<std::string, int> count;

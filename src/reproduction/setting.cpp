@@ -88,8 +88,10 @@ double reference_step(double step, double its_omega) {
 measured_errors errors_at(const setting& its, const bundled_system& system,
                           const std::vector<tabulated>& methods, double step, const judged& how) {
   const auto fine = how.fine_step ? how.fine_step : system.fine_step_for_ranking(step);
-  const auto found = system.errors(methods, plan_of(its, step, how.horizon, how.trajectories), how.metric,
-                                   how.observable, fine, {});
+  const errors_plan plan{.trajectories = plan_of(its, step, how.horizon, how.trajectories),
+                         .metrics = {{how.metric, how.observable}},
+                         .fine_step = fine};
+  const auto found = system.errors(methods, plan, {}).front();
   return {found.methods, found.reference_error ? found.reference_error->mean : 0.0};
 }
 
