@@ -301,6 +301,31 @@ BOOST_AUTO_TEST_CASE(several_metrics_are_those_of_each) {
   BOOST_TEST(all["rows"][0]["error"] != all["rows"][6]["error"]);
 }
 
+// What the flow conserves is no worse at its start: it is no model, and chaos does not touch it.
+BOOST_AUTO_TEST_CASE(the_error_of_what_is_conserved_is_ranked) {
+  for (const std::string system : {"oscillator --omega 1", "pendulum", "henon_heiles"}) {
+    const auto all = document(
+        "compare --methods verlet,srkn6b --steps 0.1 --trajectories 16 --horizon 5 --metric "
+        "path:energy --system " +
+        system);
+    BOOST_TEST(all["references"][0]["null_model"].is_null());
+    for (const auto& row : all["rows"]) BOOST_TEST(row["marks"].empty(), system << ": " << row);
+    BOOST_TEST(all["rankings"][0]["front_by_evaluations"].size() == 2U);
+  }
+}
+
+// BAOAB has the law of an oscillator's q at any step: its distance is sampling, at large steps and at small.
+BOOST_AUTO_TEST_CASE(a_floor_is_of_as_many_samples_as_the_row) {
+  const auto all = document(
+      "compare --system oscillator --omega 1 --friction 1 --temperature 1 --methods baoab,obabo --steps "
+      "0.05,1.5 "
+      "--horizon 60 --metric distribution:q1 --bins 20 --trajectories 256");
+  for (const std::size_t row : {0U, 1U, 2U}) BOOST_TEST(all["rows"][row]["marks"] == json::array({"floor"}));
+  BOOST_TEST(
+      all["rows"][3]["marks"].empty());  // OBABO at 1.5 has another law: (1 - (h/2)^2)^-1 of the variance
+  BOOST_TEST(all["rows"][2]["floor"] > 2.0 * all["rows"][0]["floor"].get<double>());
+}
+
 // Fronts and costs are those of the rows beside them.
 BOOST_AUTO_TEST_CASE(rankings_follow_from_the_rows) {
   const auto all = document(

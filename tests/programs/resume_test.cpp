@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_leaves_nothing) {
 
 BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
   const scratch folder("resume_refused");
-  const std::string journal = killed_after(folder, "run", 6);
+  const std::string journal = killed_after(folder, "run", 9);
   const std::string text = contents(journal);
   const auto refused = [&](const std::string& arguments, const std::string& why) {
     const auto done = run(folder, arguments);
@@ -119,7 +119,28 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
   refused(line + "run --resume --bins 50", "another question (bins)");
   refused("compare --methods verlet --steps 0.02 --resume", "name it as --output");
   BOOST_TEST(contents(journal) == text);  // and nothing was lost
-  std::ofstream(journal) << "{\"some\": \"file\"}\n";
-  refused(line + "run --resume", "is no journal");
-  BOOST_TEST(run(folder, line + "run --resume --json").code == 2);
+  refused(line + "run --resume --levels 0.5", "another question (levels)");
+  // What is no journal is left as it is, whatever is asked; so is one that was edited.
+  const auto head = text.substr(0, text.find('\n') + 1);
+  for (const std::string& other : {std::string("{\"some\": \"file\"}\n"), std::string("some notes"),
+                                   head + "{\"part\": 7, \"result\": {}}\n", head + "some notes\n"}) {
+    std::ofstream(journal) << other;
+    for (const char* resume : {"", " --resume"}) refused(line + "run" + resume, "is no journal");
+    BOOST_TEST(contents(journal) == other);
+  }
+  for (const std::string& result : {std::string("5"), std::string("{\"behind\": {}, \"findings\": []}")}) {
+    const auto paths = text.find("\"part\":\"paths at 0.2\"");
+    const std::string edited = head + "{\"part\":\"paths at 0.2\",\"result\":" + result + "}\n";
+    BOOST_TEST(paths != std::string::npos);
+    std::ofstream(journal) << edited;
+    refused(line + "run --resume", "not whole, or was edited");
+    BOOST_TEST(contents(journal).starts_with(edited));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_finished_run_without_a_result_says_so_again) {
+  const scratch folder("resume_no_result");
+  const std::string lost = "compare --methods verlet --steps 0.05 --horizon 1 --trajectories 2 --output run";
+  BOOST_TEST(run(folder, lost).code == 3);
+  BOOST_TEST(run(folder, lost + " --resume").code == 3);
 }

@@ -33,6 +33,17 @@ figure two_panels() {
 
 }  // namespace
 
+// Else a name could hold a command of gnuplot.
+BOOST_AUTO_TEST_CASE(a_label_stays_on_its_line) {
+  figure picture{.name = "picture", .panels = {{}}};
+  picture.panels[0].title = "one\nsystem('id')";
+  picture.panels[0].curves = {{.label = "two\r\nsystem('id')\n", .x = {1.0}, .y = {1.0}}};
+  for (const std::string& text : {detail::plot_script(picture), detail::plot_data(picture)}) {
+    BOOST_TEST(text.find("\nsystem") == std::string::npos, text);
+    BOOST_TEST(text.find("system(") != std::string::npos);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(data_and_script_are_written_and_pictures_drawn) {
   const scratch folder("plot it's");
   BOOST_TEST(draw(two_panels(), folder.path()) == has_gnuplot);
