@@ -72,8 +72,8 @@ compare fpu_200_state "FPU chain, omega = 200, on [0, 10]: the state" state 0.01
 compare henon_heiles "Henon and Heiles' system on [0, 30]: the state" state 0.0001 --system henon_heiles \
   --trajectories 48 --learn-horizon 20 --horizon 30 --metric state,energy \
   --steps 0.05,0.07,0.1,0.14,0.2,0.28,0.4 --methods "$explicit,$rotating,$classical,s_aia2,impulse"
-compare phi4 "The phi^4 chain of 16 wells on [0, 10]: the state" state 0.01 --system phi4 \
-  --trajectories 48 --learn-horizon 8 --horizon 10 --metric state,energy \
+compare phi4 "The phi^4 chain of 8 wells on [0, 10]: the state" state 0.01 --system phi4 --masses 8 \
+  --trajectories 48 --learn-horizon 4 --horizon 10 --metric state,energy \
   --steps 0.035,0.05,0.07,0.1,0.14,0.2 --methods "$explicit,$rotating,$classical,s_aia2,impulse"
 compare kepler "Kepler's problem, eccentricity 0.6, on [0, 20]: the state" state 0.01 --system kepler \
   --trajectories 48 --learn-horizon 2 --horizon 20 --metric state,energy \
