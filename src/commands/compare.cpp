@@ -38,7 +38,6 @@ bool has_value(const json& report) {
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   const auto made = make_folder(folder);
   journal kept(folder / journal_name, all.question(), resume);
-  if (kept.found() > 0) warn(fmt::format("{} finished parts are taken from the journal", kept.found()));
   try {
     all.learn_and_measure(kept);
   } catch (const json::exception&) {
@@ -52,6 +51,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
     throw;
   }
   write_report(all, folder);
+  if (kept.found() > 0) warn(fmt::format("{} finished parts were taken from the journal", kept.found()));
   kept.remove();
 }
 

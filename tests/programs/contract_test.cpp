@@ -176,7 +176,10 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const std::string reference =
       "metric:text step_size:number reference:text error:number null_model:number floor:number mean:number";
   BOOST_TEST(shape(acf["references"][0]) == reference);
-  BOOST_TEST(shape(law["references"][0]) == reference + temperatures);
+  // These starts are of the law, as far as twenty tell: there is no null model.
+  const std::string of_law =
+      "metric:text step_size:number reference:text error:number null_model:null floor:number mean:number";
+  BOOST_TEST(shape(law["references"][0]) == of_law + temperatures);
 }
 
 BOOST_AUTO_TEST_CASE(run_gives_samples) {
@@ -323,7 +326,7 @@ BOOST_AUTO_TEST_CASE(a_floor_is_of_as_many_samples_as_the_row) {
   for (const std::size_t row : {0U, 1U, 2U}) BOOST_TEST(all["rows"][row]["marks"] == json::array({"floor"}));
   BOOST_TEST(
       all["rows"][3]["marks"].empty());  // OBABO at 1.5 has another law: (1 - (h/2)^2)^-1 of the variance
-  BOOST_TEST(all["rows"][2]["floor"] > 2.0 * all["rows"][0]["floor"].get<double>());
+  BOOST_TEST(all["rows"][2]["floor"] > 1.2 * all["rows"][0]["floor"].get<double>());  // samples forget slowly
 }
 
 // Fronts and costs are those of the rows beside them.

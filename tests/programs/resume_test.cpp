@@ -98,7 +98,11 @@ BOOST_AUTO_TEST_CASE(a_finished_run_is_left_alone) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_leaves_nothing) {
   const scratch folder("resume_nothing");
-  const auto done = run(folder, line + "new/run --range 100,101");
+  const auto done =
+      run(folder,
+          "compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods baoab "
+          "--steps 0.2 --horizon 60 --trajectories 64 --metric distribution --range 100,101 --output "
+          "new/run");
   BOOST_TEST(done.code == 2, done.err);
   BOOST_TEST(done.err.find("holds no energy of the reference") != std::string::npos, done.err);
   BOOST_TEST(folder.files().empty());
