@@ -19,7 +19,7 @@ struct both_laws {
 
 both_laws sweeps(const setting& its, double horizon) {
   const std::vector<double> gaps = its.pick<std::vector<double>>(
-      {10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 150, 200, 250, 300, 350, 390}, {50, 100, 200, 300});
+      {10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 150, 200, 250, 300, 350, 390}, {20, 50, 200, 300});
   const judged how{.horizon = horizon, .trajectories = its.pick<std::int64_t>(400, 16)};
   const auto on_starts_of = [&](double spread) {
     const auto system = chain(omega, spread);

@@ -59,7 +59,9 @@ finding smaller_from_70(const both_starts& all) {
   for (const char* rival : {"BAOAB", "BAOAB with half steps"}) {
     const double from = first(all.pooled, rival);
     readings.push_back({rival, from <= 70.0});
-    ours += fmt::format("{}from {:g} on below {}", ours.empty() ? "" : ", ", from, rival);
+    ours += ours.empty() ? "" : ", ";
+    ours += std::isfinite(from) ? fmt::format("from {:g} on below {}", from, rival)
+                                : fmt::format("never below {}", rival);
   }
   return {"NySALT errs less than BAOAB after gap 70",
           "gap from which on it does (starts from one long trajectory)",
