@@ -74,11 +74,11 @@ finding threshold(const both_laws& all, const std::string& name, double printed,
 
 finding slope_of_two(const both_laws& all, const std::string& name) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(10, 100); };
-  const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.4); });
+  const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
   return {
       "T = 0.5: the error of " + name + " grows with slope 2",         "exponent over gaps 10 .. 100",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
-      told(readings) + "; 2 to a fifth and two standard errors",       ""};
+      told(readings) + "; 2 to a tenth and two standard errors",       ""};
 }
 
 finding two_magnitudes(const both_laws& all) {
@@ -153,12 +153,12 @@ exhibit accuracy_on_long_times(const setting& its) {
                         told(readings),
                         ""};
   const auto slope = [](const sweep& s) { return s.of("NySALT").exponent_within(10, 50); };
-  const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.4); });
+  const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
   const finding linear{"T = 100: the error of NySALT depends linearly (slope 2) on the step up to gap 50",
                        "exponent over gaps 10 .. 50",
                        both(all, [&](const sweep& s) { return with_error(slope(s)); }),
                        verdict_of(choice_of_law, is_two),
-                       told(is_two) + "; 2 to a fifth and two standard errors",
+                       told(is_two) + "; 2 to a tenth and two standard errors",
                        ""};
   exhibit result{
       "Accuracy at T = 100",

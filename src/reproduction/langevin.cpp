@@ -37,12 +37,12 @@ finding threshold(const both_starts& all, const std::string& name, double printe
 
 finding slope_until(const both_starts& all, const std::string& name, double printed, double last) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(30, last); };
-  const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), printed, 0.4); });
+  const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), printed, 0.2); });
   return {fmt::format("{}: slope {:g} until gap {:g}", name, printed, last),
           fmt::format("exponent over gaps 30 .. {:g}", last),
           both(all, [&](const sweep& s) { return with_error(slope(s)); }),
           verdict_of(choice_of_starts, readings),
-          told(readings) + "; to a fifth and two standard errors",
+          told(readings) + "; to a tenth and two standard errors",
           ""};
 }
 
