@@ -1,6 +1,7 @@
 #!/bin/sh
 # Which family when: errors of learned families and of classical methods at equal cost, stiff and not stiff.
 # usage: families.sh PROGRAM FOLDER
+# What was finished in FOLDER before is not done again; remove it to begin anew.
 set -eu
 nysalt=$1
 folder=$2
@@ -16,8 +17,7 @@ say() { echo "== $*"; }
 compare() { # NAME OPTION...: into $folder/NAME; says only which fits could not be used
   name=$1
   shift
-  rm -f "$folder/$name/journal.jsonl"  # of a run that was stopped
-  "$nysalt" compare "$@" --output "$folder/$name" >"$folder/$name.log" 2>&1 || cat "$folder/$name.log"
+  "$nysalt" compare "$@" --resume --output "$folder/$name" >"$folder/$name.log" 2>&1 || cat "$folder/$name.log"
   sed -n 's/^\(.* at step .*: the fit is\)/   \1/p' "$folder/$name.log"
 }
 
@@ -158,14 +158,17 @@ draw phi4 'state error on [0, 10]' phi4_range
 say "Laws that were not learned from"
 learn() { # SYSTEM LEARN_HORIZON FAMILY STEP
   "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" \
-    --output "$folder/$1.$3.json" >"$folder/$1.$3.log"
+    --output "$folder/$1.$3.json" >"$folder/$1.$3.log" 2>&1 || echo "   learned:$3 at step $4 of $1: not usable"
 }
 other_law() { # NAME SYSTEM LEARN_HORIZON STEP OPTION...
   name=$1 system=$2 learn_horizon=$3 step=$4 old=$folder/$2
   shift 4
+  schemes=
+  for family in fg4 fg_chin aba3_free; do
+    [ ! -f "$old.$family.json" ] || schemes=$schemes$old.$family.json,
+  done
   compare "$name" --system "$system" "$@" $equal_cost --metric state --horizon 10 --steps "$step" \
-    --learn-horizon "$learn_horizon" \
-    --methods "$old.fg4.json,$old.fg_chin.json,$old.aba3_free.json,learned:fg4,verlet,mclachlan2,$fourth"
+    --learn-horizon "$learn_horizon" --methods "${schemes}learned:fg4,verlet,mclachlan2,$fourth"
 }
 learn phi4 8 fg4 0.4
 learn phi4 8 fg_chin 0.3
