@@ -29,7 +29,7 @@ std::string to_string(mark which) {
 std::string meaning(mark which) {
   switch (which) {
     case mark::reference:
-      return "the reference's own error is more than a tenth of this one, or is seen above the floor; not "
+      return "the reference's own error is more than a tenth of this one, or three times the floor; not "
              "ranked";
     case mark::null:
       return "no better than the null model, which stays as it was at the start and costs nothing; not "
@@ -68,7 +68,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
   const asked_metric& metric = all.metrics()[m];
   const double error = one.value.mean;
   constexpr double known_well = 0.1;
-  constexpr double above_floor = 1.5;
+  constexpr double above_floor = 3.0;  // lags are correlated: one distance scatters as much as it is
   const double known = against.reference_error.value_or(0.0);
   if (metric.is_along_paths() && known > known_well * error) result.push_back(mark::reference);
   if (metric.is_of_law() && known > above_floor * against.floor.value_or(known))
@@ -199,6 +199,7 @@ std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double
 std::vector<std::string> warnings_of_reference(const comparison& all) {
   std::vector<std::string> result;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    if (all.metrics()[m].is_of_law()) continue;
     std::vector<const row*> rows;
     for (const row& its : all.rows()) {
       if (std::ranges::count(marks_of(all, m, its), mark::reference) > 0) rows.push_back(&its);

@@ -13,7 +13,7 @@ namespace nysalt::program {
 
 /// Why a value is to be taken with care, in the words of the report.
 enum class mark {
-  reference,  // the reference's own error is more than a tenth of it, or seen above the floor
+  reference,  // the reference's own error is more than a tenth of it, or three times the floor
   null,       // no better than what stays as it was at the start
   floor,      // no more than sampling makes
   horizon,    // beyond the time for which a path can be followed
