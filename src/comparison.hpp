@@ -73,8 +73,8 @@ class comparison {
   double work_of_learning(const row& its) const;
   double work_of_paths(const group& all) const;
   double work_of_law(double evaluations_per_time) const;
-  double work_of_reference() const;             // of one ensemble for a law
-  double evaluations_of(const row& its) const;  // by unit time, without the start
+  double work_of_reference() const;                   // of one ensemble for a law
+  double evaluations_expected(const row& its) const;  // by unit time, without the start
 
   void learn(row& its, journal& kept);
   void measure_paths(double step, const group& all, journal& kept);

@@ -69,13 +69,13 @@ void comparison::expect_work() {
     for (const asked_metric& metric : metrics_) {
       if (!metric.is_of_law()) continue;
       work += 6.0 * work_of_reference();
-      for (const row* its : all) work += work_of_law(evaluations_of(*its));
+      for (const row* its : all) work += work_of_law(evaluations_expected(*its));
     }
   }
   shown_.expect(work);
 }
 
-double comparison::evaluations_of(const row& its) const {
+double comparison::evaluations_expected(const row& its) const {
   const auto family = families_.find(its.method);
   const int each = family != families_.end() ? family->second.evaluations_per_step
                                              : its.coefficients->letters().evaluations_per_step;
@@ -89,12 +89,12 @@ double comparison::work_of_learning(const row& its) const {
   const learn_settings& how = command_.learning;
   const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon;
   const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
-  return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_of(its));
+  return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_expected(its));
 }
 
 double comparison::work_of_paths(const group& all) const {
   double each = 2.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
-  for (const row* its : all) each += evaluations_of(*its);
+  for (const row* its : all) each += evaluations_expected(*its);
   return each * command_.horizon * static_cast<double>(command_.trajectories);
 }
 

@@ -181,9 +181,7 @@ json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? js
 json row_json(const comparison& all, std::size_t m, const row& its) {
   const asked_metric& metric = all.metrics()[m];
   const finding& one = its.findings[m];
-  const auto behind = all.behind().find({m, its.step});
-  const backdrop none;
-  const backdrop& against = behind == all.behind().end() ? none : behind->second;
+  const backdrop& against = behind(all, m, its);
   json marks = json::array();
   for (const mark found : marks_of(all, m, its)) marks.push_back(to_string(found));
   json result{{"metric", metric.text()},
@@ -304,8 +302,7 @@ std::string csv_of(const comparison& all) {
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const row& its : all.rows()) {
       const finding& one = its.findings[m];
-      const auto at = all.behind().find({m, its.step});
-      const backdrop against = at == all.behind().end() ? backdrop{} : at->second;
+      const backdrop& against = behind(all, m, its);
       result.add({all.metrics()[m].text(), its.method, in_full(its.nominal), in_full(its.step),
                   in_full(its.evaluations_per_time), in_full(its.seconds_per_time.least),
                   in_full(its.seconds_per_time.median), in_full(one.value.mean),

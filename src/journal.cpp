@@ -98,8 +98,7 @@ void journal::keep(const std::string& part, const json& result) {
 void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
-    throw journal_failure(fmt::format(
-        "cannot write {}: is the disk full? What is in it counts when you --resume", path_.string()));
+    refuse("cannot write {}: is the disk full? What is in it counts when you --resume", path_.string());
   }
 }
 

@@ -6,17 +6,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "json.hpp"
 
 namespace nysalt::program {
-
-/// The journal itself cannot be written. What is in it counts.
-struct journal_failure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// A file of one line a finished part, each written as soon as it is there. Numbers in it come back to the
 /// bit. A last line that was cut off does not count. Without a file nothing is kept.
@@ -34,8 +28,8 @@ class journal {
   bool has(const std::string& part) const { return found_.contains(part); }
   /// Nothing was finished, now or before.
   bool is_empty() const { return found_.empty() && !has_written_; }
-  /// What a part came to, by its name: if it is not there, work() tells, and that is kept. Throws
-  /// journal_failure if it cannot be written.
+  /// What a part came to, by its name: if it is not there, work() tells, and that is kept. Throws refusal if
+  /// it cannot be written.
   json once(const std::string& part, const auto& work) {
     if (const auto at = found_.find(part); at != found_.end()) return at->second;
     const json result = work();

@@ -37,22 +37,20 @@ std::string meaning(mark which) {
     case mark::floor:
       return "not above the floor of sampling by two standard errors: nothing is seen of the method";
     case mark::horizon:
-      return "beyond the time for which a path can be followed: it says more of chaos than of the method, "
-             "and "
-             "is not ranked";
+      return "beyond the time for which a path can be followed: chaos more than the method; not ranked";
     case mark::diverged:
       return "some trajectories diverged; of the others alone, and not ranked";
   }
   return {};
 }
 
-namespace {
-
 const backdrop& behind(const comparison& all, std::size_t m, const row& its) {
   static const backdrop none;
   const auto at = all.behind().find({m, its.step});
   return at == all.behind().end() ? none : at->second;
 }
+
+namespace {
 
 bool is_better(const asked_metric& metric, const finding& a, const finding& b) {
   return metric.is_acceptance() ? a.value.mean > b.value.mean : a.value.mean < b.value.mean;
