@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -38,16 +39,25 @@ class atomic_file {
     if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
   }
 
-  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was.
-  void commit() {
+  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was. If it is
+  /// to be `durable`, it outlasts the machine's power too, which costs some milliseconds.
+  void commit(bool durable = false) {
     stream_.close();
     std::error_code failure;
+    if (durable && stream_) put_on_disk();
     if (stream_) std::filesystem::rename(part_, path_, failure);
     if (!stream_ || failure) fail();
     committed_ = true;
   }
 
  private:
+  void put_on_disk() const {
+    const int file = open(part_.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool arrived = file >= 0 && fsync(file) == 0;
+    if (file >= 0) close(file);
+    if (!arrived) fail();
+  }
+
   [[noreturn]] void fail() const {
     throw std::runtime_error(
         fmt::format("cannot write {}: is the folder there, writable, and not full?", path_.string()));
