@@ -103,7 +103,7 @@ void write_checkpoint(const std::filesystem::path& file, const checkpoint& its) 
   text.resize(at + numbers.size() * sizeof(double));
   std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
   text += last_line(text);
-  atomic_file out(file);
+  atomic_file out(file, "next");  // one process writes it: a kill leaves one such file at most
   out.write(text);
   out.commit(true);
 }

@@ -8,24 +8,20 @@
 
 #include "bundled_system.hpp"
 #include "json.hpp"
+#include "nysalt/divergence.hpp"
 
 namespace nysalt::program {
-
-struct lost_trajectory {
-  std::int64_t trajectory = 0;
-  std::int64_t step = 0;  // the first bad one
-};
 
 /// A file of one line of JSON, the open runs (doubles, the least byte first), and a line with the CRC-32 of
 /// all before it.
 struct checkpoint {
   json question;  // all that decides the bytes of the output
   standing at;
-  std::vector<lost_trajectory> lost;  // so far, as they were found
-  std::uint64_t length = 0;           // of the unfinished output
-  std::uint32_t sum = 0;              // its CRC-32
-  bool in_order = true;               // that output is what the finished one will be
-  bool finished = false;              // the output is there
+  std::vector<diverged_trajectory> lost;  // so far, as they were found
+  std::uint64_t length = 0;               // of the unfinished output
+  std::uint32_t sum = 0;                  // its CRC-32
+  bool in_order = true;                   // that output is what the finished one will be
+  bool finished = false;                  // the output is there
 };
 
 /// Throws std::runtime_error if it cannot be written; then an older one is as it was. It is on the disk when

@@ -21,11 +21,11 @@ class restart {
 
   bool is_finished() const { return its_.finished; }
   const standing& from() const { return its_.at; }
-  const std::vector<lost_trajectory>& lost() const { return its_.lost; }
+  const std::vector<diverged_trajectory>& lost() const { return its_.lost; }
 
   /// More of the output.
   void write(std::string_view text);
-  void lose(const lost_trajectory& one) { its_.lost.push_back(one); }
+  void lose(const diverged_trajectory& one) { its_.lost.push_back(one); }
   /// Makes a checkpoint of all that was written.
   void reached(const standing& at);
   /// The output is whole: it takes its name.

@@ -124,8 +124,8 @@ json document(const run_command& command, const bundled_system& system, const sa
   return result;
 }
 
-json as_json(std::vector<lost_trajectory> lost, double step) {
-  std::ranges::sort(lost, {}, &lost_trajectory::trajectory);
+json with_times(std::vector<diverged_trajectory> lost, double step) {
+  std::ranges::sort(lost, {}, &diverged_trajectory::trajectory);
   json all = json::array();
   for (const auto& one : lost) {
     const double t = static_cast<double>(one.step) * step;
@@ -180,11 +180,11 @@ int run(const run_command& asked, const common_settings& common) {
     lines = [](std::string_view text) { print(text); };
   }
   samples taken(command.observables, command.step, command.sample_every, lines);
-  std::vector<lost_trajectory> lost;
+  std::vector<diverged_trajectory> lost;
   const auto take = [&](std::int64_t m, const record& its) {
     taken.take(m, its);
     if (!its.diverged_at) return;
-    const lost_trajectory one{m, *its.diverged_at};
+    const diverged_trajectory one{m, *its.diverged_at};
     kept ? kept->lose(one) : lost.push_back(one);
   };
 
@@ -214,7 +214,7 @@ int run(const run_command& asked, const common_settings& common) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
-  const json diverged = as_json(kept ? kept->lost() : lost, command.step);
+  const json diverged = with_times(kept ? kept->lost() : lost, command.step);
   const std::int64_t evaluations = system->count_evaluations(method, plan);
   if (common.json) {
     json result = document(command, *system, taken, diverged);

@@ -8,20 +8,22 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 namespace nysalt {
 
-/// A file that is there whole or not at all: what is written goes into NAME.PROCESS.part, and commit()
+/// A file that is there whole or not at all: what is written goes into NAME.WRITER.part, and commit()
 /// renames it. Without a commit nothing of it is left, and programs that write the same file at once do not
-/// mix.
+/// mix, as the writer is the process.
 class atomic_file {
  public:
   /// Throws std::runtime_error if it cannot be made.
-  explicit atomic_file(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
-    part_ += fmt::format(".{}.part", getpid());
+  explicit atomic_file(std::filesystem::path path, const std::string& writer = std::to_string(getpid()))
+      : path_(std::move(path)), part_(path_) {
+    part_ += fmt::format(".{}.part", writer);
     stream_.open(part_, std::ios::binary | std::ios::trunc);
     if (!stream_) fail();
   }
