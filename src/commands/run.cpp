@@ -14,6 +14,7 @@
 #include "../output.hpp"
 #include "../progress.hpp"
 #include "../seeds.hpp"
+#include "../stability_margin.hpp"
 #include "nysalt/report/atomic_file.hpp"
 #include "nysalt/report/plot.hpp"
 
@@ -187,6 +188,11 @@ int run(const run_command& asked, const common_settings& common) {
                                common.threads};
   progress shown;
   prepare_starts(*system, common, shown);
+  if (const auto text = stability_warning(command.method, method, *system, plan.step, plan.seed)) {
+    warnings.push_back(*text);
+    shown.clear();
+    if (!common.json) warn(*text);
+  }
   shown.part("running");
   const auto began = std::chrono::steady_clock::now();
   system->run(method, plan, command.observables, command.sample_every, take,
