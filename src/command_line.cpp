@@ -270,6 +270,8 @@ void add_stability(CLI::App& app, typed& to) {
   add_number(command, "--eccentricity", to.stability_system.eccentricity, "kepler: of the starts [0.6]");
   add_number(command, "--spread", to.stability_system.spread,
              "of the law of starts: multiplies its deviations [1]");
+  command.add_option("--start", to.stability_system.start,
+                     "law, gibbs or trajectory: as run takes it; frequencies are those of law");
   add_number(command, "--step", to.stability.step, "with --system: is the system stable there?");
   command.add_option("--output", to.stability.output, "write trace/2 over z as CSV");
   command.add_flag("--plot", to.stability.plot, "draw it beside the output: windows, and the system's z");
@@ -351,7 +353,7 @@ int run_parsed(const CLI::App& command, typed& to) {
   to.stability.parameters = numbers(to.parameters, "--parameters");
   for (const char* option :
        {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space", "--eccentricity",
-        "--spread", "--friction", "--sigma", "--temperature", "--step"}) {
+        "--spread", "--start", "--friction", "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);

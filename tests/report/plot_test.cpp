@@ -210,3 +210,13 @@ BOOST_AUTO_TEST_CASE(stretches_are_shaded_behind_the_curves) {
   BOOST_TEST(script.find("unset object", script.find("set object 3")) != std::string::npos);
   BOOST_TEST(script.find("set object 4") == std::string::npos);
 }
+
+// Points of size 0 are a matrix without an inverse, at which librsvg gives up.
+BOOST_AUTO_TEST_CASE(levels_are_drawn_as_all_can_read_them) {
+  const scratch folder("plot");
+  panel one;
+  one.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
+  one.levels = {{"high", 3.0}};
+  draw({"levels", {one}}, folder.path());
+  if (has_gnuplot) BOOST_TEST(contents(folder / "levels.svg").find("scale(0.00)") == std::string::npos);
+}

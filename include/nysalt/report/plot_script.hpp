@@ -41,7 +41,7 @@ inline std::string plot_data(const figure& f) {
 inline std::string plot_command(const panel& its, const std::string& name, std::size_t first_block) {
   std::vector<std::string> elements;
   for (const auto& level : its.levels) {  // unseen: for the range; what is seen is an arrow, of full width
-    elements.push_back(fmt::format("{:.10g} with points pt 7 ps 0 lc 'white' notitle", level.y));
+    elements.push_back(fmt::format("{:.10g} with dots lc 'white' notitle", level.y));
   }
   const auto draw_if = [&](auto wanted) {
     for (std::size_t j = 0; j < its.curves.size(); ++j) {
