@@ -2,5 +2,5 @@
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/run_time_word.hpp"
 
-template std::vector<nysalt::stability_window> nysalt::stability_windows<nysalt::run_time_word>(
-    const run_time_word&, const std::vector<double>&);
+template nysalt::stability_chart nysalt::chart_stability<nysalt::run_time_word>(const run_time_word&,
+                                                                                const std::vector<double>&);

@@ -37,7 +37,7 @@ namespace nysalt::program {
 
 struct model_facts {
   json parameters;   // as scheme files hold them
-  double frequency;  // times a fine step it is 5e-3 at most: the error of srkn11b is rounding then
+  double frequency;  // the highest, of rare starts; times a fine step 5e-3 at most: srkn11b errs by rounding
   std::string default_observable;
 };
 
@@ -48,6 +48,7 @@ class bundled_model final : public bundled_system {
   using T = scalar_of_lanes<width>;
   using starts_type = any_starts<S::dimension, T>;
   using lanes_state = phase_point<T, S::dimension>;
+  using states_in_double = std::vector<phase_point<double, S::dimension>>;
   using measure_type = error_measure<S::dimension, width>;
 
  public:
@@ -108,8 +109,22 @@ class bundled_model final : public bundled_system {
     }
   }
 
+  double frequency_of_law() const override { return facts_.frequency; }
+  std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const override {
+    constexpr Eigen::Index most = 1000;
+    if constexpr (NystromSystem<S>) {
+      if (size(system_) > most) return std::nullopt;
+      states_in_double states;
+      for (std::uint64_t n = 0; n < count; ++n) {
+        states.push_back(starts_ ? (*starts_)(seed, n) : law_(seed, n));
+      }
+      return stiffness_along(system_, states).highest_frequency();
+    }
+    return std::nullopt;
+  }
+
   stability_guard guard(bool rotations) const override {
-    std::vector<phase_point<double, S::dimension>> states;
+    states_in_double states;
     constexpr std::uint64_t enough = 64;
     for (std::uint64_t n = 0; n < enough; ++n) states.push_back(law_(1, n));
     return stability_guard(system_, states, rotations);

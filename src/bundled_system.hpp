@@ -180,6 +180,12 @@ class bundled_system {
 
   /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.
   virtual std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const = 0;
+
+  /// Highest angular frequency that motion from its law of starts may meet, rare starts included.
+  virtual double frequency_of_law() const = 0;
+  /// The highest along so many of its starts, known to 1 %; nothing where there are more than a thousand
+  /// coordinates, or the kinetic energy is not quadratic.
+  virtual std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const = 0;
 };
 
 /// Highest angular frequency that the system declares; nothing if it declares none.

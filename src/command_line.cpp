@@ -273,13 +273,21 @@ void add_stability(CLI::App& app, typed& to) {
   command.add_option("--parameters", to.parameters, "of the family, joined by commas");
   add_system(command, to.stability_system);
   add_bath(command, to.stability_system);
+  add_number(command, "--eccentricity", to.stability_system.eccentricity, "kepler: of the starts [0.6]");
+  add_number(command, "--spread", to.stability_system.spread,
+             "of the law of starts: multiplies its deviations [1]");
+  command.add_option("--start", to.stability_system.start,
+                     "law, gibbs or trajectory: as run takes it; frequencies are those of law");
   add_number(command, "--step", to.stability.step, "with --system: is the system stable there?");
+  command.add_option("--output", to.stability.output, "write trace/2 over z as CSV");
+  command.add_flag("--plot", to.stability.plot, "draw it beside the output: windows, and the system's z");
   add_common(command, to.common);
   add_force(command, to.common, "look at a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt stability --family nystrom --parameters 0.5,0.4\n"
-      "  nysalt stability --method bcss3 --system fpu --step 0.04");
+      "  nysalt stability --method bcss3 --system fpu --step 0.04\n"
+      "  nysalt stability --method mclachlan2 --system kepler --step 0.1 --output trace.csv --plot");
 }
 
 void add_reproduce(CLI::App& app, typed& to) {
@@ -349,8 +357,9 @@ int run_parsed(const CLI::App& command, typed& to) {
     return recommend(to.recommend, to.common);
   }
   to.stability.parameters = numbers(to.parameters, "--parameters");
-  for (const char* option : {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space",
-                             "--friction", "--sigma", "--temperature", "--step"}) {
+  for (const char* option :
+       {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space", "--eccentricity",
+        "--spread", "--start", "--friction", "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
   return stability(to.stability, to.common);

@@ -12,7 +12,7 @@
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"
-#include "stability.hpp"
+#include "stability_margin.hpp"
 
 namespace nysalt::program {
 
@@ -146,24 +146,6 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
   }
 }
 
-void warn_of_instability(const method_source& source, const tabulated& method, const bundled_system& system,
-                         double step, std::vector<std::string>& warnings) {
-  if (has_rotation(method.letters())) {
-    const auto objection = system.guard(true).objection(method.letters(), method.coefficients(), step);
-    if (!objection.empty()) {
-      warnings.push_back(fmt::format("{} at step {:g}: {}", source.typed, step, objection));
-    }
-    return;
-  }
-  const auto windows = stability_of(method);
-  for (const auto& [low, high] : system.frequency_bands()) {
-    if (is_stable(windows, step * low, step * high)) continue;
-    warnings.push_back(
-        fmt::format("{} is not linearly stable at step {:g} for the frequencies {:g} to {:g} of {}",
-                    source.typed, step, low, high, system.description()));
-  }
-}
-
 }  // namespace
 
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
@@ -171,7 +153,7 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
   const tabulated method =
       in_its_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
-  warn_of_instability(source, method, system, step, warnings);
+  if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;
 }
 

@@ -119,6 +119,8 @@ struct stability_command {
   std::optional<std::string> method;
   std::optional<system_settings> system;
   std::optional<double> step;
+  std::string output;
+  bool plot = false;
 };
 
 struct reproduce_command {

@@ -9,7 +9,10 @@
 
 namespace nysalt::program {
 
+stability_chart chart_of(const tabulated& method);
 std::vector<stability_window> stability_of(const tabulated& method);
 double limit_of(const tabulated& method);
+/// Of a step on the oscillator of z = h omega, without a bath.
+double half_trace_of(const tabulated& method, double z);
 
 }  // namespace nysalt::program

@@ -16,6 +16,7 @@
 #include "../progress.hpp"
 #include "../samples.hpp"
 #include "../seeds.hpp"
+#include "../stability_margin.hpp"
 #include "../stretches.hpp"
 #include "nysalt/report/plot.hpp"
 
@@ -193,6 +194,11 @@ int run(const run_command& asked, const common_settings& common) {
   const bool was_finished = its.is_finished();
   if (!was_finished || common.json) prepare_starts(*system, common, shown);
   if (!was_finished) {
+    if (const auto text = stability_warning(command.method, method, *system, plan.step, plan.seed)) {
+      warnings.push_back(*text);
+      shown.clear();
+      if (!common.json) warn(*text);
+    }
     sampled_plan sampled{plan, command.observables, command.sample_every};
     its.take_up(sampled, command.every);
     if (sampled.from.is_new()) taken.begin();

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../stability.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
 #include "../catalogue.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
+#include "../seeds.hpp"
+#include "../stability_margin.hpp"
+#include "../stability_picture.hpp"
+#include "nysalt/learning/stability_guard.hpp"
 
 namespace nysalt::program {
 
@@ -23,7 +34,9 @@ subject subject_of(const stability_command& command, const bundled_system* syste
       refuse("whose stability? Give --method NAME or FILE, or --family with --parameters");
     }
     const std::string family = command.family.value_or("nystrom");
-    return {family, family_member(family, command.parameters)};
+    const tabulated method = family_member(family, command.parameters);
+    if (system != nullptr) system->require_served(method.letters());
+    return {family, method};
   }
   if (!command.parameters.empty()) refuse("--parameters belong to a --family, not to --method");
   const method_source source = find_method(*command.method);
@@ -39,6 +52,172 @@ subject subject_of(const stability_command& command, const bundled_system* syste
          *source.family);
 }
 
+/// What is found, for programs and for people.
+struct answer {
+  json document;
+  std::string text;
+};
+
+json pairs(const auto& ranges) {
+  json all = json::array();
+  for (const auto& [low, high] : ranges) all.push_back({low, high});
+  return all;
+}
+
+std::string percent(double margin) { return fmt::format("{:.3g} %", 100.0 * margin); }
+
+answer about(const subject& its, const stability_chart& chart) {
+  const run_time_word& word = its.method.letters();
+  const int evaluations = word.evaluations_per_step;
+  answer result;
+  result.document = {{"method", its.name},
+                     {"letters", word.letters()},
+                     {"coefficients", its.method.coefficients()},
+                     {"order", its.method.order},
+                     {"evaluations_per_step", evaluations}};
+  result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", its.name, word.letters(),
+                            its.method.order, evaluations);
+  const bool rotates = has_rotation(word);
+  const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
+  const double limit = from_zero ? chart.windows.front().high : 0.0;
+  result.document["limit"] = rotates ? json() : json(limit);
+  result.document["limit_per_evaluation"] = rotates ? json() : json(limit / evaluations);
+  result.document["windows"] = pairs(chart.windows);
+  result.document["touching"] = chart.touching;
+  if (rotates) {
+    result.text +=
+        "it rotates: stable on the quadratic part at any step; what soft forces make of that depends on the "
+        "system\n";
+    return result;
+  }
+  result.text += fmt::format("stable up to z = h omega = {:.10g}, {:.10g} for each evaluation\n", limit,
+                             limit / evaluations);
+  for (const auto& [low, high] : chart.windows)
+    result.text += fmt::format("  window {:.10g} .. {:.10g}\n", low, high);
+  for (const double z : chart.touching) result.text += fmt::format("  where two touch: {:.10g}\n", z);
+  return result;
+}
+
+std::string where_from(const known_frequencies& known) {
+  std::string text = known.declared ? fmt::format("declared up to {:.6g}", *known.declared)
+                                    : std::string("no bands are declared");
+  text += fmt::format("; rare starts meet {:.6g}", known.of_law);
+  if (known.along_starts)
+    text += fmt::format("; {} starts have up to {:.6g}", known.starts, *known.along_starts);
+  return text;
+}
+
+void add_frequencies(answer& result, const known_frequencies& known, double step) {
+  json& document = result.document;
+  document["highest_frequency"] = known.highest();
+  document["highest_z"] = step * known.highest();
+  document["frequency_source"] = known.source();
+  document["declared"] = known.declared ? json(*known.declared) : json();
+  document["of_law"] = known.of_law;
+  document["along_starts"] = known.along_starts ? json(*known.along_starts) : json();
+  document["starts"] = known.starts;
+  result.text += fmt::format("  highest frequency {:.6g}, z = {:.6g} ({})\n", known.highest(),
+                             step * known.highest(), where_from(known));
+}
+
+void add_windows_of(answer& result, const judged_step& judged, const bundled_system& system, double step) {
+  json& document = result.document;
+  document["bands"] = json::array();
+  for (const auto& [band, stable, margin, touching] : judged.bands) {
+    document["bands"].push_back({{"low", band.low},
+                                 {"high", band.high},
+                                 {"stable", stable},
+                                 {"margin", margin},
+                                 {"touching", touching ? json(*touching) : json()}});
+    result.text +=
+        fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: {}, margin {}\n", band.low, band.high,
+                    system.description(), step, stable ? "stable" : "NOT stable", percent(margin));
+    if (touching) result.text += fmt::format("    but windows touch among them, at z = {:.10g}\n", *touching);
+  }
+  document["stable"] = judged.is_stable();
+  document["margin"] = judged.margin();
+  document["gaps"] = pairs(judged.gaps);
+  document["stable_steps"] = pairs(judged.stable_steps);
+  document["safe_step"] = judged.safe_step > 0.0 ? json(judged.safe_step) : json();
+  if (judged.is_stable()) {
+    for (const auto& [low, high] : judged.gaps) {
+      result.text +=
+          fmt::format("  gap {:.6g} .. {:.6g}: unstable, where the system has no frequencies\n", low, high);
+    }
+  }
+  for (const auto& [low, high] : judged.stable_steps)
+    result.text += fmt::format("  stable steps {:.6g} .. {:.6g}\n", low, high);
+  result.text += fmt::format("  {} ({} to spare)\n", advice(judged), percent(wanted_margin));
+}
+
+/// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
+struct resonance {
+  double mode;
+  double multiple;
+  double step;
+};
+std::optional<resonance> nearest_resonance(const std::vector<double>& modes, double step) {
+  std::optional<resonance> nearest;
+  for (const double omega : modes) {
+    if (!(omega > 0.0)) continue;
+    const double multiple = std::max(1.0, std::round(step * omega / std::numbers::pi));
+    const resonance one{omega, multiple, multiple * std::numbers::pi / omega};
+    if (!nearest || std::abs(one.step - step) < std::abs(nearest->step - step)) nearest = one;
+  }
+  return nearest;
+}
+
+void add_rotation(answer& result, const tabulated& method, const bundled_system& system, double step) {
+  const auto guard = system.guard(true);
+  const bool stable = guard.admits(method.letters(), method.coefficients(), step);
+  const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
+  json& document = result.document;
+  document["stable"] = stable;
+  document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
+  result.text += fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
+                             stable ? "stable" : "NOT stable", guard.description());
+  if (worst.frequency > 0.0) {
+    result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
+                               worst.frequency, worst.factor, guard.steps());
+  }
+  document["resonance"] = nullptr;
+  if (const auto nearest = nearest_resonance(guard.modes(), step)) {
+    document["resonance"] = {
+        {"mode", nearest->mode}, {"multiple", nearest->multiple}, {"step", nearest->step}};
+    result.text += fmt::format("  nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
+                               nearest->multiple, nearest->mode, nearest->step);
+  }
+}
+
+void require_output(const stability_command& command) {
+  if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
+  if (command.output.empty()) return;
+  require_writable(command.output);
+  std::error_code ignored;
+  if (command.method && std::filesystem::equivalent(*command.method, command.output, ignored)) {
+    refuse("--output {} is the file of the method: name another", command.output);
+  }
+  const std::string ending = std::filesystem::path(command.output).extension();
+  if (command.plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
+    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
+  }
+}
+
+void write_curve(const stability_command& command, const subject& its, const stability_chart& chart,
+                 const std::optional<marked_step>& marked, const common_settings& common) {
+  double highest_z = 0.0;
+  if (marked) {
+    for (const auto& band : marked->bands) highest_z = std::max(highest_z, marked->step * band.high);
+  }
+  const auto curve = stability_curve_of(its.method, chart, highest_z);
+  write_result(command.output, table_of(curve), common);
+  if (!command.plot) return;
+  const std::filesystem::path output(command.output);
+  figure picture{output.stem().string(), {stability_panel(its.name, curve, chart, marked)}};
+  for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  write_pictures(picture, folder_of(output), common);
+}
+
 }  // namespace
 
 int stability(const stability_command& command, const common_settings& common) {
@@ -46,55 +225,40 @@ int stability(const stability_command& command, const common_settings& common) {
   if (command.system && !command.step) {
     refuse("--system needs --step: together they say which frequencies must be stable");
   }
+  require_output(command);
   const auto system = command.system ? make_system(*command.system) : nullptr;
-  if (system && system->frequency_bands().empty()) {
-    refuse("{} declares no frequencies to be stable for: ask without --system", system->description());
-  }
   std::vector<std::string> warnings;
-  const auto [name, method] = subject_of(command, system.get(), common.force, warnings);
-  if (has_rotation(method.letters())) {
-    refuse(
-        "{} rotates: it is exact on the quadratic part at any step, and what soft forces make of that "
-        "depends on "
-        "the system; learn and recommend guard against it",
-        name);
+  const subject its = subject_of(command, system.get(), common.force, warnings);
+  const bool rotates = has_rotation(its.method.letters());
+  if (rotates && !command.output.empty()) {
+    refuse("{} rotates: its trace/2 is cos z, and there is nothing to draw; leave --output away", its.name);
   }
-  const auto windows = stability_of(method);
-  const bool from_zero = !windows.empty() && windows.front().low == 0.0;
-  const double limit = from_zero ? windows.front().high : 0.0;
-  const int evaluations = method.letters().evaluations_per_step;
-  json result{{"method", name},
-              {"letters", method.letters().letters()},
-              {"coefficients", method.coefficients()},
-              {"order", method.order},
-              {"evaluations_per_step", evaluations},
-              {"limit", limit},
-              {"limit_per_evaluation", limit / evaluations},
-              {"windows", json::array()}};
-  for (const auto& [low, high] : windows) result["windows"].push_back({low, high});
-  std::string text = fmt::format("{}: {}, order {}, {} evaluations a step\n", name,
-                                 method.letters().letters(), method.order, evaluations);
-  text += fmt::format("stable up to z = h omega = {:.10g}, {:.10g} for each evaluation\n", limit,
-                      limit / evaluations);
-  for (const auto& [low, high] : windows) text += fmt::format("  window {:.10g} .. {:.10g}\n", low, high);
+  const stability_chart chart = rotates ? stability_chart() : chart_of(its.method);
+  answer result = about(its, chart);
+  std::optional<marked_step> marked;
   if (system) {
-    json bands = json::array();
-    for (const auto& [low, high] : system->frequency_bands()) {
-      const bool stable = is_stable(windows, *command.step * low, *command.step * high);
-      bands.push_back({{"low", low}, {"high", high}, {"stable", stable}});
-      text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: {}\n", low, high,
-                          system->description(), *command.step, stable ? "stable" : "NOT stable");
+    result.document["system"] = system->description();
+    result.document["step"] = *command.step;
+    if (rotates) {
+      add_rotation(result, its.method, *system, *command.step);
+    } else {
+      constexpr std::uint64_t starts = 64;
+      const auto known = frequencies_along_starts(*system, seed_for(role::test, common.seed), starts);
+      add_frequencies(result, known, *command.step);
+      add_windows_of(result, judge(chart, known, *command.step), *system, *command.step);
+      marked = {system->description(), *command.step, known.bands};
     }
-    result["system"] = system->description();
-    result["step"] = *command.step;
-    result["bands"] = bands;
+    result.document["warnings"] = warnings;
   }
-  if (common.json) {
-    if (system) result["warnings"] = warnings;
-  } else {
+  if (!command.output.empty()) {
+    write_curve(command, its, chart, marked, common);
+    result.document["output"] = command.output;
+    result.text += fmt::format("Written: {}\n", command.output);
+  }
+  if (!common.json) {
     for (const auto& warning : warnings) warn(warning);
   }
-  print(common.json ? text_of(result) : text);
+  print(common.json ? text_of(result.document) : result.text);
   return done;
 }
 

@@ -202,6 +202,14 @@ BOOST_AUTO_TEST_CASE(impulses_are_refused_at_resonances_alone) {
       BOOST_TEST(guard.admits(impulse, halves, (at + 0.1) * resonance));
     }
   }
+  // Of the two modes the stiff one is magnified, and beside the resonance none.
+  const auto most = guard.most_magnified(impulse, halves, resonance);
+  BOOST_TEST(std::abs(most.frequency - 50.0) < 1e-9);
+  BOOST_TEST(most.factor > 3.0);
+  const auto first = guard.most_magnified(impulse, halves, resonance, 1.5);
+  BOOST_TEST(first.factor > 1.5);
+  BOOST_TEST(first.factor <= most.factor);
+  BOOST_TEST(guard.most_magnified(impulse, halves, 0.9 * resonance).factor <= 3.0);
   // In ten steps nothing comes of it.
   BOOST_TEST(guard_of_rotations(10).admits(impulse, halves, resonance));
   // The soft modes make it unstable themselves: h sqrt(kappa) > 2.

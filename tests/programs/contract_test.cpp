@@ -201,17 +201,33 @@ BOOST_AUTO_TEST_CASE(run_gives_samples) {
 BOOST_AUTO_TEST_CASE(stability_gives_windows) {
   const std::string plain =
       "method:text letters:text coefficients:list order:integer evaluations_per_step:integer limit:number "
-      "limit_per_evaluation:number windows:list";
+      "limit_per_evaluation:number windows:list touching:list";
   const auto all = document("stability --method verlet");
   BOOST_TEST(shape(all) == plain);
   BOOST_TEST(all["windows"].dump() == "[[0.0,2.0]]");
   BOOST_TEST(shape(document("stability --family nystrom --parameters 0.5,0.4")) == plain);
   const auto of_system = document("stability --method verlet --system fpu --step 0.05");
-  BOOST_TEST(shape(of_system) == plain + " system:text step:number bands:list warnings:list");
+  BOOST_TEST(shape(of_system) ==
+             plain +
+                 " system:text step:number highest_frequency:number highest_z:number "
+                 "frequency_source:text declared:number of_law:number along_starts:number starts:integer "
+                 "bands:list stable:flag margin:number gaps:list stable_steps:list safe_step:number "
+                 "warnings:list");
   for (const auto& band : of_system["bands"]) {
-    BOOST_TEST(shape(band) == "low:number high:number stable:flag");
+    BOOST_TEST(shape(band) == "low:number high:number stable:flag margin:number touching:null");
     BOOST_TEST(band["stable"] == (band["high"] <= 2.0 / 0.05));
   }
+}
+
+BOOST_AUTO_TEST_CASE(stability_of_words_that_rotate) {
+  const auto all = document("stability --method impulse --system fpu --step 0.03");
+  BOOST_TEST(
+      shape(all) ==
+      "method:text letters:text coefficients:list order:integer evaluations_per_step:integer limit:null "
+      "limit_per_evaluation:null windows:list touching:list system:text step:number stable:flag "
+      "magnification:object resonance:object warnings:list");
+  BOOST_TEST(shape(all["magnification"]) == "mode:number factor:number steps:integer");
+  BOOST_TEST(shape(all["resonance"]) == "mode:number multiple:number step:number");
 }
 
 BOOST_AUTO_TEST_CASE(without_json_it_is_for_people) {

@@ -191,3 +191,32 @@ BOOST_AUTO_TEST_CASE(names_hold_nothing_that_a_shell_reads) {
     BOOST_TEST(folder.files().contains(std::string(name) + ".svg") == has_gnuplot);
   }
 }
+
+BOOST_AUTO_TEST_CASE(stretches_are_shaded_behind_the_curves) {
+  const scratch folder("plot");
+  panel one;
+  one.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
+  one.stretches = {{"calm", 0.0, 0.5}, {"calm", 1.0, 1.5}, {"it's wild", 0.25, 0.3}};
+  panel other;
+  other.curves.push_back({"b", {0, 1}, {1, 2}});
+  BOOST_TEST(draw({"shaded", {one, other}}, folder.path()) == has_gnuplot);
+  const auto script = contents(folder / "shaded.gp");
+  for (const char* words : {"set object 1 rectangle from first 0, graph 0 to first 0.5, graph 1 behind",
+                            "set object 3 rectangle from first 0.25,", "title 'it''s wild'"}) {
+    BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
+  }
+  // A label has one entry in the key, and the next panel has none of it.
+  BOOST_TEST(script.find("title 'calm'") == script.rfind("title 'calm'"));
+  BOOST_TEST(script.find("unset object", script.find("set object 3")) != std::string::npos);
+  BOOST_TEST(script.find("set object 4") == std::string::npos);
+}
+
+// Points of size 0 are a matrix without an inverse, at which librsvg gives up.
+BOOST_AUTO_TEST_CASE(levels_are_drawn_as_all_can_read_them) {
+  const scratch folder("plot");
+  panel one;
+  one.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
+  one.levels = {{"high", 3.0}};
+  draw({"levels", {one}}, folder.path());
+  if (has_gnuplot) BOOST_TEST(contents(folder / "levels.svg").find("scale(0.00)") == std::string::npos);
+}

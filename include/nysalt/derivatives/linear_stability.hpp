@@ -14,6 +14,7 @@
 #include "nysalt/derivatives/stability_window.hpp"
 #include "nysalt/derivatives/turning_points.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/series.hpp"
 
 namespace nysalt {
@@ -59,12 +60,12 @@ inline constexpr int stability_degree<W> = static_cast<int>(W::slots);
 
 }  // namespace detail
 
-/// All windows, from small z to large. Their ends are roots of trace/2 = +-1; windows that touch where the
-/// matrix is +-I are one. Cost: some thousand steps on an oscillator.
-/// Throws std::invalid_argument if a run-time word has more than 64 evaluations a step, or where it rotates.
+/// All windows. Their ends are roots of trace/2 = +-1; windows that touch where the matrix is +-I are one.
+/// Cost: some thousand steps on an oscillator. Throws std::invalid_argument if a run-time word has more than
+/// 64 evaluations a step, or where it rotates.
 template <Word W>
-std::vector<stability_window> stability_windows(
-    const W& word, const typename W::template coefficients<double>& coefficients) {
+stability_chart chart_stability(const W& word,
+                                const typename W::template coefficients<double>& coefficients) {
   if (has_rotation(word)) {
     throw std::invalid_argument(fmt::format(
         "the word {} is exact on the oscillator at any step: only its soft part can make it unstable",
@@ -131,7 +132,8 @@ std::vector<stability_window> stability_windows(
   }
   std::sort(edges.begin(), edges.end());
 
-  std::vector<stability_window> windows;
+  stability_chart chart;
+  auto& windows = chart.windows;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double low = edges[i];
     const double high = edges[i + 1];
@@ -143,13 +145,26 @@ std::vector<stability_window> stability_windows(
     const bool adjoins = !windows.empty() && windows.back().high == low;
     if (adjoins && identity) {
       windows.back().high = high;
+      chart.touching.push_back(z);
     } else {
       windows.push_back({low, high});
     }
   }
   for (auto& window : windows) window = {std::sqrt(window.low), std::sqrt(window.high)};
-  return windows;
+  return chart;
 }
+
+/// The windows alone.
+template <Word W>
+std::vector<stability_window> stability_windows(
+    const W& word, const typename W::template coefficients<double>& coefficients) {
+  return chart_stability(word, coefficients).windows;
+}
+
+#if defined NYSALT_COMPILED_ONCE
+extern template stability_chart chart_stability<run_time_word>(const run_time_word&,
+                                                               const std::vector<double>&);
+#endif
 
 template <Method M>
 std::vector<stability_window> stability_windows(const M& method) {

@@ -81,4 +81,19 @@ inline std::string key_entry(const panel& its, std::size_t j) {
   return result + " title " + quoted(one.label);
 }
 
+/// How the stretches of a label look: the first light and without a border, the next dark with one.
+inline std::string look_of_stretches(std::size_t label) {
+  if (label == 0) return "fc '#dcebdc' fs solid 1 noborder";
+  return "fc '#56B4E9' fs transparent solid 0.5 border lc '#0072B2'";
+}
+
+/// Numbers of labels, in the order of their first stretches.
+inline std::vector<std::string> labels_of_stretches(const panel& its) {
+  std::vector<std::string> labels;
+  for (const auto& one : its.stretches) {
+    if (std::find(labels.begin(), labels.end(), one.label) == labels.end()) labels.push_back(one.label);
+  }
+  return labels;
+}
+
 }  // namespace nysalt::detail

@@ -25,6 +25,14 @@ struct level {
   double y;
 };
 
+/// A part of the x axis, shaded over the whole height. Those of one label have one colour, and one entry in
+/// the key.
+struct stretch {
+  std::string label;
+  double low;
+  double high;
+};
+
 struct panel {
   std::string title;
   std::string x_label;
@@ -35,6 +43,7 @@ struct panel {
   bool linear_y = false;  // where log_log would be, of what does not go to 0
   bool points = false;    // where axes are plain: points with bars as well as lines
   std::vector<level> levels{};
+  std::vector<stretch> stretches{};
 };
 
 struct figure {

@@ -41,7 +41,7 @@ inline std::string plot_data(const figure& f) {
 inline std::string plot_command(const panel& its, const std::string& name, std::size_t first_block) {
   std::vector<std::string> elements;
   for (const auto& level : its.levels) {  // unseen: for the range; what is seen is an arrow, of full width
-    elements.push_back(fmt::format("{:.10g} with points pt 7 ps 0 lc 'white' notitle", level.y));
+    elements.push_back(fmt::format("{:.10g} with dots lc 'white' notitle", level.y));
   }
   const auto draw_if = [&](auto wanted) {
     for (std::size_t j = 0; j < its.curves.size(); ++j) {
@@ -54,6 +54,11 @@ inline std::string plot_command(const panel& its, const std::string& name, std::
   draw_if([](const curve& c) { return !c.front && !c.emphasised; });
   draw_if([](const curve& c) { return !c.front && c.emphasised; });
   for (std::size_t j = 0; j < its.curves.size(); ++j) elements.push_back(key_entry(its, j));
+  const auto labels = labels_of_stretches(its);
+  for (std::size_t j = 0; j < labels.size(); ++j) {
+    elements.push_back(
+        fmt::format("keyentry with boxes {} title {}", look_of_stretches(j), quoted(labels[j])));
+  }
   return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
 }
 
@@ -72,6 +77,20 @@ inline int key_width(const figure& f) {
   return static_cast<int>(width) * static_cast<int>(f.panels.size());
 }
 
+/// Behind all else; the later over the earlier.
+inline std::string stretches(const panel& its) {
+  const auto labels = labels_of_stretches(its);
+  std::string text = "unset object\n";
+  for (std::size_t i = 0; i < its.stretches.size(); ++i) {
+    const auto& one = its.stretches[i];
+    const auto label = std::find(labels.begin(), labels.end(), one.label) - labels.begin();
+    text += fmt::format(
+        "set object {} rectangle from first {:.10g}, graph 0 to first {:.10g}, graph 1 behind clip {}\n",
+        i + 1, one.low, one.high, look_of_stretches(static_cast<std::size_t>(label)));
+  }
+  return text;
+}
+
 inline std::string axes(const panel& its) {
   std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(its.title),
                                  quoted(its.x_label), quoted(its.y_label));
@@ -83,7 +102,7 @@ inline std::string axes(const panel& its) {
                       : "set autoscale x\nset offsets 0, 0, 0, 0\n";
   text += has_key_beside(its) ? "set key outside right top vertical Left reverse samplen 4\n"
                               : "set key outside top center horizontal Right noreverse samplen 4\n";
-  text += "unset label\nunset arrow\n";
+  text += "unset label\nunset arrow\n" + stretches(its);
   bool at_right = true;  // levels may be close: their names stand at the two ends in turn
   for (const auto& level : its.levels) {
     text += fmt::format(

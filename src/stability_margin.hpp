@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+// How far a step is from being unstable for a system, as far as its frequencies are known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bundled_system.hpp"
+#include "nysalt/derivatives/stability_margin.hpp"
+
+namespace nysalt::program {
+
+/// What a step should leave to the end of its window. Where a nonlinear oscillator turns by a third a step,
+/// Verlet at z = sqrt 3, 13 % below its end, the pendulum's swings are lost already, though linear ones are
+/// not.
+inline constexpr double wanted_margin = 0.15;
+
+/// Angular frequencies that a system is asked to be stable for: its bands, and 0 to the highest where it
+/// declares none. The last band goes up to the highest of what is known beside.
+struct known_frequencies {
+  std::vector<frequency_band> bands;
+  std::optional<double> declared;  // these three: the highest, by where it is known from
+  double of_law;
+  std::optional<double> along_starts;
+  std::uint64_t starts = 0;
+
+  double highest() const;
+  /// "declared", or else.
+  std::string source() const;
+};
+/// What is known without work.
+known_frequencies frequencies_of(const bundled_system& system);
+/// And along so many of its starts, if that is not dear.
+known_frequencies frequencies_along_starts(const bundled_system& system, std::uint64_t seed,
+                                           std::uint64_t count);
+
+struct judged_band {
+  frequency_band band;
+  bool stable;
+  double margin;                   // see stability_margin()
+  std::optional<double> touching;  // z within 2 % of it, where two windows touch
+};
+
+struct judged_step {
+  std::vector<judged_band> bands;
+  std::vector<stability_window> gaps;  // below the highest z
+  std::vector<step_range> stable_steps;
+  double safe_step;  // nothing below it is unstable, or touches, on 0 to the highest; with wanted_margin to
+                     // spare. 0 if there is none
+
+  bool is_stable() const;
+  double margin() const;  // the least
+};
+judged_step judge(const stability_chart& chart, const known_frequencies& frequencies, double step);
+
+/// "a safe step is 0.0337"
+std::string advice(const judged_step& judged);
+
+/// One sentence where the step is unstable on what is known without work, or of a word that rotates, where
+/// soft forces magnify a mode.
+std::optional<std::string> instability(const std::string& name, const tabulated& method,
+                                       const bundled_system& system, double step);
+
+/// One sentence where it is stable on that, but near the end of a window, or on frequencies where two touch;
+/// or not stable any more on those of the first starts of a seed. Cost: where there are at most a thousand
+/// coordinates, some hundred force evaluations for each of 16 starts; else nothing.
+std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
+                                             const bundled_system& system, double step, std::uint64_t seed);
+
+}  // namespace nysalt::program
