@@ -28,10 +28,10 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
+#include "stretches.hpp"
 
 namespace nysalt::program {
 
@@ -282,15 +282,14 @@ class bundled_model final : public bundled_system {
                        reference().fine_step_for_statistics(step, fine_step));
   }
 
-  void run(const tabulated& method, const trajectories_plan& plan,
-           const std::vector<std::string>& observables, std::int64_t sample_every,
+  void run(const tabulated& method, const sampled_plan& plan,
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    if (plan.count < width / 4 || size(system_) > 20'000) {
-      run_over<double>(method, plan, observables, sample_every, take, progress);
+    if (plan.trajectories.count < width / 4 || size(system_) > 20'000) {
+      run_over<double>(method, plan, take, progress);
     } else {
-      run_over<T>(method, plan, observables, sample_every, take, progress);
+      run_over<T>(method, plan, take, progress);
     }
   }
 
@@ -318,41 +317,60 @@ class bundled_model final : public bundled_system {
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
 
   template <class P>
-  void run_over(const tabulated& method, const trajectories_plan& plan,
-                const std::vector<std::string>& observables, std::int64_t sample_every,
+  void run_over(const tabulated& method, const sampled_plan& plan,
                 const std::function<void(std::int64_t, const record&)>& take, const counter& progress) const {
     using states = phase_point<P, S::dimension>;
     std::vector<std::function<P(const states&)>> watched;
-    for (const auto& name : observables) watched.push_back(observable<P>(system_, name));
+    for (const auto& name : plan.observables) watched.push_back(observable<P>(system_, name));
     const auto read = [&](const states& x, std::span<P> values) {
       for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
     };
-    const auto stepper = make_stepper(system_, method, plan.step, counter_noise(plan.seed));
+    const trajectories_plan& all = plan.trajectories;
+    const auto stepper = make_stepper(system_, method, all.step, counter_noise(all.seed));
+    const stretches its(all.steps, plan.stretch);
     // In memory at a time: a million numbers, or a few blocks of long trajectories.
-    const std::int64_t numbers = (plan.steps / sample_every + 1) * std::ssize(observables);
+    const std::int64_t numbers =
+        (its.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system_);
     const std::int64_t at_a_time =
-        std::max<std::int64_t>(plan.threads, 1'000'000 / numbers / lanes_in<P>) * lanes_in<P>;
-    for (std::int64_t first = 0; first < plan.count; first += at_a_time) {
-      const std::int64_t count = std::min(at_a_time, plan.count - first);
-      std::vector<record> records(static_cast<std::size_t>(count));
-      const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
-        auto& its = records[static_cast<std::size_t>(m - first)].values;
-        its.insert(its.end(), values.begin(), values.end());
-      };
-      const ensemble_options options{.trajectories = count,
-                                     .steps = plan.steps,
-                                     .every = sample_every,
-                                     .seed = plan.seed,
-                                     .threads = plan.threads,
-                                     .first = first,
-                                     .progress = [&](std::int64_t done) {
-                                       if (progress) progress(first + done);
-                                     }};
-      const auto diverged_at = integrate_ensemble<P>(stepper, *starts_, options, watched.size(), read, keep);
-      for (std::size_t i = 0; i < records.size(); ++i) {
-        records[i].diverged_at = diverged_at[i];
-        take(first + static_cast<std::int64_t>(i), records[i]);
+        std::max<std::int64_t>(all.threads, 1'000'000 / numbers / lanes_in<P>) * lanes_in<P>;
+    standing at = plan.from;
+    while (at.first < all.count) {
+      const bool is_under_way = !at.wave.diverged_at.empty();
+      const std::int64_t count =
+          is_under_way ? std::ssize(at.wave.diverged_at) : std::min(at_a_time, all.count - at.first);
+      using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
+      auto runs = is_under_way ? wave(stepper, *starts_, all.seed, at.first, count, at.wave, all.threads)
+                               : wave(stepper, *starts_, all.seed, at.first, count, all.threads);
+      while (runs.step() < all.steps) {
+        std::vector<record> records(static_cast<std::size_t>(count));
+        const std::int64_t before = is_under_way || runs.step() > 0 ? runs.step() : -1;
+        for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
+        const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
+          auto& of_one = records[static_cast<std::size_t>(m - at.first)].values;
+          of_one.insert(of_one.end(), values.begin(), values.end());
+        };
+        const std::int64_t end = its.end_after(runs.step());
+        const auto share = [&](std::int64_t step) {
+          return static_cast<double>(step) / static_cast<double>(all.steps);
+        };
+        const auto tell = [&](std::int64_t done) {
+          if (!progress) return;
+          const double of_wave = static_cast<double>(count) * share(runs.step()) +
+                                 static_cast<double>(done) * share(end - runs.step());
+          const double of_all = static_cast<double>(at.first) + of_wave;
+          progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
+        };
+        runs.go_on(end, plan.every, watched.size(), read, keep, all.threads, tell);
+        for (std::size_t i = 0; i < records.size(); ++i) {
+          const std::int64_t m = at.first + static_cast<std::int64_t>(i);
+          const auto lost = runs.diverged_at(m);
+          if (lost && *lost > before) records[i].diverged_at = lost;
+          if (!records[i].values.empty() || records[i].diverged_at) take(m, records[i]);
+        }
+        if (end < all.steps && plan.reached) plan.reached({at.first, runs.save()});
       }
+      at = {at.first + count, {}};
+      if (plan.reached) plan.reached(at);
     }
   }
 

@@ -16,6 +16,7 @@
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
+#include "nysalt/ensemble_run.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/fit_summary.hpp"
@@ -59,10 +60,30 @@ struct learned_scheme {
   std::optional<energy_range> energies;  // of the training data
 };
 
-/// Samples of a trajectory: values of all observables at steps 0, every, 2 every, ...
+/// Samples of a trajectory: values of all observables at steps first, first + every, ...
 struct record {
-  std::vector<double> values;
-  std::optional<std::int64_t> diverged_at;
+  std::int64_t first = 0;
+  std::vector<double> values = {};
+  std::optional<std::int64_t> diverged_at = {};  // beyond `first`
+};
+
+/// How far a run is: trajectories before `first` are finished; those after it are as they were saved, and if
+/// none were, they have not begun.
+struct standing {
+  std::int64_t first = 0;
+  saved_runs wave = {};
+
+  bool is_new() const { return first == 0 && wave.diverged_at.empty(); }
+};
+
+/// What is sampled along the trajectories of a plan.
+struct sampled_plan {
+  trajectories_plan trajectories;
+  std::vector<std::string> observables;
+  std::int64_t every = 1;
+  std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
+  standing from = {};
+  std::function<void(const standing&)> reached = {};  // told after each stretch
 };
 
 /// What is gathered along the trajectories of a plan, sampled every so many steps.
@@ -147,9 +168,9 @@ class bundled_system {
   virtual std::optional<double> fine_step_for_ranking(double step) const = 0;
   virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
-  /// Hands the records over in the order of the trajectories; few are in memory at a time.
-  virtual void run(const tabulated& method, const trajectories_plan& plan,
-                   const std::vector<std::string>& observables, std::int64_t sample_every,
+  /// Hands records over, wave by wave of as many trajectories as fit into memory; in a wave stretch by
+  /// stretch, and in that in the order of the trajectories. Progress is told in thousandths.
+  virtual void run(const tabulated& method, const sampled_plan& plan,
                    const std::function<void(std::int64_t, const record&)>& take,
                    const counter& progress) const = 0;
 

@@ -185,13 +185,19 @@ void add_run(CLI::App& app, typed& to) {
   add_number(command, "--sample-every", to.run.sample_every, "so many steps");
   command.add_option("--output", to.run.output, "CSV file [standard output]");
   command.add_flag("--plot", to.run.plot, "draw the first trajectory beside the output");
+  command.add_option("--checkpoint", to.run.checkpoint, "file to go on from if the run is stopped");
+  add_number(command, "--every", to.run.every, "so many steps a checkpoint is made");
+  command.add_flag("--resume", to.run.resume, "go on from the checkpoint");
   add_common(command, to.common);
   add_force(command, to.common, "run a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt run --system fpu --method verlet --step 0.01 --horizon 1 --sample-every 10\n"
       "  nysalt run --system pendulum --method srkn6b --step 0.5 --horizon 100 --trajectories 8 "
-      "--observables energy,q1 --output out.csv");
+      "--observables energy,q1 --output out.csv\n"
+      "  nysalt run --system fpu --method verlet --step 0.001 --horizon 1e5 --sample-every 1000 --output "
+      "out.csv "
+      "--checkpoint out.checkpoint --every 1000000");
 }
 
 void add_compare(CLI::App& app, typed& to) {

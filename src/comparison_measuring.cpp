@@ -15,11 +15,6 @@ namespace nysalt::program {
 
 namespace {
 
-std::string all_diverged(const std::vector<diverged_trajectory>& all) {
-  const auto earliest = std::ranges::min(all, {}, &diverged_trajectory::step);
-  return fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
-}
-
 std::vector<row*> usable(const std::vector<row*>& all) {
   std::vector<row*> result;
   for (row* its : all) {
@@ -181,8 +176,8 @@ namespace {
 json findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
   json result = json::array();
   for (const method_error& its : all) {
-    finding one{.value = its.error, .diverged = its.diverged};
-    if (its.diverged == trajectories) one.reason = all_diverged(its.diverged_at);
+    finding one{.value = its.error};
+    one.lose(its.diverged_at, trajectories);
     result.push_back(to_json(one));
   }
   return result;
@@ -256,8 +251,8 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
     for (const row* its : all) {
       const auto accepted = system_->acceptance(*its->coefficients, plan_at(step), command_.hmc_temperature,
                                                 shown_.counter(command_.trajectories));
-      finding one{.value = accepted.probability, .diverged = std::ssize(accepted.diverged_at)};
-      if (one.diverged == command_.trajectories) one.reason = all_diverged(accepted.diverged_at);
+      finding one{.value = accepted.probability};
+      one.lose(accepted.diverged_at, command_.trajectories);
       findings.push_back(to_json(one));
     }
     return json{{"behind", to_json(backdrop{})}, {"findings", findings}};

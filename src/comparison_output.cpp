@@ -194,6 +194,7 @@ json row_json(const comparison& all, std::size_t m, const row& its) {
               {metric.value(), one.value.mean},
               {"standard_error", one.value.standard_error},
               {"diverged", one.diverged},
+              {"diverged_at", to_json(one.diverged_at)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
   if (!one.reason.empty()) result["reason"] = one.reason;

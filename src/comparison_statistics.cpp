@@ -211,13 +211,9 @@ finding comparison::law_of(std::size_t metric, const row& its, std::span<const g
   shown_.part(fmt::format("{} at step {:g}", its.method, its.nominal), work_of_law(its.evaluations_per_time));
   const auto found = system_->statistics(*its.coefficients, plan, metrics_[metric].observable,
                                          shown_.counter(plan.trajectories.count));
-  finding one{.diverged = std::ssize(found.lost), .law = drawn(found)};
-  if (found.counted > 0) {
-    one.value = distance_to(found, all);
-    return one;
-  }
-  const auto earliest = std::ranges::min(found.lost, {}, &lost_trajectory::step);
-  one.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+  finding one{.law = drawn(found)};
+  one.lose(found.lost, plan.trajectories.count);
+  if (found.counted > 0) one.value = distance_to(found, all);
   return one;
 }
 

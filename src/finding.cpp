@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "finding.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -78,8 +81,26 @@ drawn_law drawn(const gathered_statistics& found) {
   return result;
 }
 
+void finding::lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories) {
+  constexpr std::size_t enough = 100;
+  diverged = std::ssize(lost);
+  diverged_at.assign(lost.begin(), lost.begin() + static_cast<std::ptrdiff_t>(std::min(lost.size(), enough)));
+  if (diverged < trajectories) return;
+  const auto earliest = std::ranges::min(lost, {}, &diverged_trajectory::step);
+  reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+}
+
+json to_json(const std::vector<diverged_trajectory>& lost) {
+  json result = json::array();
+  for (const auto& one : lost) result.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
+  return result;
+}
+
 json to_json(const finding& its) {
-  json result{{"value", to_json(its.value)}, {"reason", its.reason}, {"diverged", its.diverged}};
+  json result{{"value", to_json(its.value)},
+              {"reason", its.reason},
+              {"diverged", its.diverged},
+              {"diverged_at", to_json(its.diverged_at)}};
   if (its.law) result["law"] = to_json(*its.law);
   return result;
 }
@@ -88,6 +109,9 @@ finding finding_from(const json& text) {
   finding its{.value = estimate_from(text.at("value")),
               .reason = text.at("reason").get<std::string>(),
               .diverged = text.at("diverged").get<std::int64_t>()};
+  for (const auto& one : text.at("diverged_at")) {
+    its.diverged_at.push_back({one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
+  }
   if (text.contains("law")) its.law = law_from(text.at("law"));
   return its;
 }

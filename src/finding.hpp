@@ -12,6 +12,7 @@
 #include "json.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
+#include "nysalt/divergence.hpp"
 
 namespace nysalt::program {
 
@@ -31,7 +32,11 @@ struct finding {
   estimate value{};         // an error; of the metric acceptance that
   std::string reason = {};  // why there is none
   std::int64_t diverged = 0;
+  std::vector<diverged_trajectory> diverged_at{};  // the first hundred, in the order of their numbers
   std::optional<drawn_law> law{};
+
+  /// Of so many trajectories; says why if none is left.
+  void lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories);
 };
 
 /// What the findings at one step are seen against, by one metric. What a metric has not is left out.
@@ -47,6 +52,7 @@ struct backdrop {
 /// By the index of the metric, and the size of the step.
 using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
 
+json to_json(const std::vector<diverged_trajectory>& lost);
 json to_json(const finding& its);
 json to_json(const backdrop& its);
 finding finding_from(const json& text);

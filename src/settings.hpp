@@ -71,6 +71,9 @@ struct run_command {
   std::int64_t sample_every = 1;
   std::string output;
   bool plot = false;
+  std::string checkpoint;
+  std::optional<std::int64_t> every;  // steps between checkpoints
+  bool resume = false;
 };
 
 struct compare_command {

@@ -26,7 +26,7 @@ const std::vector<std::vector<std::string>> layers{
     {"langevin", "family", "families/", "run_time_family", "theta_curve", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "ensemble", "ensembles/", "ensemble_loop",
-     "integrate_ensemble", "flow_map_data"},
+     "integrate_ensemble", "ensemble_run", "flow_map_data"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},
     {"report/"},

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "nysalt/divergence.hpp"
@@ -40,6 +41,23 @@ class lockstep {
         good_(run_),
         diverged_(stepper.system(), start),
         live_(first_lanes<T>(count)) {}
+
+  using losses = std::array<std::optional<std::int64_t>, lanes>;  // the step at which a lane diverged
+
+  /// Takes up what was put away: open() and diverged_at() of trajectories that began at `start`. If it was
+  /// put away at a step that steps_between_checks divides, it goes on as if nothing had happened, to the bit.
+  lockstep(const Stepper& stepper, const state& start, int count, open_run<T, dimension> run,
+           const losses& diverged_at)
+      : stepper_(&stepper),
+        run_(std::move(run)),
+        good_(run_),
+        diverged_(stepper.system(), start),
+        live_(first_lanes<T>(count)),
+        diverged_at_(diverged_at) {
+    for (int k = 0; k < count; ++k) {
+      if (this->diverged_at(k)) set_lane(live_, k, false);
+    }
+  }
 
   /// Goes on to step `end`, unless no lane is live any more. At each step n that `every` divides, read(x, r)
   /// writes `width` numbers of the state to r, a span, a few steps ahead perhaps and of lost lanes too;
@@ -73,6 +91,7 @@ class lockstep {
   }
 
   std::int64_t step() const { return run_.step; }
+  const open_run<T, dimension>& open() const { return run_; }
   /// Of lanes that diverged nothing is known but when.
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }
@@ -110,7 +129,7 @@ class lockstep {
   open_run<T, dimension> good_;
   divergence<typename Stepper::system_type, T> diverged_;
   condition live_;
-  std::array<std::optional<std::int64_t>, lanes> diverged_at_{};
+  losses diverged_at_{};
   std::vector<T> seen_;
 };
 

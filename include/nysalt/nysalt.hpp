@@ -29,6 +29,7 @@
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"

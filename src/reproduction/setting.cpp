@@ -106,8 +106,8 @@ std::vector<record> followed(const setting& its, const bundled_system& system, c
                              const std::vector<std::string>& observables) {
   std::vector<record> all;
   const auto keep = [&](std::int64_t, const record& one) { all.push_back(one); };
-  system.run(method, plan_of(its, step, horizon, trajectories), observables, std::llround(sample / step),
-             keep, {});
+  const trajectories_plan plan = plan_of(its, step, horizon, trajectories);
+  system.run(method, {plan, observables, std::llround(sample / step)}, keep, {});
   return all;
 }
 

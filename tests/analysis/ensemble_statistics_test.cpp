@@ -64,7 +64,7 @@ bool equal(const estimate& a, const estimate& b) {
   return a.mean == b.mean && a.standard_error == b.standard_error;
 }
 bool equal(const gathered_statistics& a, const gathered_statistics& b) {
-  const auto same = [](const lost_trajectory& x, const lost_trajectory& y) {
+  const auto same = [](const diverged_trajectory& x, const diverged_trajectory& y) {
     return x.trajectory == y.trajectory && x.step == y.step;
   };
   const auto counts = a.histogram->counts();

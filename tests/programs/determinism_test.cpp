@@ -58,6 +58,8 @@ BOOST_AUTO_TEST_CASE(some_and_all_of_the_unstable_runs_diverge) {
   BOOST_TEST(diverged(lines[5]) == 23U);
   const auto errors = json_of(run(lines[7] + " --json"));
   BOOST_TEST(errors["rows"][0]["diverged"] > 0);
+  BOOST_TEST(errors["rows"][0]["diverged_at"].size() == errors["rows"][0]["diverged"]);
+  BOOST_TEST(errors["rows"][0]["diverged_at"][0]["step"] > 0);
   BOOST_TEST(errors["rows"][0]["diverged"] < 40);
 }
 

@@ -14,19 +14,15 @@
 #include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/statistics_along.hpp"
+#include "nysalt/divergence.hpp"
 
 namespace nysalt {
 
-struct lost_trajectory {
-  std::int64_t trajectory;
-  std::int64_t step;
-};
-
 /// What was not wanted is empty or NaN.
 struct gathered_statistics {
-  std::int64_t counted = 0;           // trajectories that reached their end
-  std::int64_t samples = 0;           // of each of them
-  std::vector<lost_trajectory> lost;  // in the order of their numbers
+  std::int64_t counted = 0;               // trajectories that reached their end
+  std::int64_t samples = 0;               // of each of them
+  std::vector<diverged_trajectory> lost;  // in the order of their numbers
   std::optional<nysalt::histogram> histogram;
   std::vector<nysalt::histogram> histogram_of_groups;  // 33 to 64 groups of trajectories, for a jackknife
   std::optional<nysalt::autocovariance> autocovariance;

@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "nysalt/analysis/error_sum.hpp"
+#include "nysalt/divergence.hpp"
 
 namespace nysalt {
-
-/// A trajectory that a method could not follow, and the step at which that was seen.
-struct diverged_trajectory {
-  std::int64_t trajectory;
-  std::int64_t step;
-};
 
 struct method_error {
   estimate error;                                // over the trajectories that did not diverge

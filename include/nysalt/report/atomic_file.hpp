@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 namespace nysalt {
 
-/// A file that is there whole or not at all: what is written goes into NAME.PROCESS.part, and commit()
+/// A file that is there whole or not at all: what is written goes into NAME.WRITER.part, and commit()
 /// renames it. Without a commit nothing of it is left, and programs that write the same file at once do not
-/// mix.
+/// mix, as the writer is the process.
 class atomic_file {
  public:
   /// Throws std::runtime_error if it cannot be made.
-  explicit atomic_file(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
-    part_ += fmt::format(".{}.part", getpid());
+  explicit atomic_file(std::filesystem::path path, const std::string& writer = std::to_string(getpid()))
+      : path_(std::move(path)), part_(path_) {
+    part_ += fmt::format(".{}.part", writer);
     stream_.open(part_, std::ios::binary | std::ios::trunc);
     if (!stream_) fail();
   }
@@ -38,16 +41,25 @@ class atomic_file {
     if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
   }
 
-  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was.
-  void commit() {
+  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was. If it is
+  /// to be `durable`, it outlasts the machine's power too, which costs some milliseconds.
+  void commit(bool durable = false) {
     stream_.close();
     std::error_code failure;
+    if (durable && stream_) put_on_disk();
     if (stream_) std::filesystem::rename(part_, path_, failure);
     if (!stream_ || failure) fail();
     committed_ = true;
   }
 
  private:
+  void put_on_disk() const {
+    const int file = open(part_.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool arrived = file >= 0 && fsync(file) == 0;
+    if (file >= 0) close(file);
+    if (!arrived) fail();
+  }
+
   [[noreturn]] void fail() const {
     throw std::runtime_error(
         fmt::format("cannot write {}: is the folder there, writable, and not full?", path_.string()));

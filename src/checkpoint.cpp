@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "checkpoint.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <boost/crc.hpp>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "build_info.hpp"
+#include "nysalt/report/atomic_file.hpp"
+#include "output.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr const char* format = "nysalt checkpoint";
+constexpr int format_version = 1;
+
+static_assert(std::endian::native == std::endian::little, "checkpoints hold doubles as this machine does");
+
+std::string last_line(std::string_view before) {
+  boost::crc_32_type sum;
+  sum.process_bytes(before.data(), before.size());
+  return fmt::format("\ncrc32 {:08x}\n", sum.checksum());
+}
+
+[[noreturn]] void refuse_broken(const std::filesystem::path& file) {
+  refuse("{} is not whole, or was edited: take an older copy, or remove it and begin anew", file.string());
+}
+
+/// The line that a checkpoint begins with; discarded if it is none.
+json head_of(std::string_view text) {
+  const json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  if (!head.is_object() || head.value("format", json()) != format) return json(json::value_t::discarded);
+  return head;
+}
+
+std::int64_t count_in(const json& head, const char* name, std::int64_t most) {
+  const auto value = head.at(name).get<std::int64_t>();
+  if (value < 0 || value > most) throw std::out_of_range(name);
+  return value;
+}
+
+checkpoint from(const json& head, std::string_view bytes) {
+  constexpr std::int64_t most = std::int64_t{1} << 53U;
+  checkpoint its;
+  its.question = head.at("question");
+  its.at.first = count_in(head, "first", most);
+  its.at.wave.step = count_in(head, "step", most);
+  for (const auto& step : head.at("wave")) {
+    std::optional<std::int64_t> lost;
+    if (!step.is_null()) lost = step.get<std::int64_t>();
+    its.at.wave.diverged_at.push_back(lost);
+  }
+  for (const auto& one : head.at("diverged")) {
+    its.lost.push_back({count_in(one, "trajectory", most), count_in(one, "step", most)});
+  }
+  const std::int64_t trajectories = its.question.at("trajectories").get<std::int64_t>();
+  const std::int64_t steps = its.question.at("steps").get<std::int64_t>();
+  if (its.at.first + std::ssize(its.at.wave.diverged_at) > trajectories || its.at.wave.step > steps) {
+    throw std::out_of_range("first");
+  }
+  its.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
+  its.sum = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
+  its.in_order = head.at("in_order").get<bool>();
+  its.finished = head.at("finished").get<bool>();
+  auto& numbers = its.at.wave.numbers;
+  numbers.resize(bytes.size() / sizeof(double));
+  if (numbers.size() * sizeof(double) != bytes.size()) throw std::out_of_range("numbers");
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return its;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const checkpoint& its) {
+  json wave = json::array();
+  for (const auto& step : its.at.wave.diverged_at) wave.push_back(step ? json(*step) : json(nullptr));
+  json diverged = json::array();
+  for (const auto& one : its.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
+  const json head{{"format", format},
+                  {"version", format_version},
+                  {"nysalt", version},
+                  {"question", its.question},
+                  {"first", its.at.first},
+                  {"step", its.at.wave.step},
+                  {"wave", wave},
+                  {"diverged", diverged},
+                  {"length", its.length},
+                  {"sum", its.sum},
+                  {"in_order", its.in_order},
+                  {"finished", its.finished}};
+  const auto& numbers = its.at.wave.numbers;
+  std::string text = head.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::size_t at = text.size();
+  text.resize(at + numbers.size() * sizeof(double));
+  std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
+  text += last_line(text);
+  atomic_file out(file, "next");  // one process writes it: a kill leaves one such file at most
+  out.write(text);
+  out.commit(true);
+}
+
+checkpoint read_checkpoint(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    refuse("there is no checkpoint {}: leave --resume away to begin", file.string());
+  }
+  std::ifstream input(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(input), {}};
+  const json head = head_of(text);
+  if (head.is_discarded()) {
+    refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
+  }
+  const json its_version = head.value("version", json());
+  if (its_version.is_number_integer() && its_version > format_version) {
+    refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
+           file.string(), its_version.dump(), format_version);
+  }
+  const std::size_t last_length = last_line("").size();
+  if (text.size() < last_length) refuse_broken(file);
+  const auto before = std::string_view(text).substr(0, text.size() - last_length);
+  if (!text.ends_with(last_line(before))) refuse_broken(file);
+  try {
+    const auto bytes = before.substr(before.find('\n') + 1);
+    checkpoint its = from(head, bytes);
+    if (head.value("nysalt", json()) != version) {
+      warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
+                       file.string(), head.value("nysalt", json()).dump(), version));
+    }
+    return its;
+  } catch (const std::exception&) {  // the sum is right, and what it is the sum of is not ours
+    refuse_broken(file);
+  }
+}
+
+void require_question(const checkpoint& its, const json& question, const std::filesystem::path& file) {
+  if (its.question == question) return;
+  std::string changed;
+  for (const auto& [name, value] : question.items()) {
+    if (its.question.is_object() && its.question.contains(name) && its.question[name] == value) continue;
+    changed += changed.empty() ? name : ", " + name;
+  }
+  refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),
+         changed.empty() ? "it has more" : changed);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a run leaves on disk to go on from, should it be stopped.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "bundled_system.hpp"
+#include "json.hpp"
+#include "nysalt/divergence.hpp"
+
+namespace nysalt::program {
+
+/// A file of one line of JSON, the open runs (doubles, the least byte first), and a line with the CRC-32 of
+/// all before it.
+struct checkpoint {
+  json question;  // all that decides the bytes of the output
+  standing at;
+  std::vector<diverged_trajectory> lost;  // so far, as they were found
+  std::uint64_t length = 0;               // of the unfinished output
+  std::uint32_t sum = 0;                  // its CRC-32
+  bool in_order = true;                   // that output is what the finished one will be
+  bool finished = false;                  // the output is there
+};
+
+/// Throws std::runtime_error if it cannot be written; then an older one is as it was. It is on the disk when
+/// this returns, for which some milliseconds go by.
+void write_checkpoint(const std::filesystem::path& file, const checkpoint& its);
+
+/// Throws refusal for what is none, not whole, edited, or of a newer format.
+checkpoint read_checkpoint(const std::filesystem::path& file);
+
+/// Throws refusal, naming what differs, if it is of another run.
+void require_question(const checkpoint& its, const json& question, const std::filesystem::path& file);
+
+}  // namespace nysalt::program

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "restart.hpp"
+
+#include <system_error>
+
+#include "by_trajectory.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+}  // namespace
+
+restart::restart(const std::filesystem::path& output, const std::filesystem::path& checkpoint,
+                 const json& question, bool resume)
+    : output_(output), file_(checkpoint) {
+  if (resume) {
+    take_up(question);
+  } else {
+    its_.question = question;
+    begin();
+  }
+}
+
+void restart::begin() {
+  if (is_there(file_) && !read_checkpoint(file_).finished) {
+    refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
+           file_.string());
+  }
+  part_.emplace(output_);
+  reached({});
+}
+
+void restart::take_up(const json& question) {
+  its_ = read_checkpoint(file_);
+  require_question(its_, question, file_);
+  if (its_.finished) {
+    if (is_there(output_)) return;
+    refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
+           file_.string(), output_.string());
+  }
+  const bool is_whole = its_.at.first == question.at("trajectories");
+  const bool has_its_name = !is_there(unfinished_file::part_of(output_)) && its_.in_order &&
+                            is_file_of(output_, its_.length, its_.sum);
+  if (is_whole && has_its_name) return;  // it was stopped right there
+  part_.emplace(output_, its_.length, its_.sum);
+}
+
+void restart::write(std::string_view text) { part_->write(text); }
+
+void restart::reached(const standing& at) {
+  // Of one trajectory alone what is written is in order, wherever it is cut.
+  if (at.wave.diverged_at.size() > 1) its_.in_order = false;
+  part_->put_on_disk();
+  its_.at = at;
+  its_.length = part_->length();
+  its_.sum = part_->sum();
+  write_checkpoint(file_, its_);
+}
+
+void restart::commit() {
+  if (!part_) return;
+  if (its_.in_order) {
+    part_->finish();
+  } else {
+    put_by_trajectory(unfinished_file::part_of(output_), output_);
+  }
+}
+
+void restart::finish() {
+  its_.finished = true;
+  write_checkpoint(file_, its_);
+  if (part_ && !its_.in_order) part_->remove();
+}
+
+}  // namespace nysalt::program

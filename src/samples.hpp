@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+// The samples of a run on their way out: rows of a table, or of the JSON document.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bundled_system.hpp"
+#include "checkpoint.hpp"
+#include "json.hpp"
+
+namespace nysalt::program {
+
+class samples {
+ public:
+  using sink = std::function<void(std::string_view)>;
+
+  /// Lines of CSV go to `lines`; if it is empty, rows are kept for the document.
+  samples(std::vector<std::string> observables, double step, std::int64_t every, sink lines);
+
+  /// The first line, with the names of the columns.
+  std::string head() const;
+  void take(std::int64_t trajectory, const record& its);
+
+  json columns() const;
+  const json& rows() const { return rows_; }
+
+ private:
+  void hand_on();
+  void add(std::int64_t trajectory, std::int64_t n, std::span<const double> values);
+
+  std::vector<std::string> observables_;
+  double step_;
+  std::int64_t every_;
+  sink lines_;
+  std::string text_;
+  json rows_ = json::array();
+};
+
+/// The observables along trajectory 0 in a table of samples, of every so many of its rows. Throws refusal if
+/// the table cannot be read.
+struct first_trajectory {
+  std::vector<double> t;
+  std::vector<std::vector<double>> values;  // of each observable
+};
+first_trajectory read_first_trajectory(const std::string& table, std::int64_t every, std::size_t observables);
+
+}  // namespace nysalt::program
