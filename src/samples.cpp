@@ -16,8 +16,8 @@ namespace nysalt::program {
 samples::samples(std::vector<std::string> observables, double step, std::int64_t every, sink lines)
     : observables_(std::move(observables)), step_(step), every_(every), lines_(std::move(lines)) {}
 
-std::string samples::head() const {
-  return fmt::format("trajectory,step,t,{}\n", fmt::join(observables_, ","));
+void samples::begin() {
+  if (lines_) lines_(fmt::format("trajectory,step,t,{}\n", fmt::join(observables_, ",")));
 }
 
 json samples::columns() const {

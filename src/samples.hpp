@@ -21,8 +21,8 @@ class samples {
   /// Lines of CSV go to `lines`; if it is empty, rows are kept for the document.
   samples(std::vector<std::string> observables, double step, std::int64_t every, sink lines);
 
-  /// The first line, with the names of the columns.
-  std::string head() const;
+  /// Writes the first line, with the names of the columns.
+  void begin();
   void take(std::int64_t trajectory, const record& its);
 
   json columns() const;

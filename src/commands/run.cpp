@@ -9,15 +9,14 @@
 
 #include "../checks.hpp"
 #include "../commands.hpp"
+#include "../destination.hpp"
 #include "../learning.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
-#include "../restart.hpp"
 #include "../samples.hpp"
 #include "../seeds.hpp"
 #include "../stretches.hpp"
-#include "nysalt/report/atomic_file.hpp"
 #include "nysalt/report/plot.hpp"
 
 namespace nysalt::program {
@@ -142,6 +141,28 @@ void require_observables(const run_command& command) {
   }
 }
 
+void tell(const run_command& command, const json& result, bool was_finished) {
+  constexpr std::size_t enough = 20;  // lines of warnings
+  if (was_finished) {
+    print(fmt::format("{} is finished already: nothing was done\n", command.output));
+  } else if (!command.output.empty()) {
+    print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",
+                      command.trajectories, result["steps"].get<std::int64_t>(),
+                      result["evaluations"].get<std::int64_t>(), result["seconds"].get<double>(),
+                      command.output));
+  }
+  const json& diverged = result["diverged"];
+  for (std::size_t i = 0; i < std::min(diverged.size(), enough); ++i) {
+    const json& one = diverged[i];
+    warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one["trajectory"].get<std::int64_t>(),
+                     one["step"].get<std::int64_t>(), one["t"].get<double>()));
+  }
+  if (diverged.size() > enough) {
+    warn(fmt::format("and {} more of {} trajectories diverged: --json names them", diverged.size() - enough,
+                     command.trajectories));
+  }
+}
+
 }  // namespace
 
 int run(const run_command& asked, const common_settings& common) {
@@ -163,81 +184,43 @@ int run(const run_command& asked, const common_settings& common) {
     for (const auto& text : warnings) warn(text);
   }
 
-  std::optional<restart> kept;
-  std::optional<atomic_file> file;
-  if (!command.checkpoint.empty()) {
-    const json question = question_of(command, *system, method, steps, common);
-    kept.emplace(command.output, command.checkpoint, question, command.resume);
-  } else if (!command.output.empty()) {
-    file.emplace(command.output);
-  }
-  samples::sink lines;
-  if (kept) {
-    lines = [&](std::string_view text) { kept->write(text); };
-  } else if (file) {
-    lines = [&](std::string_view text) { file->write(text); };
-  } else if (!common.json) {
-    lines = [](std::string_view text) { print(text); };
-  }
-  samples taken(command.observables, command.step, command.sample_every, lines);
-  std::vector<diverged_trajectory> lost;
-  const auto take = [&](std::int64_t m, const record& its) {
-    taken.take(m, its);
-    if (!its.diverged_at) return;
-    const diverged_trajectory one{m, *its.diverged_at};
-    kept ? kept->lose(one) : lost.push_back(one);
-  };
-
+  const auto began = std::chrono::steady_clock::now();
+  destination its(command, common.json, question_of(command, *system, method, steps, common));
+  samples taken(command.observables, command.step, command.sample_every, its.lines());
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
-  const bool was_finished = kept && kept->is_finished();
   progress shown;
-  const auto began = std::chrono::steady_clock::now();
+  const bool was_finished = its.is_finished();
   if (!was_finished || common.json) prepare_starts(*system, common, shown);
   if (!was_finished) {
     sampled_plan sampled{plan, command.observables, command.sample_every};
-    if (kept) {
-      sampled.stretch = command.every;
-      sampled.from = kept->from();
-      sampled.reached = [&](const standing& at) { kept->reached(at); };
-    }
-    const bool is_new = !kept || kept->from().is_new();
-    if (lines && is_new) lines(taken.head());
+    its.take_up(sampled, command.every);
+    if (sampled.from.is_new()) taken.begin();
+    const auto take = [&](std::int64_t m, const record& one) {
+      taken.take(m, one);
+      if (one.diverged_at) its.lose({m, *one.diverged_at});
+    };
     shown.part("running");
     system->run(method, sampled, take, shown.counter(1000));
-    if (kept) kept->commit();
-    if (file) file->commit();
+    its.commit();
     shown.clear();
     if (!command.output.empty()) write_manifest(command.output, common);
     if (command.plot) draw_run(command, steps, common);
-    if (kept) kept->finish();
+    its.finish();
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
-  const json diverged = with_times(kept ? kept->lost() : lost, command.step);
-  const std::int64_t evaluations = system->count_evaluations(method, plan);
+  json result = document(command, *system, taken, with_times(its.lost(), command.step));
+  result["steps"] = steps;
+  result["seed"] = common.seed;
+  if (!was_finished || common.json) result["evaluations"] = system->count_evaluations(method, plan);
+  result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  result["warnings"] = warnings;
   if (common.json) {
-    json result = document(command, *system, taken, diverged);
-    result["steps"] = steps;
-    result["seed"] = common.seed;
-    result["evaluations"] = evaluations;
-    result["seconds"] = seconds;
-    result["warnings"] = warnings;
     print(text_of(result));
   } else {
-    if (was_finished) {
-      print(fmt::format("{} is finished already: {} trajectories of {} steps\n", command.output,
-                        command.trajectories, steps));
-    } else if (!command.output.empty()) {
-      print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",
-                        command.trajectories, steps, evaluations, seconds, command.output));
-    }
-    for (const auto& one : diverged) {
-      warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one["trajectory"].get<std::int64_t>(),
-                       one["step"].get<std::int64_t>(), one["t"].get<double>()));
-    }
+    tell(command, result, was_finished);
   }
-  return std::ssize(diverged) == command.trajectories ? no_result : done;
+  return std::ssize(its.lost()) == command.trajectories ? no_result : done;
 }
 
 }  // namespace nysalt::program

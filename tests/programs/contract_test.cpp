@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
     BOOST_TEST(shape(row) ==
                "metric:text method:text step:number step_size:number evaluations_per_time:number "
                "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-               "diverged:integer reference_error:number marks:list");
+               "diverged:integer diverged_at:list reference_error:number marks:list");
   }
   BOOST_REQUIRE(all["fits"].size() == 1U);
   BOOST_TEST(shape(all["fits"][0]) == "method:text " + of_a_fit);
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const auto row_with = [](const std::string& rest) {
     return "metric:text method:text step:number step_size:number evaluations_per_time:number "
            "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-           "diverged:integer reference_error:null marks:list floor:number "
+           "diverged:integer diverged_at:list reference_error:null marks:list floor:number "
            "mean:number mean_standard_error:number "
            "effective_sample_size:number" +
            rest;

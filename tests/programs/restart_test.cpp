@@ -36,9 +36,8 @@ std::string with_checkpoint(const std::string& line, const std::string& name, in
 /// Kills `line` without warning once its checkpoint tells of `step`, or of finished trajectories; whether it
 /// was still running then.
 bool killed_at(const scratch& folder, const std::string& line, const std::string& checkpoint, int step) {
-  const std::string reached =
-      "\"$(head -n 1 " + checkpoint +
-      R"x( 2>/dev/null | sed -n 's/.*"first":[0-9]*,"step":\([0-9]*\).*/\1/p')")x";
+  const std::string reached = "\"$(head -n 1 " + checkpoint +
+                              R"x( 2>/dev/null | sed -n 's/.*"first":[0-9]*,"step":\([0-9]*\).*/\1/p')")x";
   const auto done =
       shell(folder, "\"$nysalt\" " + line + " >/dev/null 2>&1 & pid=$!\n" +
                         "while kill -0 $pid 2>/dev/null; do n=" + reached + "; [ \"${n:-0}\" -ge " +
@@ -109,6 +108,11 @@ BOOST_AUTO_TEST_CASE(a_finished_run_ends_well_and_is_left_alone) {
   BOOST_TEST(told.out.find("finished already") != std::string::npos, told.out);
   std::filesystem::remove(folder / "cut.csv");
   refused(folder, command + "--resume", "there is no cut.csv");
+  // Starts that it takes work to find are not looked for.
+  const std::string warm =
+      with_checkpoint("run --temperature 1 --friction 1 --method baoab --step 0.01 --horizon 1 ", "warm");
+  BOOST_TEST(run(folder, warm).code == 0);
+  BOOST_TEST(run(folder, warm + "--resume").code == 0);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_half_asked_is_refused) {
