@@ -77,6 +77,7 @@ class bundled_model final : public bundled_system {
     return {};
   }
   std::vector<std::string> observables() const override { return observable_names(system_); }
+  void require_observable(const std::string& name) const override { observable<double>(system_, name); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {

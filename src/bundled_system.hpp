@@ -115,6 +115,8 @@ class bundled_system {
   /// Empty if there is no bound.
   virtual std::vector<frequency_band> frequency_bands() const = 0;
   virtual std::vector<std::string> observables() const = 0;
+  /// Throws refusal for one that there is not, before any work is done.
+  virtual void require_observable(const std::string& name) const = 0;
   virtual std::string default_observable() const = 0;
   virtual const bath& its_bath() const = 0;
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -42,8 +43,14 @@ json head_of(std::string_view text) {
   return head;
 }
 
+/// Of json's own conversions, that of a large double is undefined.
+std::int64_t whole(const json& value) {
+  if (!value.is_number_integer()) throw std::invalid_argument("not a whole number");
+  return value.get<std::int64_t>();
+}
+
 std::int64_t count_in(const json& head, const char* name, std::int64_t most) {
-  const auto value = head.at(name).get<std::int64_t>();
+  const std::int64_t value = whole(head.at(name));
   if (value < 0 || value > most) throw std::out_of_range(name);
   return value;
 }
@@ -56,14 +63,14 @@ checkpoint from(const json& head, std::string_view bytes) {
   its.at.wave.step = count_in(head, "step", most);
   for (const auto& step : head.at("wave")) {
     std::optional<std::int64_t> lost;
-    if (!step.is_null()) lost = step.get<std::int64_t>();
+    if (!step.is_null()) lost = whole(step);
     its.at.wave.diverged_at.push_back(lost);
   }
   for (const auto& one : head.at("diverged")) {
     its.lost.push_back({count_in(one, "trajectory", most), count_in(one, "step", most)});
   }
-  const std::int64_t trajectories = its.question.at("trajectories").get<std::int64_t>();
-  const std::int64_t steps = its.question.at("steps").get<std::int64_t>();
+  const std::int64_t trajectories = whole(its.question.at("trajectories"));
+  const std::int64_t steps = whole(its.question.at("steps"));
   if (its.at.first + std::ssize(its.at.wave.diverged_at) > trajectories || its.at.wave.step > steps) {
     throw std::out_of_range("first");
   }
@@ -71,6 +78,7 @@ checkpoint from(const json& head, std::string_view bytes) {
   its.sum = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
   its.in_order = head.at("in_order").get<bool>();
   its.finished = head.at("finished").get<bool>();
+  its.version = head.at("nysalt").get<std::string>();
   auto& numbers = its.at.wave.numbers;
   numbers.resize(bytes.size() / sizeof(double));
   if (numbers.size() * sizeof(double) != bytes.size()) throw std::out_of_range("numbers");
@@ -130,12 +138,7 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (!text.ends_with(last_line(before))) refuse_broken(file);
   try {
     const auto bytes = before.substr(before.find('\n') + 1);
-    checkpoint its = from(head, bytes);
-    if (head.value("nysalt", json()) != version) {
-      warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
-                       file.string(), head.value("nysalt", json()).dump(), version));
-    }
-    return its;
+    return from(head, bytes);
   } catch (const std::exception&) {  // the sum is right, and what it is the sum of is not ours
     refuse_broken(file);
   }
@@ -150,6 +153,12 @@ void require_question(const checkpoint& its, const json& question, const std::fi
   }
   refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),
          changed.empty() ? "it has more" : changed);
+}
+
+void warn_of_version(const checkpoint& its, const std::filesystem::path& file) {
+  if (its.version.empty() || its.version == version) return;
+  warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
+                   file.string(), its.version, version));
 }
 
 }  // namespace nysalt::program

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bundled_system.hpp"
@@ -22,6 +23,7 @@ struct checkpoint {
   std::uint32_t sum = 0;                  // its CRC-32
   bool in_order = true;                   // that output is what the finished one will be
   bool finished = false;                  // the output is there
+  std::string version;                    // of the program that wrote it; empty: of this one
 };
 
 /// Throws std::runtime_error if it cannot be written; then an older one is as it was. It is on the disk when
@@ -33,5 +35,9 @@ checkpoint read_checkpoint(const std::filesystem::path& file);
 
 /// Throws refusal, naming what differs, if it is of another run.
 void require_question(const checkpoint& its, const json& question, const std::filesystem::path& file);
+
+/// Of going on with what another version of the program wrote. To be told when nothing will be refused any
+/// more, as a refusal is one line.
+void warn_of_version(const checkpoint& its, const std::filesystem::path& file);
 
 }  // namespace nysalt::program

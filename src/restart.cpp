@@ -28,6 +28,13 @@ restart::restart(const std::filesystem::path& output, const std::filesystem::pat
   }
 }
 
+restart::~restart() {
+  if (!is_fresh_) return;
+  part_->remove();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
 void restart::begin() {
   if (is_there(file_) && !read_checkpoint(file_).finished) {
     refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
@@ -35,6 +42,7 @@ void restart::begin() {
   }
   part_.emplace(output_);
   reached({});
+  is_fresh_ = true;
 }
 
 void restart::take_up(const json& question) {
@@ -58,7 +66,10 @@ void restart::reached(const standing& at) {
   // Of one trajectory alone what is written is in order, wherever it is cut.
   if (at.wave.diverged_at.size() > 1) its_.in_order = false;
   part_->put_on_disk();
+  warn_of_version(its_, file_);  // only now: the run has taken what it was given
+  its_.version.clear();
   its_.at = at;
+  is_fresh_ = false;
   its_.length = part_->length();
   its_.sum = part_->sum();
   write_checkpoint(file_, its_);

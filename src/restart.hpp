@@ -18,6 +18,10 @@ class restart {
   /// under way is not what it knows; to begin, if there is one of a run that was stopped.
   restart(const std::filesystem::path& output, const std::filesystem::path& checkpoint, const json& question,
           bool resume);
+  /// Of a run that reached nothing, as it was refused after all, nothing stays.
+  ~restart();
+  restart(const restart&) = delete;
+  restart& operator=(const restart&) = delete;
 
   bool is_finished() const { return its_.finished; }
   const standing& from() const { return its_.at; }
@@ -40,6 +44,7 @@ class restart {
   std::filesystem::path output_;
   std::filesystem::path file_;
   checkpoint its_;
+  bool is_fresh_ = false;                // begun here, and nothing reached
   std::optional<unfinished_file> part_;  // none once the output has its name
 };
 

@@ -1,13 +1,13 @@
-# SOURCE must fail to compile, and the compiler must print the sentence in the source's first line,
+# SOURCE must fail to compile, and the compiler must print the sentences in the source's first lines,
 #   // expect: a sentence
 # With -DNYSALT_CONTROL it must compile, which shows that it fails for the named cause only.
 
 cmake_minimum_required(VERSION 3.25)
-file(READ ${SOURCE} text)
-if(NOT "${text}" MATCHES "^// expect: ([^\n]+)")
+file(STRINGS ${SOURCE} sentences REGEX "^// expect: ")
+list(TRANSFORM sentences REPLACE "^// expect: *" "")
+if(NOT sentences)
   message(FATAL_ERROR "the first line of ${SOURCE} must be '// expect: a sentence'")
 endif()
-string(STRIP "${CMAKE_MATCH_1}" sentence)
 
 set(compile ${COMPILER} @${FLAGS})
 execute_process(COMMAND ${compile} -DNYSALT_CONTROL ${SOURCE} ERROR_VARIABLE errors RESULT_VARIABLE result)
@@ -20,8 +20,10 @@ execute_process(COMMAND ${compile} ${SOURCE} ERROR_VARIABLE errors RESULT_VARIAB
 if(result EQUAL 0)
   message(FATAL_ERROR "${SOURCE} compiles, but must not")
 endif()
-string(FIND "${errors}" "${sentence}" found)
-if(found EQUAL -1)
-  message("${errors}")
-  message(FATAL_ERROR "the compiler does not say '${sentence}'")
-endif()
+foreach(sentence IN LISTS sentences)
+  string(FIND "${errors}" "${sentence}" found)
+  if(found EQUAL -1)
+    message("${errors}")
+    message(FATAL_ERROR "the compiler does not say '${sentence}'")
+  endif()
+endforeach()

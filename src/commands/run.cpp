@@ -134,7 +134,8 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
   return all;
 }
 
-void require_observables(const run_command& command) {
+void require_observables(const run_command& command, const bundled_system& system) {
+  for (const auto& name : command.observables) system.require_observable(name);
   for (std::size_t i = 1; i < command.observables.size(); ++i) {
     const auto earlier = std::span(command.observables).first(i);
     if (std::ranges::find(earlier, command.observables[i]) == earlier.end()) continue;
@@ -175,24 +176,27 @@ int run(const run_command& asked, const common_settings& common) {
   require_files(command);
   const auto system = make_system(command.system);
   if (command.observables.empty()) command.observables = {system->default_observable()};
-  require_observables(command);
+  require_observables(command, *system);
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
   const tabulated method = coefficients_at(find_method(command.method), *system, command.step, common.force,
                                            placement_asked(command.placement), warnings);
-  if (!common.json) {
-    for (const auto& text : warnings) warn(text);
-  }
 
   const auto began = std::chrono::steady_clock::now();
-  destination its(command, common.json, question_of(command, *system, method, steps, common));
+  const json question = question_of(command, *system, method, steps, common);
+  progress shown;
+  if (!command.resume) prepare_starts(*system, common, shown);  // what is refused here leaves no file behind
+  destination its(command, common.json, question);
+  const bool was_finished = its.is_finished();
+  if (command.resume && (!was_finished || common.json)) prepare_starts(*system, common, shown);
   samples taken(command.observables, command.step, command.sample_every, its.lines());
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
-  progress shown;
-  const bool was_finished = its.is_finished();
-  if (!was_finished || common.json) prepare_starts(*system, common, shown);
+  shown.clear();
+  if (!common.json) {  // only now: a refusal is one line
+    for (const auto& text : warnings) warn(text);
+  }
   if (!was_finished) {
     if (const auto text = stability_warning(command.method, method, *system, plan.step, plan.seed)) {
       warnings.push_back(*text);

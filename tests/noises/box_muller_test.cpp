@@ -5,12 +5,13 @@
 
 #include <limits>
 #include <numbers>
-#include <random>
 
+#include "../support/draws.hpp"
 #include "nysalt/noises/box_muller.hpp"
 
 using namespace nysalt;
 using detail::words;
+using nysalt::test::draws;
 
 namespace {
 
@@ -31,10 +32,10 @@ double worst(const std::vector<double>& arguments, const auto& f, const auto& ju
 
 /// Numbers of (0, 1) of all sizes: uniform, near 0 and near 1, where log is small.
 std::vector<double> unit_interval() {
-  std::mt19937_64 draw(1);
+  draws random;
   std::vector<double> result = {0x1p-53, 1.0 - 0x1p-53, std::sqrt(0.5)};
   for (int n = 0; n < 20'000; ++n) {
-    const double u = (static_cast<double>(draw() >> 12U) + 0.5) * 0x1p-52;
+    const double u = (static_cast<double>(random.bits() >> 12U) + 0.5) * 0x1p-52;
     result.push_back(u);
     result.push_back(std::ldexp(u, -(n % 52)));
     result.push_back(1.0 - std::ldexp(u, -(n % 52) - 1));
@@ -45,10 +46,10 @@ std::vector<double> unit_interval() {
 
 /// Quarter turns from -1/2 to 1/2, of all sizes.
 std::vector<double> quarter_turns() {
-  std::mt19937_64 draw(2);
+  draws random;
   std::vector<double> result = {-0.5 + 0x1p-52, -0x1p-52, 0x1p-52, 0.5 - 0x1p-52};
   for (int n = 0; n < 20'000; ++n) {
-    const double t = static_cast<double>(draw() >> 12U) * 0x1p-52 - 0.5;
+    const double t = static_cast<double>(random.bits() >> 12U) * 0x1p-52 - 0.5;
     result.push_back(t);
     result.push_back(std::ldexp(t, -(n % 51)));
   }
@@ -96,10 +97,10 @@ BOOST_AUTO_TEST_CASE(distances_go_from_just_above_zero_to_their_end) {
 }
 
 BOOST_AUTO_TEST_CASE(the_lowest_bits_turn_and_reflect) {
-  std::mt19937_64 draw(3);
+  draws random;
   for (int n = 0; n < 100; ++n) {
-    const std::uint64_t first = draw();
-    const std::uint64_t second = draw() & ~std::uint64_t{3};
+    const std::uint64_t first = random.bits();
+    const std::uint64_t second = random.bits() & ~std::uint64_t{3};
     const auto [x, y] = pair_of(first, second);
     BOOST_TEST(x > std::abs(y));  // the quarter around the direction of x
     BOOST_TEST((pair_of(first, second + 1) == std::array{-x, -y}));

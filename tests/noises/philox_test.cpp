@@ -4,12 +4,12 @@
 
 #include <Random123/philox.h>
 
-#include <random>
-
+#include "../support/draws.hpp"
 #include "nysalt/noises/philox.hpp"
 
 using namespace nysalt;
 using detail::words;
+using nysalt::test::draws;
 
 namespace {
 
@@ -46,13 +46,13 @@ BOOST_AUTO_TEST_CASE(known_answers) {  // the file kat_vectors of Random123, phi
 }
 
 BOOST_AUTO_TEST_CASE(every_lane_is_a_generator_and_upper_halves_do_not_count) {
-  std::mt19937_64 draw(1);
+  draws random;
   for (int n = 0; n < 100; ++n) {
     std::array<words, 4> counter;
     for (words& word : counter) {
-      for (int lane = 0; lane < words::lanes; ++lane) word.set(lane, draw());
+      for (int lane = 0; lane < words::lanes; ++lane) word.set(lane, random.bits());
     }
-    const std::uint64_t key = draw();
+    const std::uint64_t key = random.bits();
     const auto bits = detail::philox(counter, key);
     for (int lane = 0; lane < words::lanes; ++lane) {
       block lower;

@@ -2,22 +2,22 @@
 // Integers in lanes do what 64-bit integers do.
 #include <boost/test/unit_test.hpp>
 
-#include <random>
-
+#include "../support/draws.hpp"
 #include "nysalt/noises/words.hpp"
 
 using namespace nysalt;
 using detail::words;
+using nysalt::test::draws;
 
 namespace {
 
 /// Is f over words f over integers, in every lane?
 bool lane_by_lane(const auto& f, const auto& of_integers) {
-  std::mt19937_64 draw(1);
+  draws random;
   words a;
   words b;
-  for (int lane = 0; lane < words::lanes; ++lane) a.set(lane, draw());
-  for (int lane = 0; lane < words::lanes; ++lane) b.set(lane, draw());
+  for (int lane = 0; lane < words::lanes; ++lane) a.set(lane, random.bits());
+  for (int lane = 0; lane < words::lanes; ++lane) b.set(lane, random.bits());
   const words result = f(a, b);
   bool same = true;
   for (int lane = 0; lane < words::lanes; ++lane)

@@ -315,6 +315,16 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
                       });
 }
 
+// One line, though there is something to warn of, and no run is begun that will not be.
+BOOST_AUTO_TEST_CASE(a_refusal_comes_before_warnings_and_files) {
+  const scratch folder("no_run");
+  const std::string unstable = "--system oscillator --omega 50 --method verlet --step 1 --horizon 8";
+  const std::string kept = " --output out.csv --checkpoint its.last --every 2 ";
+  all_refused(folder, after("run", {{unstable + " --observables energ", {"energ", "kinetic_energy"}},
+                                    {unstable + kept + "--observables energ", {"energ", "kinetic_energy"}},
+                                    {unstable + kept + "--spread 1e308", {"not finite"}}}));
+}
+
 BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const scratch folder("bad_output");
   std::filesystem::create_directory(folder / "there");

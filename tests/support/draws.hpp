@@ -23,7 +23,9 @@ class draws {
  public:
   static constexpr std::uint64_t seed = 20260721;
 
-  draws() { BOOST_TEST_MESSAGE("random parameters from seed " << seed); }
+  draws() { show_seed(); }
+
+  std::uint64_t bits() { return bits_(); }
 
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits_() >> 11U) * 0x1p-53);
@@ -48,6 +50,16 @@ class draws {
   }
 
  private:
+  /// Whatever fails in this test case from now on tells the seed, also when the draws are gone.
+  static void show_seed() {
+    namespace framework = boost::unit_test::framework;
+    static boost::unit_test::test_unit_id shown_in = boost::unit_test::INV_TEST_UNIT_ID;
+    const auto here = framework::current_test_case_id();
+    if (here == shown_in) return;
+    shown_in = here;
+    framework::add_context(BOOST_TEST_LAZY_MSG("random parameters from seed " << seed), true);
+  }
+
   std::mt19937_64 bits_{seed};
 };
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "run_program.hpp"
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "output.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+int refused(const std::string& text) {
+  complain(text);
+  return bad_input;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  try {
+    return run_command_line(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return refused(
+        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");
+  } catch (const std::exception& problem) {
+    return refused(problem.what());
+  }
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+// What the fuzz targets hold the program to: each promise, and a run that breaks it.
+#include <boost/test/unit_test.hpp>
+
+#include "broken_promise.cpp"
+
+using nysalt::fuzz::broken_promise;
+using nysalt::fuzz::remains;
+
+namespace {
+
+const std::set<std::string> before{"scheme.json"};
+const std::string line = "nysalt: scheme.json: this is not whole JSON\n";
+const remains refused{2, "", line, before};
+const remains done{0, "rows", "", {"scheme.json", "out.csv", "out.csv.manifest.json"}};
+
+bool breaks(remains left, auto&& change) {
+  change(left);
+  return !broken_promise(left, before).empty();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_refusal_and_a_result_keep_all_promises) {
+  BOOST_TEST(broken_promise(refused, before) == "");
+  BOOST_TEST(broken_promise(done, before) == "");
+  const std::set<std::string> stopped{"run.checkpoint", "out.csv.part"};  // a run that cannot be gone on with
+  BOOST_TEST(broken_promise({2, "", line, stopped}, stopped) == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_result_that_breaks_one_is_found) {
+  BOOST_TEST(breaks(done, [](remains& its) { its.code = 1; }));
+  BOOST_TEST(breaks(done, [](remains& its) { its.code = 139; }));
+  BOOST_TEST(breaks(done, [](remains& its) { its.files.insert("out.csv.17.part"); }));
+}
+
+BOOST_AUTO_TEST_CASE(a_refusal_that_breaks_one_is_found) {
+  BOOST_TEST(breaks(refused, [](remains& its) { its.err = ""; }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.err = "terminate called\n"; }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.err += its.err; }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.err.insert(9, "\033[K"); }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.out = "trajectory,step,t\n"; }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.files.insert("out.csv"); }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.files.clear(); }));
+  BOOST_TEST(breaks(refused, [](remains& its) { its.inputs_are_whole = false; }));
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+// Checkpoints that a run is to go on from: as they are, which their sum refuses, and with a sum that fits.
+#include <boost/crc.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+
+#include "program_run.hpp"
+
+namespace {
+
+/// What the run of the corpus had written when it was stopped at step 4 of 8.
+const nysalt::fuzz::input_file under_way{"out.csv.part",
+                                         "trajectory,step,t,energy\n"
+                                         "0,0,0,1\n0,3,0.06,1\n1,0,0,1\n1,3,0.06,1\n2,0,0,1\n2,3,0.06,1\n"
+                                         "3,0,0,1\n3,3,0.06,1\n4,0,0,1\n4,3,0.06,1\n"};
+const nysalt::fuzz::input_file finished{"out.csv", "trajectory,step,t,energy\n0,0,0,1\n"};
+
+void go_on(const std::string& text) {
+  const std::vector<std::string> asked{
+      "run",     "--system",       "pendulum", "--friction",    "0.1",      "--temperature",
+      "0.5",     "--start",        "law",      "--method",      "baoab",    "--step",
+      "0.02",    "--horizon",      "0.16",     "--observables", "energy",   "--trajectories",
+      "5",       "--sample-every", "3",        "--every",       "4",        "--output",
+      "out.csv", "--threads",      "1",        "--checkpoint",  "its.last", "--resume"};
+  std::vector<nysalt::fuzz::input_file> files{{"its.last", text}, under_way};
+  if (text.size() % 2 == 0) files.push_back(finished);
+  nysalt::fuzz::run(asked, files);
+}
+
+/// The text with the sum that it ought to end with.
+std::string signed_again(const std::string& text) {
+  const std::string bare = text.substr(0, text.rfind("\ncrc32 "));
+  boost::crc_32_type sum;
+  sum.process_bytes(bare.data(), bare.size());
+  char line[20];
+  std::snprintf(line, sizeof line, "\ncrc32 %08x\n", static_cast<unsigned>(sum.checksum()));
+  return bare + line;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  go_on(text);
+  go_on(signed_again(text));
+  return 0;
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "mutation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <iterator>
+#include <utility>
+
+namespace nysalt::fuzz {
+
+namespace {
+
+/// Half open: text.substr(first, last - first).
+struct span {
+  std::size_t first;
+  std::size_t last;
+};
+
+struct dice {
+  std::mt19937_64& bits;
+  /// 0 .. n - 1. The bias of the remainder does not matter here.
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
+  const auto& one_of(const auto& all) { return all[below(std::size(all))]; }
+};
+
+std::vector<span> words_of(const std::string& text, auto&& belongs) {
+  std::vector<span> found;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!belongs(text[i])) continue;
+    const std::size_t first = i;
+    while (i < text.size() && belongs(text[i])) ++i;
+    found.push_back({first, i});
+  }
+  return found;
+}
+
+std::vector<span> numbers_in(const std::string& text) {
+  auto found = words_of(text, [](unsigned char c) {
+    return std::isdigit(c) != 0 || c == '.' || c == '-' || c == '+' || c == 'e';
+  });
+  std::erase_if(found, [&](const span& its) {
+    return std::none_of(text.begin() + static_cast<long>(its.first),
+                        text.begin() + static_cast<long>(its.last),
+                        [](unsigned char c) { return std::isdigit(c) != 0; });
+  });
+  return found;
+}
+
+std::vector<span> names_in(const std::string& text) {
+  return words_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; });
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find('\n', from), text.size() - 1) + 1;
+    lines.push_back(text.substr(from, end - from));
+    from = end;
+  }
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += line;
+  return text;
+}
+
+void flip_bit(std::string& text, dice& random) {
+  if (text.empty()) return;
+  char& c = text[random.below(text.size())];
+  c = static_cast<char>(c ^ (1 << random.below(8)));
+}
+
+void insert_byte(std::string& text, dice& random) {
+  constexpr std::array telling{'"', '\'', '{', '}', '[', ']', ',', ':', '=', '#', '-', '@', '\\', '\n', '\0'};
+  const std::size_t where = random.below(text.size() + 1);
+  text.insert(where, 1, random.below(2) == 0 ? random.one_of(telling) : static_cast<char>(random.below(256)));
+}
+
+void cut_off(std::string& text, dice& random) { text.resize(random.below(text.size() + 1)); }
+
+void cut_out(std::string& text, dice& random) {
+  if (text.empty()) return;
+  const std::size_t first = random.below(text.size());
+  text.erase(first, 1 + random.below(std::min<std::size_t>(text.size() - first, 16)));
+}
+
+void lose_line(std::string& text, dice& random) {
+  auto lines = lines_of(text);
+  if (lines.empty()) return;
+  lines.erase(lines.begin() + static_cast<long>(random.below(lines.size())));
+  text = joined(lines);
+}
+
+void double_line(std::string& text, dice& random) {
+  auto lines = lines_of(text);
+  if (lines.empty()) return;
+  const std::string again = random.one_of(lines);
+  lines.insert(lines.begin() + static_cast<long>(random.below(lines.size())), again);
+  text = joined(lines);
+}
+
+void swap_lines(std::string& text, dice& random) {
+  auto lines = lines_of(text);
+  if (lines.empty()) return;
+  std::swap(lines[random.below(lines.size())], lines[random.below(lines.size())]);
+  text = joined(lines);
+}
+
+void take_line(std::string& text, const std::vector<std::string>& corpus, dice& random) {
+  const auto others = lines_of(random.one_of(corpus));
+  if (others.empty()) return;
+  auto lines = lines_of(text);
+  lines.insert(lines.begin() + static_cast<long>(random.below(lines.size() + 1)), random.one_of(others));
+  text = joined(lines);
+}
+
+void replace_number(std::string& text, dice& random) {
+  constexpr std::array strange{"nan",
+                               "inf",
+                               "-inf",
+                               "1e999",
+                               "-0",
+                               "0",
+                               "-1",
+                               "1",
+                               "1e308",
+                               "1e-308",
+                               "5e-324",
+                               "0.5",
+                               "-0.5",
+                               "2",
+                               "3",
+                               "9223372036854775807",
+                               "9223372036854775808",
+                               "18446744073709551616",
+                               "1e17",
+                               "0x10",
+                               "1e",
+                               "",
+                               "null"};
+  const auto numbers = numbers_in(text);
+  if (numbers.empty()) return;
+  const auto [first, last] = random.one_of(numbers);
+  text.replace(first, last - first, random.one_of(strange));
+}
+
+void swap_names(std::string& text, dice& random) {
+  const auto names = names_in(text);
+  if (names.empty()) return;
+  auto one = random.one_of(names);
+  auto other = random.one_of(names);
+  if (one.first > other.first) std::swap(one, other);
+  if (one.first == other.first) return;
+  const std::string first = text.substr(one.first, one.last - one.first);
+  const std::string second = text.substr(other.first, other.last - other.first);
+  text.replace(other.first, second.size(), first);  // the later one first, so that the earlier stays in place
+  text.replace(one.first, first.size(), second);
+}
+
+void change(std::string& text, const std::vector<std::string>& corpus, dice& random) {
+  switch (random.below(11)) {
+    case 0:
+      return flip_bit(text, random);
+    case 1:
+      return insert_byte(text, random);
+    case 2:
+      return cut_off(text, random);
+    case 3:
+      return cut_out(text, random);
+    case 4:
+      return lose_line(text, random);
+    case 5:
+      return double_line(text, random);
+    case 6:
+      return swap_lines(text, random);
+    case 7:
+      return take_line(text, corpus, random);
+    case 8:
+      return swap_names(text, random);
+    default:
+      return replace_number(text, random);  // twice as often: that is where the program computes
+  }
+}
+
+}  // namespace
+
+std::string mutated(std::string text, const std::vector<std::string>& corpus, std::mt19937_64& bits) {
+  dice random{bits};
+  for (std::size_t changes = 1 + random.below(4); changes > 0; --changes) change(text, corpus, random);
+  return text;
+}
+
+}  // namespace nysalt::fuzz

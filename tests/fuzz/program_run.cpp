@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "program_run.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "../../src/run_program.hpp"
+#include "../support/scratch.hpp"
+
+namespace nysalt::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::array<long, 4> codes{};
+
+/// What is printed to a stream of C while this lives. The descriptor below it stays open, for sanitizers.
+class caught {
+ public:
+  explicit caught(std::FILE*& stream) : stream_(stream), before_(stream) {
+    stream_ = open_memstream(&text_, &size_);
+    if (stream_ == nullptr) std::abort();
+  }
+  caught(const caught&) = delete;
+  caught& operator=(const caught&) = delete;
+  ~caught() {
+    std::fclose(stream_);
+    stream_ = before_;
+    std::free(text_);
+  }
+
+  std::string text() const {
+    std::fflush(stream_);
+    return {text_, size_};
+  }
+
+ private:
+  std::FILE*& stream_;
+  std::FILE* before_;
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// Where the program runs: below a folder that is ours too, as a mutated name may be "..".
+class playground {
+ public:
+  playground() : outer_("fuzz"), inner_(outer_ / "folder") {
+    fs::create_directory(inner_);
+    fs::current_path(inner_);
+  }
+  ~playground() { fs::current_path("/"); }
+
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(inner_)) names.insert(entry.path().filename());
+    for (const auto& entry : fs::directory_iterator(outer_.path())) {
+      if (entry.path() != inner_) names.insert("../" + entry.path().filename().string());
+    }
+    return names;
+  }
+  void remove(const std::string& name) const { fs::remove_all(inner_ / name); }
+
+ private:
+  test::scratch outer_;
+  fs::path inner_;
+};
+
+int run_here(const std::vector<std::string>& arguments, std::string& out, std::string& err) {
+  std::vector<std::string> words{"nysalt"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const caught printed(stdout);
+  const caught complained(stderr);
+  const int code = program::run_program(static_cast<int>(words.size()), pointers.data());
+  out = printed.text();
+  err = complained.text();
+  return code;
+}
+
+[[noreturn]] void tell(const std::string& promise, const std::vector<std::string>& arguments,
+                       const remains& left) {
+  std::fprintf(stderr, "%s\n  nysalt", promise.c_str());
+  for (const auto& word : arguments) std::fprintf(stderr, " '%s'", word.c_str());
+  std::fprintf(stderr, "\n  exit code %d\n  standard error: %s\n  files:", left.code, left.err.c_str());
+  for (const auto& name : left.files) std::fprintf(stderr, " %s", name.c_str());
+  std::fprintf(stderr, "\n");
+  std::abort();
+}
+
+}  // namespace
+
+void run(const std::vector<std::string>& arguments, const std::vector<input_file>& inputs) {
+  static const playground folder;
+  for (const auto& [name, text] : inputs) std::ofstream(name, std::ios::binary) << text;
+  const auto before = folder.files();
+  remains left;
+  left.code = run_here(arguments, left.out, left.err);
+  left.files = folder.files();
+  for (const auto& [name, text] : inputs) {
+    left.inputs_are_whole = left.inputs_are_whole && test::contents(name) == text;
+  }
+  const std::string promise = broken_promise(left, before);
+  if (!promise.empty()) tell(promise, arguments, left);
+  ++codes[static_cast<std::size_t>(left.code)];
+  for (const auto& name : left.files) folder.remove(name);
+}
+
+const std::array<long, 4>& tally() { return codes; }
+
+}  // namespace nysalt::fuzz
