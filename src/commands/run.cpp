@@ -171,7 +171,8 @@ int run(const run_command& asked, const common_settings& common) {
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
-  const tabulated method = coefficients_at(find_method(command.method), *system, command.step, common.force,
+  const method_source source = find_method(command.method);
+  const tabulated method = coefficients_at(source, *system, command.step, common.force,
                                            placement_asked(command.placement), warnings);
   if (!common.json) {
     for (const auto& text : warnings) warn(text);
@@ -187,6 +188,10 @@ int run(const run_command& asked, const common_settings& common) {
                                common.threads};
   progress shown;
   prepare_starts(*system, common, shown);
+  if (const auto of_energies = warning_of_energies(source, *system, plan)) {
+    if (!common.json) warn(*of_energies);
+    warnings.push_back(*of_energies);
+  }
   shown.part("running");
   const auto began = std::chrono::steady_clock::now();
   system->run(method, plan, command.observables, command.sample_every, take,

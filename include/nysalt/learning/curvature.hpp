@@ -75,6 +75,19 @@ class curvature {
     return result;
   }
 
+  /// What the uncertainty of the minimum adds to the loss on new data, in the mean: the loss L is least at
+  /// theta*, and with H = L'' there and C the covariance of the minimum theta,
+  ///   E L(theta) - L(theta*) = E (theta - theta*)^T H (theta - theta*)/2 = tr(H C)/2.
+  /// C is that of standard_errors(), so that H C has one H^+ less: B/(B - 1) sum_b g_b^T H^+ g_b/2. Along a
+  /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
+  double expected_excess(const std::vector<Eigen::VectorXd>& scores) const {
+    const auto blocks = static_cast<double>(scores.size());
+    if (scores.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> terms;
+    for (const auto& score : scores) terms.push_back(0.5 * score.dot(solve(score)));
+    return tree_sum(terms) * (blocks / (blocks - 1.0));
+  }
+
   /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:
   /// H^+ (sum_b g_b g_b^T) H^+ B/(B - 1), where g_b is what block b adds to the gradient, by its residuals
   /// and by its part in the weights. It holds for a misspecified model, as a learned map is one.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct fit_summary {
   std::size_t trajectories = 0;
   std::size_t held_out_samples = 0;
 
+  double expected_excess = 0.0;  // what the parameters' uncertainty adds to the loss on new data, in the
+                                 // mean; NaN from a single trajectory, and where the guard holds them
+
   double condition = 1.0;                            // of the Hessian, flat directions apart
   std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
   std::int64_t coordinates_used = 0;                 // that the loss sums over
@@ -68,6 +72,9 @@ struct fit_summary {
 
   bool usable = false;
   std::string reason;  // why not
+
+  /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
+  double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }
 
   std::string brief() const {
     std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
@@ -101,6 +108,12 @@ struct fit_summary {
     line("held-out loss",
          fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
                      held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
+    if (is_of_data) {
+      line("uncertainty", std::isnan(expected_excess)
+                              ? "not known"
+                              : fmt::format("adds {:.1e} to the loss on new data, {:.2g} % of it",
+                                            expected_excess, 100.0 * excess_share()));
+    }
     line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
                                is_held_by_guard ? ", held by the guard"
                                : is_in_valley   ? ", in a valley of parameters that do as well"
