@@ -24,8 +24,9 @@ struct force_check {
   double velocity_defect = 0.0;      // of velocity = grad K
   Eigen::Index velocity_coordinate = 0;
   double velocity_asymmetry = 0.0;  // of the Jacobian of a velocity without a kinetic energy
-  double tolerance = 0.0;           // what the derivatives used can be off by: of gradient and asymmetry
-  double kick_tolerance = 0.0;      // of the soft force too
+  double tolerance = 0.0;           // what the derivatives used can be off by: of the gradient
+  double asymmetry_tolerance = 0.0;
+  double kick_tolerance = 0.0;  // of the soft force too
   double derivative_tolerance = 0.0;
   double velocity_tolerance = 0.0;
   bool has_potential = false;
@@ -35,7 +36,7 @@ struct force_check {
   bool passed() const {
     return finite && gradient_defect <= tolerance && kick_defect <= kick_tolerance &&
            soft_defect <= kick_tolerance && derivative_defect <= derivative_tolerance &&
-           asymmetry <= tolerance && velocity_defect <= velocity_tolerance &&
+           asymmetry <= asymmetry_tolerance && velocity_defect <= velocity_tolerance &&
            velocity_asymmetry <= velocity_tolerance;
   }
   /// The first thing that is wrong, in the order in which mistakes cause others.
@@ -77,7 +78,7 @@ struct force_check {
           "and formula, or leave it out",
           derivative_defect);
     }
-    if (asymmetry > tolerance) {
+    if (asymmetry > asymmetry_tolerance) {
       return fmt::format("the force is not conservative: its Jacobian is asymmetric by {:.2e}", asymmetry);
     }
     if (velocity_defect > velocity_tolerance) {

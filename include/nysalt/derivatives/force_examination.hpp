@@ -46,7 +46,8 @@ class force_examination {
   explicit force_examination(const force_source& its)
       : its_(its), along_(directions_to_look_along(its.size)), f_(its.size), other_(its.size) {
     found_.has_potential = its.has_potential;
-    found_.tolerance = its.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
+    found_.tolerance = its.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
+    found_.asymmetry_tolerance = its.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
     found_.kick_tolerance = tolerance_of_exact();
     found_.derivative_tolerance = tolerance_of_differences();
     found_.velocity_tolerance = its.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();

@@ -24,6 +24,7 @@ class force_source {
   bool has_derivative = false;
   bool has_velocity = false;
   bool has_kinetic_energy = false;
+  bool has_exact_potential = false;
   bool has_exact_force = false;
   bool has_exact_velocity = false;
 
@@ -60,7 +61,8 @@ class force_source_of final : public force_source {
     has_derivative = HasForceDerivative<S>;
     has_velocity = HasVelocity<S, double>;
     has_kinetic_energy = HasKineticEnergy<S, double>;
-    has_exact_force = !BlackBoxForce<S> && exact_potential;
+    has_exact_potential = exact_potential && !BlackBoxForce<S>;
+    has_exact_force = !BlackBoxForce<S>;
     has_exact_velocity = has_kinetic_energy ? exact_kinetic : exact_velocity;
   }
 
