@@ -140,7 +140,8 @@ json fit_json(const fit_summary& fit) {
           {"fit_seconds", fit.fit_seconds},
           {"learning_evaluations", fit.learning_evaluations},
           {"expected_excess", fit.is_of_data ? json(fit.expected_excess) : json(nullptr)},
-          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)}};
+          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)},
+          {"deciding_trajectories", fit.is_of_data ? json(fit.deciding_trajectories) : json(nullptr)}};
 }
 
 }  // namespace nysalt::program

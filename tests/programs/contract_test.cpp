@@ -43,7 +43,8 @@ const std::string of_a_fit =
     "family:text parameters:object standard_errors:object step:number objective:text loss:number "
     "held_out_loss:number one_step_error:number trajectory_error:number samples:integer usable:flag "
     "reason:null seconds:number data_seconds:number fit_seconds:number "
-    "learning_evaluations:integer expected_excess:number excess_share:number";
+    "learning_evaluations:integer expected_excess:number excess_share:number "
+    "deciding_trajectories:number";
 
 /// Both command lines end well and print the same, times aside.
 bool same(const std::string& one, const std::string& other) {

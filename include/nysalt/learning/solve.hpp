@@ -126,6 +126,7 @@ fit solve(const learning_problem& problem) {
       const auto scores = problem.scores(theta);
       errors = bend.standard_errors(scores);
       summary.expected_excess = bend.expected_excess(scores);
+      summary.deciding_trajectories = bend.deciding_blocks(scores);
     }
     summary.condition = bend.condition();
     for (const auto& flat : bend.flat_directions()) {
