@@ -43,8 +43,9 @@ json document(const learned_scheme& learned, const bundled_system& system, std::
   result["enough"] = nullptr;
   if (learned.course) {
     json stops = json::array();
-    for (const auto& [trajectories, share] : learned.course->stops) {
-      stops.push_back({{"trajectories", trajectories}, {"excess_share", share}});
+    for (const auto& [trajectories, share, deciding] : learned.course->stops) {
+      stops.push_back(
+          {{"trajectories", trajectories}, {"excess_share", share}, {"deciding_trajectories", deciding}});
     }
     result["enough"] = {{"reached", learned.course->is_reached}, {"stops", stops}};
   }

@@ -13,7 +13,7 @@ using namespace nysalt::test;
 
 namespace {
 
-/// The excess over a loss of 2 is `of_one`/M.
+/// The excess over a loss of 2 is `of_one`/M, and a tenth of the trajectories decide.
 enough_course course_of(double of_one, std::int64_t first, const enough_options& options,
                         std::vector<std::int64_t>* asked = nullptr) {
   return until_enough(first, options, [&](std::int64_t trajectories) {
@@ -21,6 +21,7 @@ enough_course course_of(double of_one, std::int64_t first, const enough_options&
     fit_summary fit;
     fit.loss = 2.0;
     fit.expected_excess = of_one / static_cast<double>(trajectories);
+    fit.deciding_trajectories = 0.1 * static_cast<double>(trajectories);
     return fit;
   });
 }
@@ -37,6 +38,16 @@ BOOST_AUTO_TEST_CASE(it_stops_where_the_share_is_met) {
   BOOST_TEST(course.stops.size() == asked.size());
   BOOST_TEST(course.report() == "400 trajectories are enough");
   BOOST_TEST(course_of(6.0, 300, {.share = 0.01}).stops.size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(a_share_that_rests_on_a_few_trajectories_does_not_count) {
+  const auto course = course_of(1e-9, 25, {.share = 0.01});
+  BOOST_TEST(course.is_reached);
+  BOOST_TEST(course.stops.back().trajectories == 100);
+  BOOST_TEST(course.stops.back().deciding == 10.0);
+  const auto cut_short = course_of(1e-9, 25, {.share = 0.01, .most = 90});
+  BOOST_TEST(!cut_short.is_reached);
+  BOOST_TEST(cut_short.report().find("rests on 9 of them") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(it_says_where_the_share_is_not_met) {
@@ -60,9 +71,11 @@ BOOST_AUTO_TEST_CASE(an_exact_fit_has_enough) {
   fit.loss = 1e-28;
   fit.expected_excess = 1e-28;
   BOOST_TEST(fit.excess_share() == 0.0);
+  BOOST_TEST(!fit.is_decided_by_few());
   fit.loss = 1e-20;
   fit.expected_excess = 1e-21;
   BOOST_TEST(fit.excess_share() == 0.1, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(fit.is_decided_by_few());
 }
 
 BOOST_AUTO_TEST_CASE(a_share_and_numbers_must_be_possible) {

@@ -80,15 +80,15 @@ struct fit_summary {
 
   /// From fewer it is too small more often than not: one trajectory in hundreds may outweigh the rest.
   static constexpr double too_few_decide = 10.0;
+  bool is_decided_by_few() const { return loss > 1e-24 && deciding_trajectories < too_few_decide; }
 
   std::string uncertainty() const {
     if (std::isnan(expected_excess)) return "not known";
     return fmt::format(
         "adds {:.1e} to the loss on new data, {:.2g} % of it; it rests on {:.0f} trajectories{}",
         expected_excess, 100.0 * excess_share(), deciding_trajectories,
-        deciding_trajectories < too_few_decide
-            ? ", too few to rely on it: take more, or starts of less different energies"
-            : "");
+        is_decided_by_few() ? ", too few to rely on it: take more, or starts of less different energies"
+                            : "");
   }
 
   std::string brief() const {

@@ -26,24 +26,28 @@ struct enough_course {
   struct stop {
     std::int64_t trajectories;
     double share;
+    double deciding;  // trajectories, on which the share rests
   };
   bool is_reached = false;
   std::vector<stop> stops;  // the last is that of the fit
 
   std::string report() const {
-    const auto& [trajectories, share] = stops.back();
+    const auto& [trajectories, share, deciding] = stops.back();
     if (is_reached) return fmt::format("{} trajectories are enough", trajectories);
     return fmt::format(
-        "{} trajectories are not enough: the uncertainty of the parameters adds {:.2g} of the loss",
-        trajectories, share);
+        "{} trajectories are not enough: the uncertainty of the parameters adds {:.2g} of the loss, and "
+        "rests on "
+        "{:.0f} of them",
+        trajectories, share, deciding);
   }
 };
 
 /// Learns with M = first, 2 first, ... trajectories until fit_summary::excess_share() is at most the share
 /// asked for, or M is the most that may be. The excess falls as 1/M [li_lu_tao_ye_2023, theorem 3.1], so that
 /// M ends between enough and twice that. It is an estimate itself, off by a fifth from 50 trajectories: begin
-/// with some tens. Where it cannot be told, as where the guard holds the parameters, it stops at once.
-/// Throws std::invalid_argument unless 0 < share, and 2 <= first <= most. Cost: twice that of the last fit.
+/// with some tens. Where it rests on less than ten of them it does not count. Where it cannot be told, as
+/// where the guard holds the parameters, it stops at once. Throws std::invalid_argument unless 0 < share, and
+/// 2 <= first <= most. Cost: twice that of the last fit.
 inline enough_course until_enough(std::int64_t first, const enough_options& options,
                                   const std::function<fit_summary(std::int64_t trajectories)>& learn) {
   if (!(options.share > 0.0) || first < 2 || first > options.most) {
@@ -55,9 +59,10 @@ inline enough_course until_enough(std::int64_t first, const enough_options& opti
   }
   enough_course course;
   for (std::int64_t trajectories = first;; trajectories = std::min(2 * trajectories, options.most)) {
-    const double share = learn(trajectories).excess_share();
-    course.stops.push_back({trajectories, share});
-    course.is_reached = share <= options.share;
+    const fit_summary fit = learn(trajectories);
+    const double share = fit.excess_share();
+    course.stops.push_back({trajectories, share, fit.deciding_trajectories});
+    course.is_reached = share <= options.share && !fit.is_decided_by_few();
     if (course.is_reached || std::isnan(share) || trajectories == options.most) return course;
   }
 }
