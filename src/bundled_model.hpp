@@ -28,6 +28,7 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/learning/extend_data.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
@@ -165,6 +166,13 @@ class bundled_model final : public bundled_system {
     }
   }
 
+  std::int64_t most_trajectories(const learn_plan& plan) const override {
+    const data_options options{.step = plan.step,
+                               .horizon = plan.how.horizon,
+                               .noise_parts = noise_parts(placed(plan.family, plan.where))};
+    return nysalt::most_trajectories(options, size(system_));
+  }
+
   learnable make_learnable(const learn_plan& plan, const counter& progress) const override {
     require_learnable(plan.family, plan.where, plan.how, plan.step);
     std::optional<learnable> result;
@@ -182,19 +190,26 @@ class bundled_model final : public bundled_system {
         options.further_starts.push_back({"a step nearby", theta});
       }
     }
+    using two_sets = std::array<flow_map_data<S::dimension>, 2>;
+    two_sets fresh;
+    auto* kept = plan.kept ? std::any_cast<two_sets>(plan.kept.get()) : nullptr;
+    if (plan.kept && kept == nullptr) kept = &plan.kept->template emplace<two_sets>();
+    auto& data = (kept != nullptr ? *kept : fresh)[0];
+    auto& held_out = (kept != nullptr ? *kept : fresh)[1];
     const auto with_reference = [&](const auto& its) {
-      const auto pairs = [&](std::uint64_t seed) {
-        return make_flow_map_data(system_, *starts_, its,
-                                  {.step = plan.step,
-                                   .horizon = plan.how.horizon,
-                                   .trajectories = plan.how.trajectories,
-                                   .seed = seed,
-                                   .noise_parts = parts,
-                                   .threads = plan.threads,
-                                   .progress = progress});
+      const auto make = [&](auto& pairs, std::uint64_t seed) {
+        extend_data(system_, *starts_, its,
+                    {.step = plan.step,
+                     .horizon = plan.how.horizon,
+                     .trajectories = plan.how.trajectories,
+                     .seed = seed,
+                     .noise_parts = parts,
+                     .threads = plan.threads,
+                     .progress = progress},
+                    pairs);
       };
-      const auto data = pairs(plan.seed);
-      const auto held_out = pairs(plan.held_out_seed);
+      make(data, plan.seed);
+      make(held_out, plan.held_out_seed);
       result.emplace(
           learnable{make_learning_problem(family, system_, data, held_out, options), data.energies});
     };
@@ -242,19 +257,17 @@ class bundled_model final : public bundled_system {
     return nysalt::acceptance(system_, method, *starts_, options_of(plan, progress), temperature);
   }
 
-  std::array<double, 2> range_of_starts(const trajectories_plan& plan,
-                                        const std::string& name) const override {
+  std::vector<double> values_at_starts(const trajectories_plan& plan,
+                                       const std::string& name) const override {
     const auto value = observable<double>(system_, name);
-    constexpr std::int64_t enough = 1000;
-    std::array range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (std::int64_t m = 0; m < std::min(plan.count, enough); m += width) {
-      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, width);
-      for (int k = 0; k < width; ++k) {
-        const double its = value(lane(x, k));
-        range = {std::min(range[0], its), std::max(range[1], its)};
-      }
+    const std::int64_t enough = std::min<std::int64_t>(plan.count, 1000);
+    std::vector<double> values;
+    for (std::int64_t m = 0; m < enough; m += width) {
+      const auto count = static_cast<int>(std::min<std::int64_t>(width, enough - m));
+      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, count);
+      for (int k = 0; k < count; ++k) values.push_back(value(lane(x, k)));
     }
-    return range;
+    return values;
   }
 
   gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,

@@ -2,7 +2,7 @@
 // A bundled system behind a name: what the commands do with it, whatever its type.
 #pragma once
 
-#include <array>
+#include <any>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,7 +19,7 @@
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/until_enough.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
 
@@ -48,8 +48,11 @@ struct learn_plan {
   std::uint64_t seed;
   std::uint64_t held_out_seed;
   int threads;
-  std::vector<double> from = {};  // the optimum at a step nearby: one more start
-  bool from_there_alone = false;  // and no other
+  std::vector<double> from = {};              // the optimum at a step nearby: one more start
+  bool from_there_alone = false;              // and no other
+  std::optional<enough_options> enough = {};  // as many trajectories as it takes, from those of `how` on
+  // Where what is made for few trajectories is kept for the same plan with more; nothing: nowhere.
+  std::shared_ptr<std::any> kept = {};
 };
 
 struct learnable;  // learnable.hpp: what it takes is dear to compile
@@ -58,6 +61,7 @@ struct learned_scheme {
   fit_summary fit;
   tabulated method;                      // with its letters O
   std::optional<energy_range> energies;  // of the training data
+  std::optional<enough_course> course = {};
 };
 
 /// Samples of a trajectory: values of all observables at steps first, first + every, ...
@@ -136,6 +140,8 @@ class bundled_system {
   /// Throws refusal for what cannot be learned, before any work is done.
   virtual void require_learnable(const std::string& family, std::optional<placement> where,
                                  const learn_settings& how, double step) const = 0;
+  /// Trajectories to learn from that fit into memory.
+  virtual std::int64_t most_trajectories(const learn_plan& plan) const = 0;
   /// Makes the data. What is made refers to this.
   virtual learnable make_learnable(const learn_plan& plan, const counter& progress) const = 0;
   /// Compiled once, and not for each system.
@@ -155,9 +161,9 @@ class bundled_system {
   virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,
                                        double temperature, const counter& progress) const = 0;
 
-  /// Least and largest value of an observable over the first starts of a plan.
-  virtual std::array<double, 2> range_of_starts(const trajectories_plan& plan,
-                                                const std::string& observable) const = 0;
+  /// Of an observable at the first thousand starts of a plan, or all if they are fewer.
+  virtual std::vector<double> values_at_starts(const trajectories_plan& plan,
+                                               const std::string& observable) const = 0;
   /// Statistics of a method, and of the reference: small steps, and in a bath BAOAB.
   virtual gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
                                          const std::string& observable, const counter& progress) const = 0;

@@ -160,6 +160,8 @@ void add_learn(CLI::App& app, typed& to) {
   add_number(command, "--step", to.learn.step, "to learn for");
   command.add_option("--steps", to.learn_steps, "joined by commas: a curve of parameters");
   add_learning(command, to.learn.learning, "--");
+  add_number(command, "--enough", to.learn.enough,
+             "as many trajectories as it takes: share of the loss that their number may add to it");
   command.add_option("--output", to.learn.output, "write a scheme file");
   add_common(command, to.common);
   add_force(command, to.common, "write the scheme even if the fit is not usable");
@@ -317,6 +319,9 @@ int run_parsed(const CLI::App& command, typed& to) {
   if (name == "list") return list(to.common);
   if (name == "learn") {
     to.learn.steps = numbers(to.learn_steps, "--steps");
+    if (given(command, "--enough") && given(command, "--trajectories")) {
+      refuse("--enough finds how many trajectories it takes: leave --trajectories away");
+    }
     return learn(to.learn, to.common);
   }
   if (name == "run") {

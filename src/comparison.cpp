@@ -66,6 +66,7 @@ void comparison::plan_rows() {
   for (const auto& typed : command_.methods) {
     sources.push_back(find_method(typed));
     if (sources.back().family) families_[typed] = sources.back();
+    if (sources.back().learned) schemes_.push_back(sources.back());
   }
   for (const double nominal : command_.steps) {
     for (const auto& source : sources) add_row(source, nominal);

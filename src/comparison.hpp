@@ -100,6 +100,7 @@ class comparison {
   std::unique_ptr<bundled_system> system_;
   std::vector<asked_metric> metrics_;
   std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed
+  std::vector<method_source> schemes_;             // of the methods that come from files
   std::vector<row> rows_;
   json question_;
   json fits_ = json::array();

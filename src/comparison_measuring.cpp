@@ -27,6 +27,10 @@ std::vector<row*> usable(const std::vector<row*>& all) {
 
 void comparison::learn_and_measure(journal& kept) {
   prepare_starts(*system_, common_, shown_);
+  for (const auto& source : schemes_) {
+    const auto of_energies = warning_of_energies(source, *system_, plan_at(rows_.front().step));
+    if (of_energies) warnings_.push_back(*of_energies);
+  }
   expect_work();
   for (auto& its : rows_) {
     if (families_.contains(its.method)) learn(its, kept);

@@ -125,7 +125,9 @@ void comparison::prepare_bins(std::size_t metric) {
   const std::string& observable = metrics_[metric].observable;
   std::array<double, 2> range{};
   if (command_.range.empty()) {
-    range = system_->range_of_starts(plan_at(rows_.front().step), observable);
+    const auto values = system_->values_at_starts(plan_at(rows_.front().step), observable);
+    const auto [low, high] = std::ranges::minmax(values);
+    range = {low, high};
     if (!(range[0] < range[1])) {
       refuse("the observable {} is {} at all starts: say the --range of its histogram", observable, range[0]);
     }

@@ -37,6 +37,28 @@ learned_scheme bundled_system::learn(const learn_plan& plan, const counter& prog
   return {std::move(fit), method, energies};
 }
 
+namespace {
+
+/// Each time as many trajectories more; those that there were are kept.
+learned_scheme learn_enough(const bundled_system& system, learn_plan plan, progress& shown) {
+  std::optional<learned_scheme> learned;
+  plan.kept = std::make_shared<std::any>();
+  enough_options enough = *plan.enough;
+  enough.most = std::min(enough.most, system.most_trajectories(plan));
+  const auto learn = [&](std::int64_t trajectories) {
+    plan.how.trajectories = trajectories;
+    shown.part(
+        fmt::format("learning {} at step {:g} from {} trajectories", plan.family, plan.step, trajectories));
+    learned.emplace(system.learn(plan, shown.counter(trajectories)));
+    return learned->fit;
+  };
+  const auto course = until_enough(plan.how.trajectories, enough, learn);
+  learned->course = course;
+  return *learned;
+}
+
+}  // namespace
+
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown,
                           double work) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
@@ -51,6 +73,7 @@ learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, 
     if (part < 1.0 && !is_hard) continue;
     its.step = part * plan.step;
     shown.part(fmt::format("learning {} at step {:g}", plan.family, its.step), is_hard ? work / 3.0 : work);
+    if (part == 1.0 && plan.enough) return learn_enough(system, its, shown);
     learned_scheme learned = system.learn(its, shown.counter(plan.how.trajectories));
     if (part == 1.0) return learned;
     its.from = theta_of(learned.fit);
@@ -115,7 +138,10 @@ json fit_json(const fit_summary& fit) {
           {"seconds", fit.data_seconds + fit.fit_seconds},
           {"data_seconds", fit.data_seconds},
           {"fit_seconds", fit.fit_seconds},
-          {"learning_evaluations", fit.learning_evaluations}};
+          {"learning_evaluations", fit.learning_evaluations},
+          {"expected_excess", fit.is_of_data ? json(fit.expected_excess) : json(nullptr)},
+          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)},
+          {"deciding_trajectories", fit.is_of_data ? json(fit.deciding_trajectories) : json(nullptr)}};
 }
 
 }  // namespace nysalt::program

@@ -128,6 +128,25 @@ placement placement_in(const reader& read) {
   refuse("{}: unknown placement '{}': it is one of end, symmetric, middle", read.file(), name);
 }
 
+/// Nothing where the system tells no energy, and where the loss asked for no data.
+std::optional<energy_range> energies_in(const reader& read) {
+  if (read.member("energy_range").is_null() || read.text("objective") == "covariance") return {};
+  const auto ends = read.numbers("energy_range");
+  if (ends.size() != 2 || !(ends[0] <= ends[1])) {
+    refuse("{}: \"energy_range\" must hold the least and the largest energy", read.file());
+  }
+  return energy_range{ends[0], ends[1]};
+}
+
+/// One number, or one for each step where they differ.
+std::size_t trajectories_in(const reader& read) {
+  const auto all = read.member("trajectories").is_array() ? read.numbers("trajectories")
+                                                          : std::vector<double>{read.number("trajectories")};
+  const bool are_counts = std::ranges::all_of(all, [](double n) { return n >= 1.0 && n <= 1e15; });
+  if (all.empty() || !are_counts) refuse("{}: \"trajectories\" must be positive", read.file());
+  return static_cast<std::size_t>(std::ranges::min(all));
+}
+
 scheme scheme_in(const json& document, const reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
@@ -151,6 +170,8 @@ scheme scheme_in(const json& document, const reader& read) {
   }
   if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
   const reader of_system(read.member("system"), read.file());
+  const auto trajectories = trajectories_in(read);
+  const auto energies = energies_in(read);
   return in_file(read.file(), [&] {
     const auto thetas =
         parameters_in(read.member("parameters"), family_named(name), steps.size(), is_curve, read);
@@ -161,7 +182,9 @@ scheme scheme_in(const json& document, const reader& read) {
                   theta_curve(steps, thetas),
                   of_system.text("description"),
                   read.flag("usable"),
-                  read.text("reason")};
+                  read.text("reason"),
+                  energies,
+                  trajectories};
     result.at(steps.front());  // its word takes the placement
     return result;
   });
@@ -276,6 +299,10 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const bundle
     energies->include(one.energies->low);
     energies->include(one.energies->high);
   }
+  const auto differs = [&](const learned_scheme& one) { return one.fit.trajectories != fit.trajectories; };
+  const json trajectories = std::ranges::any_of(learned, differs)
+                                ? at_steps([](const fit_summary& one) { return one.trajectories; })
+                                : json(fit.trajectories);
   json document{
       {"format", scheme_format},
       {"version", is_curve     ? as_curve
@@ -296,7 +323,7 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const bundle
       {"coordinates", fit.coordinates},
       {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
       {"starts", fit.ensemble},
-      {"trajectories", fit.trajectories},
+      {"trajectories", trajectories},
       {"horizon", plan.how.horizon},
       {"seed", fit.seed},
       {"held_out_seed", fit.held_out_seed},

@@ -22,6 +22,8 @@ struct scheme {
   std::string system;  // its description
   bool usable;
   std::string reason;
+  std::optional<energy_range> energies;  // that it was learned on
+  std::size_t trajectories = 0;          // how many, at the step with the fewest
 
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
   tabulated at(double step) const;

@@ -8,6 +8,7 @@
 
 #include "catalogue.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
@@ -155,6 +156,19 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
   system.require_served(method.letters());
   if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;
+}
+
+std::optional<std::string> warning_of_energies(const method_source& source, const bundled_system& system,
+                                               const trajectories_plan& plan) {
+  if (!source.learned || !source.learned->energies) return std::nullopt;
+  if (source.learned->system != system.description()) return std::nullopt;
+  const auto found = look_outside(*source.learned->energies, source.learned->trajectories,
+                                  system.values_at_starts(plan, "energy"));
+  if (!found.is_serious()) return std::nullopt;
+  return fmt::format(
+      "{}: {}: its errors may be larger than those that it was learned with; learn it from such starts, or "
+      "compare it with other methods on them",
+      source.typed, found.report());
 }
 
 std::optional<placement> placement_in(const method_source& source, const bundled_system& system,

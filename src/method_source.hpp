@@ -37,6 +37,11 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
                           std::optional<placement> otherwise, std::vector<std::string>& warnings);
 
+/// What is to be said if a scheme was learned on other energies than those of the starts of a plan, which
+/// must be prepared; nothing otherwise, and of another system's scheme. See energies_outside.
+std::optional<std::string> warning_of_energies(const method_source& source, const bundled_system& system,
+                                               const trajectories_plan& plan);
+
 /// Where a family that is learned has its letters O: nowhere without a bath. Throws refusal for one that has
 /// no central letter.
 std::optional<placement> placement_in(const method_source& source, const bundled_system& system,

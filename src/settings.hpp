@@ -56,7 +56,8 @@ struct learn_command {
   std::string family = "nystrom";
   std::string placement;
   std::optional<double> step;
-  std::vector<double> steps;  // for a curve
+  std::vector<double> steps;     // for a curve
+  std::optional<double> enough;  // share of the loss: as many trajectories as that takes
   std::string output;
 };
 

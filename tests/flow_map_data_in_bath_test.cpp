@@ -227,6 +227,7 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
   BOOST_TEST(refused([](auto& d) { d.noise.pop_back(); }, {"10 pairs with noise in 2 parts hold 19"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
-  BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; }, {"noise 13", "not finite"}));
+  BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },
+                     {"coordinate 3 of noise 13 is nan", "pair", "trajectory", "not finite"}));
   BOOST_TEST(refuses<wrong>([&] { require_valid(whole, alone); }, {"in bath(friction=2"}));
 }

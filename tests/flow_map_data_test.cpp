@@ -121,9 +121,16 @@ BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
     spoil(data);
     return refuses<wrong>([&] { require_valid(data, chain); }, words);
   };
-  BOOST_TEST(
-      refused([](auto& d) { d.finish[3].q[1] = std::numeric_limits<double>::quiet_NaN(); }, {"pair 3"}));
-  BOOST_TEST(refused([](auto& d) { d.start[7].p[0] = std::numeric_limits<double>::infinity(); }, {"pair 7"}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(refused([=](auto& d) { d.finish[3].q[1] = nan; },
+                     {"not finite", "q2 is nan", "finish of pair 3", "trajectory 0"}));
+  BOOST_TEST(refused([](auto& d) { d.start[7].p[0] = -std::numeric_limits<double>::infinity(); },
+                     {"not finite", "p1 is -inf", "start of pair 7", "trajectory 1"}));
+  BOOST_TEST(refused([=](auto& d) { d.finer[1].second.p[5] = nan; },
+                     {"p6 is nan", fmt::format("finer finish of pair {}", whole.finer[1].first)}));
+  BOOST_TEST(refused([](auto& d) { d.finer[0].first = 10; }, {"not whole", "pair 10", "there are 10"}));
+  BOOST_TEST(refused([=](auto& d) { d.step = nan; }, {"step nan"}));
+  BOOST_TEST(refused([](auto& d) { d.step = 0.0; }, {"step 0"}));
   BOOST_TEST(refused([](auto& d) { d.finish.pop_back(); }, {"not whole", "9 finishes"}));
   BOOST_TEST(refused([](auto& d) { d.first_of.clear(); }, {"not whole", "0 trajectories"}));
   BOOST_TEST(refused([](auto& d) { d = {}; }, {"the data are of"}));
@@ -167,7 +174,7 @@ BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
       make_flow_map_data(chain, third_fails_late{&later_failed, threads > 1}, fine_steps<>(1e-3),
                          {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
     };
-    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "not finite"}));
+    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "not finite", "q1 is "}));
     BOOST_TEST(later_failed == (threads > 1));  // so whoever throws first would have named another
   }
 }
@@ -183,7 +190,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
   };
   for (const int threads : {1, 2, 5}) {
     BOOST_TEST(refuses<std::runtime_error>([&] { make(40, threads); },
-                                           {"trajectory 25 ", "at step 10:", "srkn11b", "diverged"}));
+                                           {"trajectory 25 ", "at step 10 (q1 is ", "srkn11b", "diverged"}));
     BOOST_TEST(make(25, threads).pairs() == 250U);
   }
   // Whatever is thrown: of the starts that the list does not hold, the first.
@@ -210,6 +217,32 @@ BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
   const auto without =
       make_flow_map_data(cliff(), at_rest, fine_steps<>(0.05), {.step = 0.5, .trajectories = 1});
   BOOST_TEST(!without.energies.has_value());  // a force alone has no energy
+}
+
+BOOST_AUTO_TEST_CASE(trajectories_may_begin_with_any_number) {
+  const data_options options{.step = 0.02, .horizon = 0.1, .trajectories = 21};
+  const auto all = made(options);
+  auto later = options;
+  later.first = 5;
+  later.trajectories = 16;
+  const auto rest = made(later);
+  BOOST_REQUIRE(rest.pairs() == 80U);
+  for (std::size_t n = 0; n < rest.pairs(); ++n) {
+    BOOST_TEST(test::same_bits(rest.start[n], all.start[n + 25]));
+    BOOST_TEST(test::same_bits(rest.finish[n], all.finish[n + 25]));
+  }
+  BOOST_TEST(!test::same_bits(rest.start[0], all.start[0]));
+  later.first = -1;
+  BOOST_TEST(refuses<wrong>([&] { made(later); }, {"number -1"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_knows_its_trajectory) {
+  flow_map_data<1> data;
+  data.first_of = {0, 2, 2, 5};
+  BOOST_TEST(data.trajectory_of(0) == 0U);
+  BOOST_TEST(data.trajectory_of(1) == 0U);
+  BOOST_TEST(data.trajectory_of(2) == 2U);  // the one between holds no pair
+  BOOST_TEST(data.trajectory_of(4) == 2U);
 }
 
 // 21 trajectories fill no number of lanes.

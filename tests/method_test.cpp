@@ -82,6 +82,23 @@ BOOST_AUTO_TEST_CASE(a_tuned_method_runs_where_it_was_learned) {
   BOOST_TEST((tuned.parameters() == std::array{0.5, 0.41}));
 }
 
+BOOST_AUTO_TEST_CASE(it_knows_the_energies_that_it_has_seen) {
+  const pendulum system;  // H = p^2/2 - cos q
+  const auto at = [](double p) {
+    return phase_point<double, 1>{vector<double, 1>(0.0), vector<double, 1>(p)};
+  };
+  const tuned_method<nystrom> learned(member<nystrom>({0.5, 0.41}), 0.02, describe(system),
+                                      energy_range{-0.9, 1.0});
+  BOOST_TEST(learned.has_seen(system, at(1.0)));
+  BOOST_TEST(learned.has_seen(system, at(2.0 + 1e-7)));  // as far outside as references err
+  BOOST_TEST(!learned.has_seen(system, at(2.01)));
+  BOOST_TEST(!learned.has_seen(system, at(0.0)));
+  BOOST_TEST(learned.energies()->high == 1.0);
+  BOOST_TEST(!tuned.energies().has_value());
+  const tuned_method<nystrom> untold(member<nystrom>({0.5, 0.41}), 0.02, describe(system));
+  BOOST_TEST(untold.has_seen(system, at(100.0)));  // nobody knows better
+}
+
 BOOST_AUTO_TEST_CASE(it_refuses_a_foreign_step) {
   for (const double step : {0.01, 0.0200001, -0.02}) {
     BOOST_TEST(refuses<wrong>([&] { make_stepper(learned_for, tuned, step); },

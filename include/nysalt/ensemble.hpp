@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "nysalt/lanes.hpp"
 
@@ -30,12 +32,25 @@ concept MakesBlocks = Ensemble<E, S> &&
 };
 
 namespace detail {
+/// "q2 is nan": the first entry that is not finite; empty if there is none.
+template <int N>
+std::string not_finite_in(const phase_point<double, N>& x) {
+  for (const auto& [name, values] : {std::pair('q', &x.q), std::pair('p', &x.p)}) {
+    for (Eigen::Index i = 0; i < values->size(); ++i) {
+      if (!std::isfinite((*values)[i])) return fmt::format("{}{} is {}", name, i + 1, (*values)[i]);
+    }
+  }
+  return {};
+}
+
 template <System S, Ensemble<S> E>
 phase_point<double, S::dimension> require_sound(const S& system, const E& ensemble, std::int64_t n,
                                                 phase_point<double, S::dimension> start) {
   if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
-  throw std::invalid_argument(fmt::format("start {} of {} is not finite or has not the dimension of {}", n,
-                                          ensemble.description(), describe(system)));
+  const std::string what = not_finite_in(start);
+  throw std::invalid_argument(fmt::format("start {} of {} is not finite or has not the dimension of {}{}", n,
+                                          ensemble.description(), describe(system),
+                                          what.empty() ? "" : ": " + what));
 }
 }  // namespace detail
 

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -19,22 +18,12 @@
 #include <vector>
 
 #include "nysalt/counted.hpp"
+#include "nysalt/energy_range.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {
-
-/// From the least to the largest H that was seen.
-struct energy_range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double energy) {
-    low = std::min(low, energy);
-    high = std::max(high, energy);
-  }
-};
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory.
 template <int N>
@@ -64,6 +53,12 @@ struct flow_map_data {
 
   std::size_t pairs() const { return start.size(); }
   std::size_t trajectories() const { return first_of.empty() ? 0 : first_of.size() - 1; }
+  /// The one that a pair belongs to, from 0.
+  std::size_t trajectory_of(std::size_t pair) const {
+    return static_cast<std::size_t>(std::upper_bound(first_of.begin(), first_of.end(), pair) -
+                                    first_of.begin()) -
+           1;
+  }
 };
 
 struct data_options {
@@ -71,14 +66,23 @@ struct data_options {
   double horizon = 0.5;             // length of each trajectory
   std::int64_t trajectories = 100;  // independent starts
   std::uint64_t seed = 1;
-  int noise_parts = 0;  // of a step whose noise is kept: what the letters O to be learned with need
-  int threads = 1;      // changes no bit of the data
+  std::int64_t first = 0;  // number of the first trajectory: which start and which noise it has
+  int noise_parts = 0;     // of a step whose noise is kept: what the letters O to be learned with need
+  int threads = 1;         // changes no bit of the data
   // Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
 
+namespace detail {
+[[noreturn]] inline void refuse_size(const char* what, std::size_t n, Eigen::Index its, Eigen::Index wanted) {
+  throw std::invalid_argument(
+      fmt::format("{} {} of the data has not the dimension of the system: {} for {}", what, n, its, wanted));
+}
+}  // namespace detail
+
 /// Throws std::invalid_argument unless the data are of this system, hold pairs of its size, all finite, and
-/// trajectories that cover them; for data that came from elsewhere.
+/// trajectories that cover them; for data that came from elsewhere. What is not finite is named: coordinate,
+/// pair and trajectory, all but coordinates counted from 0.
 template <System S>
 void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
   if (data.system != describe(system)) {
@@ -97,21 +101,49 @@ void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
     throw std::invalid_argument(fmt::format("the data are not whole: {} pairs with noise in {} parts hold {}",
                                             data.pairs(), data.noise_parts, data.noise.size()));
   }
-  for (std::size_t n = 0; n < data.noise.size(); ++n) {
-    if (data.noise[n].size() == size(system) && data.noise[n].allFinite()) continue;
-    throw std::invalid_argument(
-        fmt::format("noise {} of the data is not finite or has not the dimension of the system", n));
+  if (data.step == 0.0 || !std::isfinite(data.step)) {
+    throw std::invalid_argument(fmt::format("the data cannot have the step {}", data.step));
   }
-  for (std::size_t n = 0; n < data.pairs(); ++n) {
-    for (const auto* x : {&data.start[n], &data.finish[n]}) {
-      if (x->q.size() == size(system) && x->p.size() == size(system) && is_finite(*x)) continue;
-      throw std::invalid_argument(
-          fmt::format("pair {} of the data is not finite or has not the dimension of the system", n));
+  for (std::size_t n = 0; n < data.noise.size(); ++n) {
+    const auto& its = data.noise[n];
+    if (its.size() != size(system)) detail::refuse_size("noise", n, its.size(), size(system));
+    for (Eigen::Index i = 0; i < its.size(); ++i) {
+      if (std::isfinite(its[i])) continue;
+      const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
+      throw std::invalid_argument(fmt::format(
+          "the data hold what is not finite: coordinate {} of noise {} is {}, in pair {} of trajectory {}",
+          i + 1, n, its[i], pair, data.trajectory_of(pair)));
     }
+  }
+  const auto require_sound = [&](const char* what, std::size_t pair, const auto& x) {
+    if (x.q.size() != size(system)) detail::refuse_size(what, pair, x.q.size(), size(system));
+    if (x.p.size() != size(system)) detail::refuse_size(what, pair, x.p.size(), size(system));
+    if (is_finite(x)) return;
+    throw std::invalid_argument(
+        fmt::format("the data hold what is not finite: {} in the {} of pair {}, in trajectory {}",
+                    detail::not_finite_in(x), what, pair, data.trajectory_of(pair)));
+  };
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    require_sound("start", n, data.start[n]);
+    require_sound("finish", n, data.finish[n]);
+  }
+  for (const auto& [pair, finish] : data.finer) {
+    if (pair >= data.pairs()) {
+      throw std::invalid_argument(fmt::format(
+          "the data are not whole: a finer finish is of pair {}, but there are {}", pair, data.pairs()));
+    }
+    require_sound("finer finish", pair, finish);
   }
 }
 
 namespace detail {
+
+constexpr double numbers_in_memory = 1e9;
+
+/// Of one trajectory.
+inline double numbers_in(const data_options& options, double steps, Eigen::Index dimension) {
+  return steps * (4.0 + options.noise_parts) * static_cast<double>(dimension);
+}
 
 /// floor(horizon/step), if that and the number of trajectories can be.
 inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) {
@@ -121,17 +153,18 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
                     options.step, options.horizon));
   }
   const double steps = std::floor(options.horizon / options.step + 1e-9);
-  if (!(steps >= 1.0) || options.trajectories < 1) {
+  if (!(steps >= 1.0) || options.trajectories < 1 || options.first < 0) {
     throw std::invalid_argument(fmt::format(
-        "flow_map_data: {} trajectories over {} hold no step of {}; at least one of each is needed",
-        options.trajectories, options.horizon, options.step));
+        "flow_map_data: {} trajectories from number {} over {} hold no step of {}; at least one of each is "
+        "needed",
+        options.trajectories, options.first, options.horizon, options.step));
   }
   if (options.noise_parts < 0) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: noise in {} parts of a step cannot be", options.noise_parts));
   }
-  const double of_a_pair = (4.0 + options.noise_parts) * static_cast<double>(dimension);  // numbers
-  if (steps * static_cast<double>(options.trajectories) * of_a_pair > 1e9) {
+  if (options.trajectories >
+      static_cast<std::int64_t>(numbers_in_memory / numbers_in(options, steps, dimension))) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
         options.trajectories, steps));
@@ -154,13 +187,14 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
       for (int k = 0; k < count; ++k) energies[place(k)].include(lane(its, k));
     }
   };
-  auto x = sound_starts<T>(system, ensemble, options.seed, first, count);
+  const std::int64_t number = options.first + first;
+  auto x = sound_starts<T>(system, ensemble, options.seed, number, count);
   include_energies(x);
   std::array<std::optional<std::size_t>, lanes_of<S>> lost;  // at which step a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
   const auto parts = static_cast<std::size_t>(options.noise_parts);
   std::vector<vector<T, S::dimension>> noise(parts, make_vector<T>(system));
-  path_place at{options.seed, static_cast<std::uint64_t>(first), 0};
+  path_place at{options.seed, static_cast<std::uint64_t>(number), 0};
   for (std::size_t n = 0; n < steps; ++n, ++at.step) {
     for (int k = 0; k < count; ++k) data.start[data.first_of[place(k)] + n] = lane(x, k);
     advance_lanes(watched, reference, x, options.step, count, at, std::span(noise));
@@ -180,9 +214,10 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   }
   for (int k = 0; k < count; ++k) {
     if (!lost[static_cast<std::size_t>(k)]) continue;
-    throw std::runtime_error(
-        fmt::format("flow_map_data: trajectory {} is not finite at step {}: the reference ({}) diverged",
-                    first + k, *lost[static_cast<std::size_t>(k)], reference.description()));
+    const std::size_t step = *lost[static_cast<std::size_t>(k)];
+    throw std::runtime_error(fmt::format(
+        "flow_map_data: trajectory {} is not finite at step {} ({}): the reference ({}) diverged", number + k,
+        step, not_finite_in(data.finish[data.first_of[place(k)] + step - 1]), reference.description()));
   }
   // Evaluated over packs, a force is one of each lane's trajectory.
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
@@ -198,7 +233,7 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
   std::size_t trajectory = 0;
   for (std::size_t pair = 0; pair < data.pairs(); pair += data.pairs() / checks + 1) {
     while (data.first_of[trajectory + 1] <= pair) ++trajectory;
-    const path_place at{options.seed, trajectory,
+    const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
                         static_cast<std::int64_t>(pair - data.first_of[trajectory])};
     data.finer.emplace_back(pair, data.start[pair]);
     advance_lanes(watched, finer, data.finer.back().second, options.step, 1, at,
@@ -208,6 +243,12 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
 }
 
 }  // namespace detail
+
+/// As many as fit into memory.
+inline std::int64_t most_trajectories(const data_options& options, Eigen::Index dimension) {
+  const double steps = std::floor(options.horizon / options.step + 1e-9);
+  return static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
+}
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
 /// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nysalt/learning/fit.hpp"
+#include "nysalt/learning/sound_force.hpp"
 #include "nysalt/method.hpp"
 #if !defined NYSALT_COMPILED_ONCE
 #include "nysalt/learning/solve.hpp"
@@ -25,6 +26,7 @@ struct learn_options {
   bool classical_starts = true;
   int random_starts = 0;
   bool guarded = true;
+  bool check_force = true;
   std::uint64_t seed = 1;
 };
 
@@ -39,14 +41,17 @@ struct learned {
 /// the least mean square error at the end of the held-out trajectories, which should come from another seed,
 /// among those that the stability_guard admits; see learning/search.hpp for where it admits none.
 ///
-/// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if the system
-/// does not serve the family's letters, or if the coordinates, the loss, a start, a fixed value,
-/// max_iterations or threads cannot be. A fit that cannot be trusted is returned with usable = false. Cost:
-/// some 20 to 80 passes over the data for each start, each a plain step with derivatives a pair; R carries
-/// the pairs, and changes no bit. Memory: two or three copies of the data.
+/// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if
+/// check_force() finds the system's force, kick or derivative wrong at some states of the data (unless
+/// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss,
+/// a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be trusted is returned with
+/// usable = false. Cost: some 20 to 80 passes over the data for each start, each a plain step with
+/// derivatives a pair; R carries the pairs, and changes no bit. Memory: two or three copies of the data.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 fit learn(const run_time_family& family, const S& system, const flow_map_data<S::dimension>& data,
           const flow_map_data<S::dimension>& held_out, const fit_options& options = {}) {
+  require_valid(data, system);
+  if (options.check_force) require_sound_force(system, data);
   return solve(make_learning_problem<S, R>(family, system, data, held_out, options));
 }
 
@@ -60,6 +65,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
                   .random_starts = options.random_starts,
                   .fixed = {options.fixed.begin(), options.fixed.end()},
                   .guarded = options.guarded,
+                  .check_force = options.check_force,
                   .seed = options.seed,
                   .max_iterations = options.max_iterations,
                   .threads = options.threads};
@@ -70,7 +76,9 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
   }
   const auto [theta, summary] = learn<S, R>(as_data, system, data, held_out, its);
   const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
-  return {tuned_method<F>(found, data.step, data.system), summary};
+  // A covariance loss asks no data, and has seen no energies.
+  const auto energies = summary.is_of_data ? data.energies : std::nullopt;
+  return {tuned_method<F>(found, data.step, data.system, energies), summary};
 }
 
 }  // namespace nysalt

@@ -7,9 +7,12 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/energy.hpp"
+#include "nysalt/energy_range.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/requirements.hpp"
 #include "nysalt/stepper.hpp"
@@ -55,7 +58,8 @@ class member {
   [[no_unique_address]] F family_;
 };
 
-/// A member with the step and the system that it was learned for; it refuses any other.
+/// A member with the step and the system that it was learned for; it refuses any other. It knows the energies
+/// that it was learned on, too.
 /// `anywhere()` gives the plain member to those who ask for it.
 template <Family F>
 class tuned_method {
@@ -66,8 +70,9 @@ class tuned_method {
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
-  tuned_method(const member<F>& plain, double step, std::string system)
-      : member_(plain), step_(step), system_(std::move(system)) {}
+  tuned_method(const member<F>& plain, double step, std::string system,
+               std::optional<energy_range> energies = {})
+      : member_(plain), step_(step), system_(std::move(system)), energies_(energies) {}
 
   const parameters_of<F>& parameters() const { return member_.parameters(); }
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
@@ -75,6 +80,14 @@ class tuned_method {
   std::string name() const { return "learned:" + member_.name(); }
   double step() const { return step_; }
   const std::string& system() const { return system_; }
+  /// Of the trajectories that it was learned from; nothing where nobody told.
+  const std::optional<energy_range>& energies() const { return energies_; }
+  /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
+  /// of many starts learning/energies_outside.hpp tells whether that is chance.
+  template <HasEnergy<double> S>
+  bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
+    return !energies_ || energies_->contains(energy<double>(system, state));
+  }
   const member<F>& anywhere() const { return member_; }
 
   /// Throws std::invalid_argument at a step other than the learned one (to 1e-9 relative, as steps are
@@ -96,6 +109,7 @@ class tuned_method {
   member<F> member_;
   double step_;
   std::string system_;
+  std::optional<energy_range> energies_;
 };
 
 /// The stepper of a method on a system, with the noise of its bath. Throws what the method's validity or the

@@ -10,10 +10,14 @@
 #include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 
 namespace nysalt::program {
 
 namespace {
+
+/// With --enough: from fewer its own estimate is too rough.
+constexpr std::int64_t first_trajectories = 50;
 
 json document(const learned_scheme& learned, const bundled_system& system, std::optional<placement> where) {
   const fit_summary& fit = learned.fit;
@@ -36,6 +40,15 @@ json document(const learned_scheme& learned, const bundled_system& system, std::
   result["gaps"] = json::array();
   for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
   result["starts"] = fit.ensemble;
+  result["enough"] = nullptr;
+  if (learned.course) {
+    json stops = json::array();
+    for (const auto& [trajectories, share, deciding] : learned.course->stops) {
+      stops.push_back(
+          {{"trajectories", trajectories}, {"excess_share", share}, {"deciding_trajectories", deciding}});
+    }
+    result["enough"] = {{"reached", learned.course->is_reached}, {"stops", stops}};
+  }
   result["energy_range"] =
       learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
   result["seed"] = fit.seed;
@@ -58,6 +71,12 @@ int learn(const learn_command& command, const common_settings& common) {
     if (std::count_if(steps.begin(), steps.end(), is_same) > 1) refuse("--steps names {} twice", step);
   }
   require_sound(command.learning, "--");
+  if (command.enough) {
+    require_positive("--enough", *command.enough);
+    if (loss_named(command.learning.loss).of == loss_choice::kind::covariance) {
+      refuse("--enough says how many trajectories to learn from, and the covariance loss asks none");
+    }
+  }
   const auto system = make_system(command.system);
   if (!command.output.empty()) require_writable(command.output);
 
@@ -65,7 +84,11 @@ int learn(const learn_command& command, const common_settings& common) {
   method_source source;
   source.typed = source.family.emplace(command.family);
   const auto where = placement_in(source, *system, placement_asked(command.placement));
-  const learn_plan plan = plan_for(command.family, where, steps.front(), command.learning, common);
+  learn_plan plan = plan_for(command.family, where, steps.front(), command.learning, common);
+  if (command.enough) {
+    plan.enough = enough_options{.share = *command.enough};
+    plan.how.trajectories = first_trajectories;
+  }
   for (const double step : steps) system->require_learnable(plan.family, plan.where, plan.how, step);
   prepare_starts(*system, common, shown);
   const auto learned = learn_curve(*system, plan, steps, shown);
@@ -87,11 +110,20 @@ int learn(const learn_command& command, const common_settings& common) {
     result["output"] = keep ? json(command.output) : json(nullptr);
     print(text_of(result));
   } else {
-    for (const auto& one : learned) print(command.step ? one.fit.full() : one.fit.brief() + "\n");
+    for (const auto& one : learned) {
+      print(command.step ? one.fit.full() : one.fit.brief() + "\n");
+      if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
+    }
     if (where)
       print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*where),
                         learned.front().method.letters().letters()));
     if (keep) print(fmt::format("Written: {}\n", command.output));
+  }
+  if (!common.json) {
+    for (const auto& one : learned) {
+      if (!one.course || one.course->is_reached) continue;
+      warn(fmt::format("at step {:g} {}", one.fit.step, one.course->report()));
+    }
   }
   if (usable) return done;
   const bool withheld = !command.output.empty() && !keep;

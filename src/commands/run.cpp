@@ -180,7 +180,8 @@ int run(const run_command& asked, const common_settings& common) {
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
-  const tabulated method = coefficients_at(find_method(command.method), *system, command.step, common.force,
+  const method_source source = find_method(command.method);
+  const tabulated method = coefficients_at(source, *system, command.step, common.force,
                                            placement_asked(command.placement), warnings);
 
   const auto began = std::chrono::steady_clock::now();
@@ -198,9 +199,10 @@ int run(const run_command& asked, const common_settings& common) {
     for (const auto& text : warnings) warn(text);
   }
   if (!was_finished) {
-    if (const auto text = stability_warning(command.method, method, *system, plan.step, plan.seed)) {
+    for (const auto& text : {stability_warning(command.method, method, *system, plan.step, plan.seed),
+                             warning_of_energies(source, *system, plan)}) {
+      if (!text) continue;
       warnings.push_back(*text);
-      shown.clear();
       if (!common.json) warn(*text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every};

@@ -116,6 +116,51 @@ struct fast_box_with_energy : fast_box {
   double kinetic_energy(const vector<double, 2>& p) const { return fast_with_energy().kinetic_energy(p); }
 };
 
+/// A chain of quartic wells whose force is wrong at one site, and may turn states around there.
+struct long_chain : dynamic_potential {
+  double factor = 1.0;
+  double twist = 0.0;
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    for (Eigen::Index i = 0; i < masses; ++i) {
+      f[i] = q[(i + 1) % masses] + q[(i + masses - 1) % masses] - q[i] * 2.0 - q[i] * q[i] * q[i];
+    }
+    f[5] = f[5] * factor + q[6] * twist;
+    f[6] = f[6] - q[5] * twist;
+  }
+};
+struct long_twisted : long_chain {
+  void potential() const = delete;
+};
+long_chain of_masses(Eigen::Index masses, double factor) {
+  long_chain chain;
+  chain.masses = masses;
+  chain.factor = factor;
+  return chain;
+}
+
+/// V = |q|, and the force 0 at the kink.
+struct kinked {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return select(q[0] < 0.0, q[0] * -1.0, q[0]);
+  }
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = select(q[0] < 0.0, T(1.0), select(q[0] > 0.0, T(-1.0), T(0.0)));
+  }
+};
+
+/// The galaxy whose soft force forgets a factor.
+struct soft_mistake : henon_heiles {
+  template <class T>
+  void soft_force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    f[0] = q[0] * q[1] * -2.0;
+    f[1] = (q[1] * q[1] - q[0] * q[0]) * 1.01;
+  }
+};
+
 template <class System>
 System with(double System::*member, double value) {
   System system;
@@ -239,12 +284,67 @@ BOOST_AUTO_TEST_CASE(wrong_velocities_are_found) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_large_system_is_looked_at_along_a_few_directions) {
+  for (const Eigen::Index masses : {64, 65, 10'000}) {
+    BOOST_TEST(check(of_masses(masses, 1.0)).passed());
+    const auto result = check(of_masses(masses, 1.001));
+    BOOST_TEST_CONTEXT(masses << ": " << result.report()) {
+      BOOST_TEST(!result.passed());
+      BOOST_TEST(says(result, masses > 64 ? "along a direction at random" : "coordinate 6"));
+    }
+    long_twisted turning;
+    turning.masses = masses;
+    BOOST_TEST(says(check(turning), "conservative"));
+    turning.twist = 1e-3;
+    BOOST_TEST(says(check(turning), "not conservative"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_kink_is_told_from_a_mistake) {
+  const vector<double, 1> at_kink(0.0);
+  const vector<double, 1> elsewhere(0.5);
+  BOOST_TEST(check_force(kinked(), {elsewhere}).passed());
+  const auto result = check_force(kinked(), {elsewhere, at_kink});
+  BOOST_TEST_CONTEXT(result.report()) {
+    BOOST_TEST(!result.passed());
+    BOOST_TEST(says(result, "not -grad V"));
+    BOOST_TEST(says(result, "is there a kink"));
+  }
+  BOOST_TEST(!says(check(wrong_force()), "kink"));
+}
+
+// Forces vanish there, and with them what their errors are relative to.
+BOOST_AUTO_TEST_CASE(where_all_is_at_rest_rounding_is_no_mistake) {
+  const linear_chain shifted = free_chain();
+  const Eigen::VectorXd anywhere = Eigen::VectorXd::Constant(3, 0.3);  // no spring is stretched
+  BOOST_TEST(check_force(shifted, {anywhere}).passed());
+  BOOST_TEST(check_force(double_only(), {vector<double, 2>(0.0, 0.0)}).passed());
+  BOOST_TEST(!check_force(twisted{1e-3}, {vector<double, 2>(0.0, 0.0)}).passed());
+}
+
+BOOST_AUTO_TEST_CASE(a_soft_force_that_is_not_what_modes_leave_is_found) {
+  BOOST_TEST(check(split_masses()).soft_defect <= 100.0 * eps);
+  BOOST_TEST(says(check(soft_mistake()), "the soft_force is not the force without the quadratic part"));
+  BOOST_TEST(says(check(soft_mistake()), "coordinate 2"));
+}
+
+BOOST_AUTO_TEST_CASE(velocities_are_looked_at_where_the_momenta_are) {
+  fast_with_energy twisted_far;
+  twisted_far.twist = 1e-3;
+  const vector<double, 2> q(0.1, 0.2);
+  const vector<double, 2> at_rest(0.0, 0.0);
+  BOOST_TEST(check_force(twisted_far, {q}, {at_rest}).passed());
+  BOOST_TEST(!check_force(twisted_far, {q}, {q}).passed());
+}
+
 BOOST_AUTO_TEST_CASE(there_must_be_points_and_they_must_fit) {
   using wrong = std::invalid_argument;
   BOOST_TEST(refuses<wrong>([] { check_force(twisted{1.0}, {}); }, {"check_force", "no points"}));
   const std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Ones(3), Eigen::VectorXd::Ones(2)};
   BOOST_TEST(refuses<wrong>([&] { check_force(dynamic_potential(), points); },
                             {"point 2 has 2 coordinates, the system 3"}));
+  const vector<double, 2> q(0.1, 0.2);
+  BOOST_TEST(refuses<wrong>([&] { check_force(twisted(), {q, q}, {q}); }, {"2 points with 1 momenta"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_finite_does_not_pass) {

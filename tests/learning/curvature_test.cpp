@@ -144,9 +144,41 @@ BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
   const auto errors = curvature(valley(0.1), {0, 1}).standard_errors(scores);
   // A condition of 10, squared, times some 10 roundings.
   BOOST_TEST(norm(errors.cwiseAbs2() - sandwich.diagonal()) <= 1e3 * eps * norm(sandwich));
+  const double excess = curvature(valley(0.1), {0, 1}).expected_excess(scores);
+  BOOST_TEST(std::abs(excess - 0.5 * (valley(0.1) * sandwich).trace()) <= 1e3 * eps * norm(sandwich));
+  BOOST_TEST(std::abs(excess - 0.5 * sandwich.trace()) > 0.01 * excess);  // H matters
   const auto unknown = curvature(valley(0.1), {0, 1}).standard_errors({scores[0]});
   BOOST_TEST(std::isnan(unknown[0]));
   const auto unbounded = curvature(valley(0.0), {0, 1}).standard_errors(scores);
   BOOST_TEST(unbounded[0] == infinite);
   BOOST_TEST(unbounded[1] == infinite);
+}
+
+// C is infinite along the valley and H zero: what is across it counts alone.
+BOOST_AUTO_TEST_CASE(the_expected_excess_is_finite_on_a_flat_direction) {
+  const Eigen::Vector2d along = Eigen::Vector2d(2.0, 1.0) / std::sqrt(5.0);
+  const Eigen::Vector2d across(-along[1], along[0]);
+  const std::vector<Eigen::VectorXd> scores{0.3 * across + along, -0.1 * across, -0.2 * across - along};
+  const double expected = 0.5 * 1.5 * (0.09 + 0.01 + 0.04);  // over the curvature 1, and B/(B - 1) = 3/2
+  BOOST_TEST(curvature(valley(0.0), {0, 1}).expected_excess(scores) == expected,
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::isnan(curvature(valley(0.0), {0, 1}).expected_excess({scores[0]})));
+  BOOST_TEST(curvature(valley(0.0), {}).expected_excess(scores) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(where_one_trajectory_outweighs_the_rest_it_alone_decides) {
+  const curvature bend(valley(0.1), {0, 1});
+  std::vector<Eigen::VectorXd> scores(20, Eigen::Vector2d(1.0, 0.5));
+  BOOST_TEST(bend.deciding_blocks(scores) == 20.0, boost::test_tools::tolerance(1e-12));
+  scores[7] *= 100.0;  // 10^4 in its square
+  BOOST_TEST(bend.deciding_blocks(scores) == 10019.0 * 10019.0 / 100'000'019.0,
+             boost::test_tools::tolerance(1e-12));
+  draws random;
+  scores.clear();
+  for (int n = 0; n < 4000; ++n) {
+    scores.emplace_back(Eigen::Vector2d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+  }
+  // (1/3 + 1/3)^2/(1/5 + 1/5 + 2/9) = 5/7 of them; moments of 4000 numbers are known to one in 60 or better.
+  BOOST_TEST(curvature(Eigen::Matrix2d::Identity(), {0, 1}).deciding_blocks(scores) == 4000.0 * 5.0 / 7.0,
+             boost::test_tools::tolerance(0.07));
 }

@@ -11,6 +11,7 @@
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learner.hpp"
+#include "nysalt/learning/sound_force.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
@@ -42,8 +43,9 @@ struct by_black_box : well {
   void force(const vector<double, 1>& q, vector<double, 1>& f) const { f[0] = -std::sin(q[0]); }
 };
 struct by_black_box_with_derivative : by_black_box {
+  double strength = 1.0;  // of the derivative alone
   void force_derivative(const vector<double, 1>& q, const vector<double, 1>& v, vector<double, 1>& g) const {
-    g[0] = -std::cos(q[0]) * v[0];
+    g[0] = -std::cos(q[0]) * v[0] * strength;
   }
 };
 
@@ -102,6 +104,47 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   BOOST_TEST(derived.summary.derivatives == "the system's directional derivative");
   BOOST_TEST(boxed.summary.derivatives == "central differences of the force");
   BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
+}
+
+// It learns something all the same, and nothing else would tell.
+BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) {
+  const auto data = data_of(1);
+  by_black_box_with_derivative wrong;
+  wrong.strength = 0.99;
+  const auto fit = [&](const learn_options<nystrom>& options) {
+    return learn(nystrom{}, wrong, data, data_of(2), options);
+  };
+  BOOST_TEST(refuses<std::invalid_argument>([&] { fit({}); }, {"learn:", "force_derivative is not f'(q) v",
+                                                               "1.0", "a pendulum", "check_force = false"}));
+  BOOST_TEST(fit({.check_force = false}).summary.usable);
+  wrong.strength = 1.0;
+  BOOST_TEST(fit({}).summary.usable);
+}
+
+/// With a force of its own, off by one in a hundred.
+struct with_wrong_force : by_potential {
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    by_force other;
+    other.strength = 1.01;
+    other.force(q, f);
+  }
+};
+
+BOOST_AUTO_TEST_CASE(what_may_be_wrong_is_checked_at_states_of_the_data) {
+  static_assert(!force_may_be_wrong<by_potential>);
+  static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
+  static_assert(force_may_be_wrong<with_wrong_force>);
+  auto data = data_of(1);
+  BOOST_CHECK_NO_THROW(require_sound_force(by_force(), data));
+  BOOST_CHECK_NO_THROW(require_sound_force(by_black_box(), data));
+  const auto refused = [&](std::initializer_list<std::string_view> words) {
+    return refuses<std::invalid_argument>([&] { require_sound_force(with_wrong_force(), data); }, words);
+  };
+  BOOST_TEST(refused({"the force is not -grad V", "coordinate 1", "check its sign"}));
+  data.start.resize(1);  // one state is enough
+  data.first_of = {0, 1};
+  BOOST_TEST(refused({"the force is not -grad V"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused) {

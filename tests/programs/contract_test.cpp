@@ -43,7 +43,8 @@ const std::string of_a_fit =
     "family:text parameters:object standard_errors:object step:number objective:text loss:number "
     "held_out_loss:number one_step_error:number trajectory_error:number samples:integer usable:flag "
     "reason:null seconds:number data_seconds:number fit_seconds:number "
-    "learning_evaluations:integer";
+    "learning_evaluations:integer expected_excess:number excess_share:number "
+    "deciding_trajectories:number";
 
 /// Both command lines end well and print the same, times aside.
 bool same(const std::string& one, const std::string& other) {
@@ -100,13 +101,14 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
   const auto fit = document("learn --step 0.02 --trajectories 4");
-  BOOST_TEST(shape(fit) ==
-             of_a_fit +
-                 " system:text coordinates:text held_out_samples:integer trajectories:integer "
-                 "reference:text reference_error:number condition:number "
-                 "flat_directions:list dropped_coordinates:list iterations:integer "
-                 "starts_tried:integer in_valley:flag guard:text held_by_guard:flag unguarded:null "
-                 "gaps:list starts:text energy_range:list seed:integer placement:null output:null");
+  BOOST_TEST(
+      shape(fit) ==
+      of_a_fit +
+          " system:text coordinates:text held_out_samples:integer trajectories:integer "
+          "reference:text reference_error:number condition:number "
+          "flat_directions:list dropped_coordinates:list iterations:integer "
+          "starts_tried:integer in_valley:flag guard:text held_by_guard:flag unguarded:null "
+          "gaps:list starts:text enough:null energy_range:list seed:integer placement:null output:null");
   BOOST_TEST(shape(fit["parameters"]) == "b1:number beta1:number");
   BOOST_TEST(shape(fit["standard_errors"]) == "b1:number beta1:number");
   BOOST_TEST(fit["samples"] == 100);  // 4 trajectories of 25 steps

@@ -2,11 +2,11 @@
 // Derivatives of what cannot be differentiated otherwise.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "nysalt/phase_point.hpp"
 
 namespace nysalt::detail {
 
@@ -14,26 +14,19 @@ namespace nysalt::detail {
 /// its derivative gives r eps/s: both are below this for L > 2e-4 and r < 5e6.
 inline double tolerance_of_differences() { return 30.0 * std::cbrt(std::numeric_limits<double>::epsilon()); }
 
-/// result = the derivative along coordinate j of function(vector), which returns a double or a vector.
-template <int N>
-auto central_difference(const auto& function, const vector<double, N>& x, Eigen::Index j) {
-  const double s = std::cbrt(std::numeric_limits<double>::epsilon()) * std::max(1.0, std::abs(x[j]));
-  auto ahead = x;
-  auto behind = x;
-  ahead[j] += s;
-  behind[j] -= s;
-  const double apart = ahead[j] - behind[j];
+/// The derivative of function(vector), a double or a vector, along a direction: of a step in which the
+/// coordinate that goes farthest for its size goes cbrt(eps) of max(1, |x_i|).
+auto difference_along(const auto& function, const Eigen::VectorXd& x, const Eigen::VectorXd& direction) {
+  double farthest = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    farthest = std::max(farthest, std::abs(direction[i]) / std::max(1.0, std::abs(x[i])));
+  }
+  const double s = std::cbrt(std::numeric_limits<double>::epsilon()) / farthest;
+  const Eigen::VectorXd ahead = x + s * direction;
+  const Eigen::VectorXd behind = x - s * direction;
   auto result = function(ahead);
   result -= function(behind);
-  result /= apart;
-  return result;
-}
-
-/// The Jacobian of function(x), which returns a vector: column j is its derivative along coordinate j.
-template <int N>
-Eigen::MatrixXd difference_jacobian(const auto& function, const vector<double, N>& x) {
-  Eigen::MatrixXd result(x.size(), x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j) result.col(j) = central_difference<N>(function, x, j);
+  result /= 2.0 * s;
   return result;
 }
 

@@ -75,6 +75,27 @@ class curvature {
     return result;
   }
 
+  /// What the uncertainty of the minimum adds to the loss on new data, in the mean: the loss L is least at
+  /// theta*, and with H = L'' there and C the covariance of the minimum theta,
+  ///   E L(theta) - L(theta*) = E (theta - theta*)^T H (theta - theta*)/2 = tr(H C)/2.
+  /// C is that of standard_errors(), so that H C has one H^+ less: B/(B - 1) sum_b g_b^T H^+ g_b/2. Along a
+  /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
+  double expected_excess(const std::vector<Eigen::VectorXd>& scores) const {
+    const auto blocks = static_cast<double>(scores.size());
+    if (scores.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    return tree_sum(excesses(scores)) * (blocks / (blocks - 1.0));
+  }
+
+  /// On how many blocks that, and with it the standard errors, rest: (sum_b e_b)^2/sum_b e_b^2, with
+  /// e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of parameters.
+  double deciding_blocks(const std::vector<Eigen::VectorXd>& scores) const {
+    const auto all = excesses(scores);
+    const double sum = tree_sum(all);
+    double squares = 0.0;
+    for (const double e : all) squares += e * e;
+    return squares > 0.0 ? sum * sum / squares : static_cast<double>(scores.size());
+  }
+
   /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:
   /// H^+ (sum_b g_b g_b^T) H^+ B/(B - 1), where g_b is what block b adds to the gradient, by its residuals
   /// and by its part in the weights. It holds for a misspecified model, as a learned map is one.
@@ -94,6 +115,12 @@ class curvature {
   }
 
  private:
+  std::vector<double> excesses(const std::vector<Eigen::VectorXd>& scores) const {
+    std::vector<double> result;
+    for (const auto& score : scores) result.push_back(0.5 * score.dot(solve(score)));
+    return result;
+  }
+
   static constexpr double flat_below = 1e-8;  // the relative error of the Hessian
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(free_.size()); }

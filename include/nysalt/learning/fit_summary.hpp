@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,6 +41,11 @@ struct fit_summary {
   std::size_t trajectories = 0;
   std::size_t held_out_samples = 0;
 
+  // What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single trajectory,
+  // and where the guard holds them.
+  double expected_excess = 0.0;
+  double deciding_trajectories = 0.0;  // on how many that and the standard errors rest
+
   double condition = 1.0;                            // of the Hessian, flat directions apart
   std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
   std::int64_t coordinates_used = 0;                 // that the loss sums over
@@ -68,6 +74,22 @@ struct fit_summary {
 
   bool usable = false;
   std::string reason;  // why not
+
+  /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
+  double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }
+
+  /// From fewer it is too small more often than not: one trajectory in hundreds may outweigh the rest.
+  static constexpr double too_few_decide = 10.0;
+  bool is_decided_by_few() const { return loss > 1e-24 && deciding_trajectories < too_few_decide; }
+
+  std::string uncertainty() const {
+    if (std::isnan(expected_excess)) return "not known";
+    return fmt::format(
+        "adds {:.1e} to the loss on new data, {:.2g} % of it; it rests on {:.0f} trajectories{}",
+        expected_excess, 100.0 * excess_share(), deciding_trajectories,
+        is_decided_by_few() ? ", too few to rely on it: take more, or starts of less different energies"
+                            : "");
+  }
 
   std::string brief() const {
     std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
@@ -101,6 +123,7 @@ struct fit_summary {
     line("held-out loss",
          fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
                      held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
+    if (is_of_data) line("uncertainty", uncertainty());
     line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
                                is_held_by_guard ? ", held by the guard"
                                : is_in_valley   ? ", in a valley of parameters that do as well"

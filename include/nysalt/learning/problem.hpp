@@ -30,7 +30,8 @@ struct fit_options {
   std::vector<named_parameters> further_starts{};  // beside them, such as the optimum at a smaller step
   int random_starts = 0;                           // beside all these
   std::vector<std::optional<double>> fixed{};      // a value for each parameter that is not to be learned
-  bool guarded = true;  // false: an unstable optimum is found, and said not to be usable
+  bool guarded = true;      // false: an unstable optimum is found, and said not to be usable
+  bool check_force = true;  // before learn() begins, as what is learned from a wrong force is wrong
   std::uint64_t seed = 1;
   int max_iterations = 200;
   int threads = 1;  // changes no bit of what is learned
@@ -88,8 +89,7 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
   std::vector<double> squares(data.trajectories(), 0.0);
   Eigen::VectorXd r(measure.residuals());
   for (const auto& [pair, finish] : data.finer) {
-    const auto next = std::upper_bound(data.first_of.begin(), data.first_of.end(), pair);
-    double& of_trajectory = squares[static_cast<std::size_t>(next - data.first_of.begin()) - 1];
+    double& of_trajectory = squares[data.trajectory_of(pair)];
     measure.residual(finish.q, finish.p, data.finish[pair], r.data());
     for (const double x : r) of_trajectory += x * x;
   }

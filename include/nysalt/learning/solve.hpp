@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
         "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
   }
   for (const auto& start : options.further_starts) {
+    if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
+      throw std::invalid_argument(fmt::format("learn: the start '{}' is not finite", start.name));
+    }
     if (start.theta.size() == family.parameters()) continue;
     throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
                                             start.theta.size(), family.name, family.parameters()));
@@ -115,9 +119,15 @@ fit solve(const learning_problem& problem) {
   if (found.unguarded) summary.unguarded = objection_of_guard(found.unguarded->theta);
 
   Eigen::VectorXd errors = Eigen::VectorXd::Zero(theta.size());
+  if (best.is_held && has_data) summary.expected_excess = std::numeric_limits<double>::quiet_NaN();
   if (!best.is_held) {  // where it is, no minimum is near
     const curvature bend(best.hessian, best.free);
-    if (has_data) errors = bend.standard_errors(problem.scores(theta));
+    if (has_data) {
+      const auto scores = problem.scores(theta);
+      errors = bend.standard_errors(scores);
+      summary.expected_excess = bend.expected_excess(scores);
+      summary.deciding_trajectories = bend.deciding_blocks(scores);
+    }
     summary.condition = bend.condition();
     for (const auto& flat : bend.flat_directions()) {
       summary.flat_directions.emplace_back(flat.begin(), flat.end());

@@ -30,8 +30,8 @@ inline std::string to_string(coordinates c) {
 template <int N>
 class metric {
  public:
-  /// Throws std::invalid_argument if the system has no modes, or (energy) a mode of frequency zero, or if
-  /// nothing moves in the data.
+  /// Throws std::invalid_argument if the system has no modes, or (energy) a mode of frequency zero, if
+  /// nothing moves in the data, or so far that a weight is not finite.
   template <System S>
   metric(const S& system, const flow_map_data<N>& data, coordinates which) : size_(size(system)) {
     if (which != coordinates::qp) change_coordinates(system, which);
@@ -118,14 +118,18 @@ class metric {
     const Eigen::VectorXd magnitudes = tree_sum(sizes);
     active_.clear();
     for (Eigen::Index row = 0; row < 2 * size_; ++row) {
+      if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
+        throw std::invalid_argument(fmt::format(
+            "the weight of {} is not finite: its increments in the data are too large to be squared",
+            name_of(row, which)));
+      }
       // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
       constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
       if (sigma[row] > rounding * rounding * magnitudes[row]) {
         weight_[row] = 1.0 / std::sqrt(sigma[row]);
         active_.push_back(row);
       } else {
-        const std::string_view names = which == coordinates::qp ? "qp" : "xy";
-        dropped_.push_back(fmt::format("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1));
+        dropped_.push_back(name_of(row, which));
       }
     }
     if (active_.empty())
@@ -138,6 +142,11 @@ class metric {
         deviations_(k, static_cast<Eigen::Index>(m)) = squares[m][row] / sigma[row] - share;
       }
     }
+  }
+
+  std::string name_of(Eigen::Index row, coordinates which) const {
+    const std::string_view names = which == coordinates::qp ? "qp" : "xy";
+    return fmt::format("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
   }
 
   static double mean_of(const Eigen::VectorXd& values) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a check of a force found, and the sentence that it makes.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+
+#include <string>
+
+namespace nysalt {
+
+/// Defects are relative to the largest entry, over all points, of what they are a defect of: of the force, of
+/// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
+struct force_check {
+  double gradient_defect = 0.0;      // of force = -grad V
+  Eigen::Index coordinate = 0;       // where that is worst, from 0; -1: looked along directions at random
+  double derivative_defect = 0.0;    // of force_derivative, against differences of the force
+  double kick_defect = 0.0;          // of a kick of the system's own, p += c force(q)
+  Eigen::Index kick_coordinate = 0;  // where that is worst
+  double soft_defect = 0.0;          // of soft_force = force + K q, K the quadratic part that modes() tell
+  Eigen::Index soft_coordinate = 0;  // where that is worst
+  double asymmetry = 0.0;            // of the Jacobian of the force: a gradient's is symmetric
+  double velocity_defect = 0.0;      // of velocity = grad K
+  Eigen::Index velocity_coordinate = 0;
+  double velocity_asymmetry = 0.0;  // of the Jacobian of a velocity without a kinetic energy
+  double tolerance = 0.0;           // what the derivatives used can be off by: of the gradient
+  double asymmetry_tolerance = 0.0;
+  double kick_tolerance = 0.0;  // of the soft force too
+  double derivative_tolerance = 0.0;
+  double velocity_tolerance = 0.0;
+  bool has_potential = false;
+  bool finite = true;          // all functions and their derivatives, at all points
+  bool passes_beside = false;  // if it fails at the points, but not a little beside them
+
+  bool passed() const {
+    return finite && gradient_defect <= tolerance && kick_defect <= kick_tolerance &&
+           soft_defect <= kick_tolerance && derivative_defect <= derivative_tolerance &&
+           asymmetry <= asymmetry_tolerance && velocity_defect <= velocity_tolerance &&
+           velocity_asymmetry <= velocity_tolerance;
+  }
+  /// The first thing that is wrong, in the order in which mistakes cause others.
+  std::string report() const {
+    if (passed()) return fmt::format("the force is {}", has_potential ? "-grad V" : "conservative");
+    if (!passes_beside) return objection();
+    return objection() +
+           "; a little beside these points nothing is wrong: is there a kink or a pole at one of them?";
+  }
+
+ private:
+  static std::string where(Eigen::Index coordinate) {
+    return coordinate < 0 ? "along a direction at random it" : fmt::format("coordinate {}", coordinate + 1);
+  }
+
+  std::string objection() const {
+    if (!finite)
+      return "the force or velocity is not finite at one of the points, or not differentiable there";
+    if (gradient_defect > tolerance) {
+      return fmt::format(
+          "the force is not -grad V: {} is off by {:.2e} of the largest force; check its sign and formula",
+          where(coordinate), gradient_defect);
+    }
+    if (kick_defect > kick_tolerance) {
+      return fmt::format(
+          "the kick is not p += c force(q): {} is off by {:.2e} of the largest force; check its formula, or "
+          "leave it out",
+          where(kick_coordinate), kick_defect);
+    }
+    if (soft_defect > kick_tolerance) {
+      return fmt::format(
+          "the soft_force is not the force without the quadratic part that modes() tell: {} is off by {:.2e} "
+          "of the largest force; check both",
+          where(soft_coordinate), soft_defect);
+    }
+    if (derivative_defect > derivative_tolerance) {
+      return fmt::format(
+          "force_derivative is not f'(q) v: it is off by {:.2e} of the largest entry of f'; check its sign "
+          "and formula, or leave it out",
+          derivative_defect);
+    }
+    if (asymmetry > asymmetry_tolerance) {
+      return fmt::format("the force is not conservative: its Jacobian is asymmetric by {:.2e}", asymmetry);
+    }
+    if (velocity_defect > velocity_tolerance) {
+      return fmt::format(
+          "the velocity is not grad K: {} is off by {:.2e} of the largest velocity; check its sign and "
+          "formula",
+          where(velocity_coordinate), velocity_defect);
+    }
+    return fmt::format("the velocity is not the gradient of any K: its Jacobian is asymmetric by {:.2e}",
+                       velocity_asymmetry);
+  }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSL-1.0
+// Compares, at one point after the other, what a system says of its force in several ways.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "nysalt/derivatives/force_check.hpp"
+#include "nysalt/derivatives/force_source.hpp"
+
+namespace nysalt::detail {
+
+/// Exact derivatives of a formula of a hundred operations, whose terms exceed their sum up to 7e5 times, err
+/// by less than 100 * 7e5 eps = sqrt(eps) of it.
+inline double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double>::epsilon()); }
+
+/// Of so many coordinates each is looked along.
+inline constexpr Eigen::Index looked_along_singly = 64;
+
+/// Unit vectors: all coordinates, or four at random, the same at every point. A defect d of some coordinates
+/// is seen along these as |d|/sqrt(N) or so; a tolerance of 2e-4, that of differences, still shows one whole
+/// coordinate in 10^6. Sums over N terms of either sign err by eps sqrt(N) of their size.
+inline std::vector<Eigen::VectorXd> directions_to_look_along(Eigen::Index n) {
+  std::vector<Eigen::VectorXd> result;
+  if (n <= looked_along_singly) {
+    for (Eigen::Index j = 0; j < n; ++j) result.push_back(Eigen::VectorXd::Unit(n, j));
+    return result;
+  }
+  std::minstd_rand random(1);
+  constexpr double middle = 0.5 * static_cast<double>(std::minstd_rand::max());
+  for (int j = 0; j < 4; ++j) {
+    Eigen::VectorXd direction(n);
+    for (double& x : direction) x = static_cast<double>(random()) - middle;
+    result.push_back(direction.normalized());
+  }
+  return result;
+}
+
+class force_examination {
+  using column = Eigen::VectorXd;
+
+ public:
+  explicit force_examination(const force_source& its)
+      : its_(its), along_(directions_to_look_along(its.size)), f_(its.size), other_(its.size) {
+    found_.has_potential = its.has_potential;
+    found_.tolerance = its.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
+    found_.asymmetry_tolerance = its.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
+    found_.kick_tolerance = tolerance_of_exact();
+    found_.derivative_tolerance = tolerance_of_differences();
+    found_.velocity_tolerance = its.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();
+  }
+
+  void look_at(const column& q, const column& p) {
+    its_.force(q, f_);
+    keep(f_, largest_force_);
+    if (its_.has_potential) look_at_potential(q);
+    if (its_.has_kick) look_at_kick(q);
+    if (its_.has_soft_force && its_.size <= looked_along_singly) look_at_soft_force(q);
+    const auto slope = [&](const column& v) { its_.force_slope(q, v, other_); };
+    look_at_symmetry(slope, found_.asymmetry, largest_slope_);
+    if (its_.has_derivative) look_at_derivative(q);
+    if (its_.has_velocity) look_at_velocity(p);
+  }
+
+  force_check result() const {
+    force_check result = found_;
+    // Where all is at rest: what a displacement by cbrt(eps), that of differences, would make.
+    const double rest = std::cbrt(std::numeric_limits<double>::epsilon()) * largest_slope_;
+    const double scale = std::max(largest_force_, rest);
+    result.gradient_defect /= scale;
+    result.kick_defect /= scale;
+    result.soft_defect /= scale;
+    result.derivative_defect /= largest_slope_;
+    result.asymmetry /= largest_slope_;
+    result.velocity_defect /= largest_velocity_;
+    result.velocity_asymmetry /= largest_velocity_slope_;
+    return result;
+  }
+
+ private:
+  void look_at_potential(const column& q) {
+    for (std::size_t j = 0; j < along_.size(); ++j) {
+      const double defect = f_.dot(along_[j]) + its_.potential_slope(q, along_[j]);
+      note_along(defect, j, found_.gradient_defect, found_.coordinate);
+    }
+  }
+
+  void look_at_kick(const column& q) {
+    other_ = f_;
+    its_.kick(q, other_);
+    note(other_ - 1.5 * f_, found_.kick_defect, found_.kick_coordinate);
+  }
+
+  /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
+  void look_at_soft_force(const column& q) {
+    const auto part = its_.quadratic();
+    column x = column::Zero(its_.size);
+    for (const auto& entry : part->entries()) x[entry.mode] += entry.heavy * q[entry.coordinate];
+    its_.soft_force(q, other_);
+    column defect = other_ - f_;
+    for (const auto& entry : part->entries()) {
+      const double omega = part->frequencies()[static_cast<std::size_t>(entry.mode)];
+      defect[entry.coordinate] -= entry.heavy * omega * omega * x[entry.mode];
+    }
+    note(defect, found_.soft_defect, found_.soft_coordinate);
+  }
+
+  void look_at_derivative(const column& q) {
+    const auto force_at = [&](const column& x) {
+      column y(x.size());
+      its_.force(x, y);
+      return y;
+    };
+    for (const auto& v : along_) {
+      its_.derivative(q, v, other_);
+      const column differences = difference_along(force_at, q, v);
+      keep(other_, largest_slope_);
+      keep(differences, largest_slope_);
+      found_.derivative_defect = std::max(found_.derivative_defect, largest(other_ - differences));
+    }
+  }
+
+  void look_at_velocity(const column& p) {
+    column v(its_.size);
+    its_.velocity(p, v);
+    keep(v, largest_velocity_);
+    if (!its_.has_kinetic_energy) {
+      const auto slope = [&](const column& along) { its_.velocity_slope(p, along, other_); };
+      look_at_symmetry(slope, found_.velocity_asymmetry, largest_velocity_slope_);
+      return;
+    }
+    for (std::size_t j = 0; j < along_.size(); ++j) {
+      const double defect = v.dot(along_[j]) - its_.kinetic_slope(p, along_[j]);
+      note_along(defect, j, found_.velocity_defect, found_.velocity_coordinate);
+    }
+  }
+
+  /// Of the matrix that slope_along multiplies a direction with, into other_.
+  void look_at_symmetry(const auto& slope_along, double& most, double& largest_slope) {
+    std::vector<column> slopes;
+    for (const auto& v : along_) {
+      slope_along(v);
+      keep(other_, largest_slope);
+      slopes.push_back(other_);
+    }
+    for (std::size_t j = 0; j < along_.size(); ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        most = std::max(most, std::abs(along_[i].dot(slopes[j]) - along_[j].dot(slopes[i])));
+      }
+    }
+  }
+
+  static double largest(const column& entries) { return entries.cwiseAbs().maxCoeff(); }
+  void keep(const column& entries, double& most) {
+    found_.finite = found_.finite && entries.allFinite();
+    most = std::max(most, largest(entries));
+  }
+  void note(const column& defects, double& most, Eigen::Index& coordinate) {
+    found_.finite = found_.finite && defects.allFinite();
+    for (Eigen::Index i = 0; i < defects.size(); ++i) {
+      if (std::abs(defects[i]) <= most) continue;
+      most = std::abs(defects[i]);
+      coordinate = i;
+    }
+  }
+  void note_along(double defect, std::size_t j, double& most, Eigen::Index& coordinate) {
+    found_.finite = found_.finite && std::isfinite(defect);
+    if (std::abs(defect) <= most) return;
+    most = std::abs(defect);
+    coordinate = its_.size <= looked_along_singly ? static_cast<Eigen::Index>(j) : -1;
+  }
+
+  const force_source& its_;
+  std::vector<column> along_;
+  column f_;
+  column other_;
+  force_check found_;
+  double largest_force_ = std::numeric_limits<double>::min();
+  double largest_slope_ = largest_force_;
+  double largest_velocity_ = largest_force_;
+  double largest_velocity_slope_ = largest_force_;
+};
+
+/// At all points; what fails is looked at once more a little beside them.
+force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
+                          const std::vector<Eigen::VectorXd>& momenta) {
+  const auto examined = [&](double away) {
+    force_examination examination(its);
+    std::minstd_rand random(1);
+    const auto beside = [&](Eigen::VectorXd x) {
+      for (double& one : x) one += random() % 2 == 0 ? away : -away;
+      return x;
+    };
+    for (std::size_t m = 0; m < points.size(); ++m) {
+      const Eigen::VectorXd q = beside(points[m]);
+      examination.look_at(q, beside(momenta[m]));
+    }
+    return examination.result();
+  };
+  force_check result = examined(0.0);
+  constexpr double little = 1e-3;  // farther than differences reach
+  if (!result.passed()) result.passes_beside = examined(little).passed();
+  return result;
+}
+
+}  // namespace nysalt::detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nysalt {
+
+/// From the least to the largest H that was seen.
+struct energy_range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double energy) {
+    low = std::min(low, energy);
+    high = std::max(high, energy);
+  }
+
+  /// How far an energy lies outside; 0 inside, and within a millionth of the largest: where all trajectories
+  /// have one energy, that of another differs by rounding and by the reference's error.
+  double distance(double energy) const {
+    if (!(low <= high)) return std::numeric_limits<double>::infinity();  // nothing was seen
+    const double slack = 1e-6 * std::max(std::abs(low), std::abs(high));
+    const double outside = std::max(low - energy, energy - high);
+    return outside <= slack ? 0.0 : outside;
+  }
+  bool contains(double energy) const { return distance(energy) == 0.0; }
+};
+
+}  // namespace nysalt

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSL-1.0
+// Whether starts are beyond the energies that a method was learned on, or outside by chance alone.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <ranges>
+#include <string>
+
+#include "nysalt/energy_range.hpp"
+
+namespace nysalt {
+
+/// Of n starts so many have energies outside the range of M trajectories, the farthest by `farthest`.
+///
+/// A few always have. If all are of one law, their n + M energies are in any order equally likely, and the
+/// number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n passes
+/// that of M depends on the law; where it falls exponentially, as Gibbs' laws do or faster, it is farther
+/// than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT log(M + 1) wide. Chance is
+/// left aside if it would do this once in a thousand times.
+struct energies_outside {
+  static constexpr double chance = 1e-3;
+
+  energy_range seen;
+  std::size_t trajectories = 0;  // M
+  std::size_t looked_at = 0;     // n
+  std::size_t outside = 0;
+  double farthest = 0.0;
+  energy_range energies{};  // of these starts
+
+  /// There are too many, or one is too far.
+  bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
+
+  /// That so many of n, or more, are outside by chance.
+  double probability() const {
+    const auto m = static_cast<double>(trajectories);
+    const auto n = static_cast<double>(looked_at);
+    double term = m * (m - 1.0) / ((m + n) * (m + n - 1.0));  // that none is
+    double rest = 1.0;
+    for (std::size_t j = 0; j < outside; ++j) {
+      rest -= term;
+      const auto k = static_cast<double>(j);
+      term *= (n - k) / (k + 1.0) * (k + 2.0) / (m + n - k - 2.0);
+    }
+    return rest;
+  }
+
+  /// What none of n starts passes the range by, but by a chance of one in a thousand. Infinite from one
+  /// trajectory, which tells no range.
+  double far() const {
+    const double m = static_cast<double>(trajectories) + 1.0;
+    if (trajectories < 2) return std::numeric_limits<double>::infinity();
+    return (seen.high - seen.low) *
+           std::max(0.0, std::log(static_cast<double>(looked_at) / (m * chance)) / std::log(m));
+  }
+
+  std::string report() const {
+    return fmt::format(
+        "{} of {} starts have energies outside {:.6g} to {:.6g}, on which it was learned (they go from "
+        "{:.6g} "
+        "to {:.6g})",
+        outside, looked_at, seen.low, seen.high, energies.low, energies.high);
+  }
+};
+
+/// Of starts by their energies; one that is not finite is outside.
+inline energies_outside look_outside(const energy_range& seen, std::size_t trajectories,
+                                     const std::ranges::range auto& energies) {
+  energies_outside result{.seen = seen, .trajectories = trajectories};
+  for (const double energy : energies) {
+    ++result.looked_at;
+    result.energies.include(energy);
+    if (seen.contains(energy)) continue;
+    ++result.outside;
+    result.farthest = std::max(result.farthest, seen.distance(energy));
+  }
+  return result;
+}
+
+}  // namespace nysalt

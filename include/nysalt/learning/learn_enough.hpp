@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "nysalt/learner.hpp"
+#include "nysalt/learning/extend_data.hpp"
+#include "nysalt/learning/until_enough.hpp"
+
+namespace nysalt {
+
+template <Family F>
+struct learned_enough {
+  tuned_method<F> method;
+  fit_summary summary;
+  enough_course course;
+};
+
+/// learn() with as many trajectories as it takes, see until_enough(): from first.trajectories on, at most as
+/// many as fit into memory. Each time data are made for as many more, and the held-out data, of another seed,
+/// have as many too. What comes out is what learn() gives for that number. Throws what these do.
+template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R>
+learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble, const R& reference,
+                               data_options first, std::uint64_t held_out_seed, enough_options enough = {},
+                               const learn_options<F>& options = {}) {
+  flow_map_data<S::dimension> data;
+  flow_map_data<S::dimension> held_out;
+  const auto grow = [&](flow_map_data<S::dimension>& its, std::int64_t trajectories, std::uint64_t seed) {
+    data_options wanted = first;
+    wanted.trajectories = trajectories;
+    wanted.seed = seed;
+    extend_data(system, ensemble, reference, wanted, its);
+  };
+  enough.most = std::min(enough.most, most_trajectories(first, size(system)));
+  std::optional<learned<F>> found;
+  const auto learn_with = [&](std::int64_t trajectories) {
+    grow(data, trajectories, first.seed);
+    grow(held_out, trajectories, held_out_seed);
+    found.emplace(learn(family, system, data, held_out, options));
+    return found->summary;
+  };
+  const auto course = until_enough(first.trajectories, enough, learn_with);
+  return {found->method, found->summary, course};
+}
+
+}  // namespace nysalt

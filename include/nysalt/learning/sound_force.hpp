@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is learned from a wrong force is wrong, and nothing else would tell.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/flow_map_data.hpp"
+
+namespace nysalt {
+
+/// check_force() at four states of the data, from the middle of each quarter of them. A system that is a
+/// potential alone has nothing to check, and costs nothing, to compile either. Throws std::invalid_argument
+/// with its report. The data must be valid.
+template <SeparableSystem S>
+void require_sound_force(const S& system, const flow_map_data<S::dimension>& data) {
+  if constexpr (force_may_be_wrong<S>) {
+    std::vector<vector<double, S::dimension>> points;
+    std::vector<vector<double, S::dimension>> momenta;
+    constexpr std::size_t enough = 4;
+    for (std::size_t k = 0; k < std::min(enough, data.pairs()); ++k) {
+      const auto& state = data.start[data.pairs() * (2 * k + 1) / (2 * enough)];
+      points.push_back(state.q);
+      momenta.push_back(state.p);
+    }
+    const force_check found = check_force(system, points, momenta);
+    if (found.passed()) return;
+    throw std::invalid_argument(
+        fmt::format("learn: {} (system {}); mend it, or learn with check_force = false", found.report(),
+                    describe(system)));
+  }
+}
+
+}  // namespace nysalt

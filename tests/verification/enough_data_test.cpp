@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a fit says of its own uncertainty holds: its intervals cover what many data tell, and the loss that it
+// expects to lose by them is lost [li_lu_tao_ye_2023, theorem 3.1].
+#include <boost/test/unit_test.hpp>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/learning/learn_enough.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+constexpr int seeds = 50;
+constexpr std::int64_t usual = 100;  // trajectories
+const fpu_chain<3> chain(50.0);
+const fpu_law<3> law(chain);
+const fine_steps<> reference(1e-3);
+
+data_options options_of(std::int64_t trajectories, std::uint64_t seed) {
+  return {.step = 0.03, .horizon = 0.5, .trajectories = trajectories, .seed = seed, .threads = 2};
+}
+flow_map_data<6> data_of(std::int64_t trajectories, std::uint64_t seed) {
+  return make_flow_map_data(chain, law, reference, options_of(trajectories, seed));
+}
+const flow_map_data<6>& many() {
+  static const auto data = data_of(20'000, 1'000'000);
+  return data;
+}
+
+/// Fits of one family, each from its usual start, as there is one minimum.
+class fits_of {
+ public:
+  explicit fits_of(const run_time_family& family) : family_(family), truth(to(many())) {}
+
+  fit to(const flow_map_data<6>& data) const {
+    static const auto held_out = data_of(4, 999'999);
+    return learn(family_, chain, data, held_out, {.threads = 2});
+  }
+
+ private:
+  run_time_family family_;
+
+ public:
+  fit truth;
+};
+
+/// As if all pairs were independent of each other.
+flow_map_data<6> taken_apart(flow_map_data<6> data) {
+  data.first_of.clear();
+  for (std::size_t n = 0; n <= data.pairs(); ++n) data.first_of.push_back(n);
+  return data;
+}
+
+/// How many intervals of M = 100 cover the truth, and the sum of squared distances in standard errors.
+struct coverage {
+  int by_interval = 0;
+  int by_half = 0;
+  double squares = 0.0;
+  double squares_taken_apart = 0.0;
+};
+
+std::vector<coverage> coverage_of(const run_time_family& family) {
+  const fits_of fits(family);
+  const auto count = static_cast<std::size_t>(family.parameters());
+  std::vector<coverage> result(count);
+  const double quantile_95 = quantile(boost::math::students_t(usual - 1), 0.975);
+  for (int n = 0; n < seeds; ++n) {
+    const auto data = data_of(usual, 1 + static_cast<std::uint64_t>(n));
+    const auto clustered = fits.to(data).summary.parameters;
+    const auto apart = fits.to(taken_apart(data)).summary.parameters;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double off = std::abs(clustered[k].value - fits.truth.summary.parameters[k].value);
+      result[k].by_interval += off <= quantile_95 * clustered[k].standard_error;
+      result[k].by_half += off <= 0.5 * quantile_95 * clustered[k].standard_error;
+      result[k].squares += std::pow(off / clustered[k].standard_error, 2);
+      result[k].squares_taken_apart += std::pow(off / apart[k].standard_error, 2);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+// If each covers with probability .95, fewer than 43 of 50 do once in 500 times.
+BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twenty_thousand) {
+  for (const auto& family : {run_time_family(nystrom()), run_time_family(fg_chin())}) {
+    const auto all = coverage_of(family);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto& its = all[k];
+      BOOST_TEST_CONTEXT(family.name << " " << family.parameter_names[k] << ": " << its.by_interval
+                                     << ", of half the width " << its.by_half << ", squares " << its.squares
+                                     << ", with pairs taken apart " << its.squares_taken_apart) {
+        BOOST_TEST(its.by_interval >= 43);
+        BOOST_TEST(its.by_half < 43);
+        // The squares are chi-squared; a reported variance is 15 % off at most in the mean. Errors of pairs
+        // cancel along a trajectory here: taken for independent they make intervals that are far too wide.
+        const boost::math::chi_squared squares(seeds);
+        BOOST_TEST(its.squares > 0.85 * quantile(squares, 1e-3));
+        BOOST_TEST(its.squares < 1.15 * quantile(squares, 1.0 - 1e-3));
+        BOOST_TEST(its.squares_taken_apart < quantile(squares, 1e-3));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_one_over_the_number) {
+  const run_time_family family{nystrom()};
+  const fits_of fits(family);
+  // On new data, in the measure that many data tell.
+  const metric<6> measure(chain, many(), coordinates::qp);
+  const auto unseen = data_of(4000, 2'000'000);
+  const after_steps<fpu_chain<3>> loss(family, chain, unseen, measure, {.threads = 2});
+  const double least = loss_value(loss, fits.truth.theta);
+  std::vector<double> log_count, log_lost, log_expected, relative_errors;
+  for (const std::int64_t trajectories : {25, 100, 400}) {
+    std::vector<double> lost, expected;
+    for (int n = 0; n < seeds; ++n) {
+      const auto found = fits.to(data_of(trajectories, 1 + static_cast<std::uint64_t>(n)));
+      lost.push_back(loss_value(loss, found.theta) - least);
+      expected.push_back(found.summary.expected_excess);
+    }
+    const auto mean_lost = mean_and_error(lost);
+    const auto mean_expected = mean_and_error(expected);
+    const double error = std::hypot(mean_lost.standard_error, mean_expected.standard_error);
+    BOOST_TEST_CONTEXT(trajectories << ": " << mean_lost.mean << " +- " << mean_lost.standard_error << ", "
+                                    << mean_expected.mean << " expected") {
+      BOOST_TEST(std::abs(mean_lost.mean - mean_expected.mean) <= 3.0 * error);
+      BOOST_TEST(std::abs(mean_lost.mean - 2.0 * mean_expected.mean) > 3.0 * error);  // without the half
+    }
+    log_count.push_back(std::log(static_cast<double>(trajectories)));
+    log_lost.push_back(std::log(mean_lost.mean));
+    log_expected.push_back(std::log(mean_expected.mean));
+    relative_errors.push_back(mean_lost.standard_error / mean_lost.mean);
+  }
+  double spread = 0.0;
+  for (const double x : log_count) spread += std::pow(x - mean_and_error(log_count).mean, 2);
+  const double error = *std::max_element(relative_errors.begin(), relative_errors.end()) / std::sqrt(spread);
+  BOOST_TEST_CONTEXT("slopes " << slope(log_count, log_lost) << " and " << slope(log_count, log_expected)
+                               << " +- " << error) {
+    BOOST_TEST(std::abs(slope(log_count, log_lost) + 1.0) <= 3.0 * error);
+    BOOST_TEST(std::abs(slope(log_count, log_lost) + 0.5) > 3.0 * error);
+    BOOST_TEST(std::abs(slope(log_count, log_expected) + 1.0) <= 0.1);  // a variance from 25 is 7 % low
+  }
+}
+
+BOOST_AUTO_TEST_CASE(it_learns_until_the_data_are_enough_and_what_that_many_tell_at_once) {
+  constexpr double share = 4e-5;
+  const auto enough = [](const enough_options& options) {
+    return learn_enough(nystrom(), chain, law, reference, options_of(25, 3), 4, options);
+  };
+  const auto found = enough({.share = share});
+  const auto& stops = found.course.stops;
+  BOOST_TEST_CONTEXT(found.course.report() << "\n" << found.summary.full()) {
+    BOOST_TEST(found.course.is_reached);
+    BOOST_REQUIRE(stops.size() >= 3U);
+    BOOST_TEST(stops.back().share <= share);
+    BOOST_TEST(stops[stops.size() - 2].share > share);
+    BOOST_TEST(stops.back().share == found.summary.excess_share());
+    BOOST_TEST(found.summary.trajectories == static_cast<std::size_t>(stops.back().trajectories));
+    // The trajectories of the smaller numbers are the first of the larger.
+    const std::int64_t last = stops.back().trajectories;
+    const auto at_once = learn(nystrom(), chain, data_of(last, 3), data_of(last, 4), {.threads = 2});
+    BOOST_TEST((found.method.parameters() == at_once.method.parameters()));
+    BOOST_TEST(found.summary.held_out_loss == at_once.summary.held_out_loss);
+    BOOST_TEST(found.method.energies()->low == at_once.method.energies()->low);
+    BOOST_TEST(found.method.energies()->high == at_once.method.energies()->high);
+  }
+  const auto too_few = enough({.share = share, .most = 60});
+  BOOST_TEST(!too_few.course.is_reached);
+  BOOST_TEST(too_few.summary.trajectories == 60U);
+}
