@@ -60,62 +60,99 @@ struct quartic {
 
 phase_point<double, 1> on_line(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
 
+/// Least squares of log y over log x: the power of x.
+double power_of(const curve& its) {
+  double x_mean = 0.0;
+  double y_mean = 0.0;
+  const auto n = static_cast<double>(its.x.size());
+  for (std::size_t i = 0; i < its.x.size(); ++i) {
+    x_mean += std::log(its.x[i]) / n;
+    y_mean += std::log(its.y[i]) / n;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (std::size_t i = 0; i < its.x.size(); ++i) {
+    xx += (std::log(its.x[i]) - x_mean) * (std::log(its.x[i]) - x_mean);
+    xy += (std::log(its.x[i]) - x_mean) * (std::log(its.y[i]) - y_mean);
+  }
+  return xy / xx;
+}
+
+/// Falls from rest at about 1, past the kink at t = 1.4 and no further: the worst energy error of starts that
+/// meet it at all phases of a step.
+double error_of_crossing(const tabulated& method, double step) {
+  const kink system;
+  constexpr int phases = 64;
+  double worst = 0.0;
+  for (int m = 0; m < phases; ++m) {
+    const auto start = on_line(1.0 + 2.0 * step * m / phases, 0.0);
+    const auto x = integrate(system, method, step, start, std::llround(2.2 / step)).finish;
+    worst = std::max(worst, std::abs(energy<double>(system, x) - energy<double>(system, start)));
+  }
+  return worst;
+}
+
 verdict absolute_value(extent how) {
   const kink system;
-  const auto start = on_line(1.0, 0.3);
-  const double time = how == extent::quick ? 2'000.0 : 200'000.0;
   verdict result;
-  std::vector<curve> over_time;
   std::vector<curve> over_step;
-  const std::vector<contender> all{{"verlet", tabulated(verlet{})},
-                                   {"mclachlan2", tabulated(mclachlan2{})},
-                                   {"srkn6b", tabulated(srkn6b{})},
-                                   {"srkn11b", tabulated(srkn11b{})}};
-  bool bounded = true;
-  bool of_low_order = true;
-  std::string slopes;
-  std::string halves;
-  for (const auto& one : all) {
-    curve against_step{.label = one.label, .x = {}, .y = {}};
-    for (const double per_evaluation : {0.04, 0.02, 0.01, 0.005, 0.0025}) {
-      auto story = follow(system, one, per_evaluation, start, time);
-      against_step.x.push_back(per_evaluation);
-      against_step.y.push_back(story.largest);
-      bounded = bounded && !story.diverged_at && story.finite && story.largest < 1.0;
-      if (per_evaluation != 0.01) continue;
-      halves += fmt::format("{}{} {:.1e} and {:.1e}", halves.empty() ? "" : ", ", one.label, story.early,
-                            story.late);
-      over_time.push_back(std::move(story.shown));
+  std::vector<curve> over_time;
+  std::string powers;
+  bool of_order_one = true;
+  const double time = how == extent::quick ? 1'000.0 : 100'000.0;
+  for (const contender& one : {contender{"verlet", tabulated(verlet{})},
+                               {"mclachlan2", tabulated(mclachlan2{})},
+                               {"srkn6b", tabulated(srkn6b{})},
+                               {"srkn11b", tabulated(srkn11b{})}}) {
+    curve against_step{.label = one.label, .x = {0.02, 0.01, 0.005, 0.0025, 0.00125}, .y = {}};
+    for (const double per_evaluation : against_step.x) {
+      against_step.y.push_back(error_of_crossing(one.method, one.step(per_evaluation)));
     }
-    const double slope = std::log(against_step.y.front() / against_step.y.back()) / std::log(16.0);
-    of_low_order = of_low_order && slope < 1.5;
-    slopes += fmt::format("{}{} {:.2f}", slopes.empty() ? "" : ", ", one.label, slope);
+    const double power = power_of(against_step);
+    of_order_one = of_order_one && power > 0.75 && power < 1.25;  // 64 phases miss the worst by some 3 %
+    powers += fmt::format("{}{} {:.2f}", powers.empty() ? "" : ", ", one.label, power);
     over_step.push_back(std::move(against_step));
+    auto story = follow(system, one, 0.04, on_line(1.0, 0.55), time);
+    result.note(
+        fmt::format("{} at 0.04 per evaluation for a time of {:.0f}: off by {:.1e} in the first half and "
+                    "{:.1e} in the second",
+                    one.label, time, story.early, story.late));
+    over_time.push_back(std::move(story.shown));
   }
-  result.require(bounded, fmt::format("at 0.01 per evaluation, first and second half of a time of {:.0f}: {}",
-                                      time, halves));
-  result.require(of_low_order, fmt::format("the energy error falls with a power of the step of: {}", slopes));
+  result.require(of_order_one,
+                 fmt::format("the energy error of a crossing falls with the step to the power: {}", powers));
+  // Verlet is exact on either side. Where the force jumps within a step from q > 0, H changes by
+  // h |p| + h^2/2 - 2 q, and q < h |p| + h^2/2.
+  const double h = 0.01;
+  const double most = h * (std::sqrt(2.0 * (1.0 + 2.0 * h)) + h) + 0.5 * h * h;
+  const double of_verlet = error_of_crossing(tabulated(verlet{}), h);
+  result.require(of_verlet <= most,
+                 fmt::format("Verlet's at h = 0.01 is {:.4f} at most, its bound h |p| + h^2/2 = {:.4f}",
+                             of_verlet, most));
 
   // The same without a kink: the judgement knows an order when it sees one.
   const quartic smooth{1.0, 0.0, 1.0};
-  const double coarse = follow(smooth, all[2], 0.04, start, 200.0).largest;
-  const double fine = follow(smooth, all[2], 0.01, start, 200.0).largest;
+  const double coarse = follow(smooth, tabulated(srkn6b{}), 0.24, on_line(1.0, 0.3), 1000, "").largest;
+  const double fine = follow(smooth, tabulated(srkn6b{}), 0.06, on_line(1.0, 0.3), 4000, "").largest;
   const double of_smooth = std::log(coarse / fine) / std::log(4.0);
   result.require(of_smooth > 3.5, fmt::format("in a smooth well srkn6b has the order {:.2f}", of_smooth));
 
   const auto check =
       check_force(system, {vector<double, 1>(-0.7), vector<double, 1>(0.4), vector<double, 1>(0.0)});
   result.note(
-      fmt::format("check_force, at -0.7, 0.4 and the kink itself: {}: it cannot see a kink", check.report()));
-  result.show({.name = "kink",
-               .panels = {energy_panel("V = |q|, 0.01 per evaluation", std::move(over_time)),
-                          {.title = "V = |q|, against the step",
-                           .x_label = "step per evaluation",
-                           .y_label = "largest |H - H_0|/H_0",
-                           .log_log = true,
-                           .curves = std::move(over_step)}},
-               .width = 1300},
-              "A kink costs every method its order: more stages buy little.");
+      fmt::format("check_force, at -0.7, 0.4 and the kink itself: {}; it cannot see a kink", check.report()));
+  result.show(
+      {.name = "kink",
+       .panels = {energy_panel("V = |q| from p = 0.55, 0.04 per evaluation", std::move(over_time)),
+                  {.title = "V = |q|, one crossing",
+                   .x_label = "step per evaluation",
+                   .y_label = "largest |H - H_0|",
+                   .log_log = true,
+                   .curves = std::move(over_step)}},
+       .width = 1300},
+      "A kink takes from every method its order, and from some trajectories the bound too: that "
+      "of the energy error is owed to smooth forces. Left, one on which every crossing meets the step at "
+      "nearly the same phase, so that the errors add up, in Verlet's method as in others.");
   return result;
 }
 
@@ -180,11 +217,15 @@ verdict without_bottom(extent how) {
         follow(steep, tabulated(verlet{}), step, start, many, fmt::format("-q^4, h = {:g}", step));
     const auto expected = first_bad_step(steep, tabulated(verlet{}), step, start, many);
     const double named_at = static_cast<double>(story.diverged_at.value_or(0)) * step;
-    // q = 1/(sqrt 2 (end - t)), so that the fastest rate sqrt 12 q times h is 1 at end - t = 2.4 h.
-    result.require(
-        story.finite && story.diverged_at == expected && std::abs(named_at - end) <= 25.0 * step,
-        fmt::format("-q^4, h = {:g}: diverged at step {}, t = {:.5f}; the motion itself ends at {:.5f}", step,
-                    story.diverged_at.value_or(-1), named_at, end));
+    // Verlet conserves H + h^2 (p V'' p/12 - V'^2/24) = H - (8/3) h^2 q^6 here, so that H is off by 1000
+    // where q^6 = 375/h^2, at end - t = 1/(sqrt 2 q); the next term is (h rate)^2 = 12 h^2 q^2 as large,
+    // below 2 %, and that of the time a fifth of it.
+    const double early = 1.0 / (std::numbers::sqrt2 * std::pow(375.0 / (step * step), 1.0 / 6.0));
+    result.require(story.finite && story.diverged_at == expected &&
+                       std::abs(named_at - (end - early)) <= 0.1 * early + step,
+                   fmt::format("-q^4, h = {:g}: diverged at step {}, t = {:.5f}, expected {:.5f}; the motion "
+                               "itself ends at {:.5f}",
+                               step, story.diverged_at.value_or(-1), named_at, end - early, end));
     curves.push_back(story.shown);
   }
   const quartic cubic{1.0, -1.0, 0.0};  // a well with a pass of height 1/6 at q = 1
@@ -210,21 +251,22 @@ verdict without_bottom(extent how) {
 }  // namespace
 
 topic rough_potentials() {
-  return {"Kinks, singularities and no bottom",
-          {{"kink", "V = |q|, whose force jumps.",
-            "The energy error stays below the energy itself, and falls no faster than with the power 1.5 of "
-            "the step, whatever "
-            "the order of the method.",
-            "In a smooth well the same measurement finds the order.", absolute_value},
-           {"head_on", "A fall into the centre of -1/|q|.",
-            "Whoever is off by a thousand times the energy is reported as diverged at that step; nothing "
-            "that is shown is "
-            "not finite.",
-            "Thrown outwards nothing may be reported.", head_on},
-           {"unbounded_below", "V = -q^4, whose motion ends at a finite time, and a cubic well with a pass.",
-            "Reported as diverged at its step, within 25 steps of the exact end; nothing that is shown is "
-            "not finite.",
-            "Below the pass nothing may diverge.", without_bottom}}};
+  return {
+      "Kinks, singularities and no bottom",
+      {{"kink", "V = |q|, whose force jumps.",
+        "One crossing changes the energy by some h |p|, whatever the order of the method. (That the error "
+        "stays "
+        "bounded need not hold: see the picture.)",
+        "In a smooth well the same step sizes show the order 4 of srkn6b.", absolute_value},
+       {"head_on", "A fall into the centre of -1/|q|.",
+        "Whoever is off by a thousand times the energy is reported as diverged at that step; nothing "
+        "that is shown is "
+        "not finite.",
+        "Thrown outwards nothing may be reported.", head_on},
+       {"unbounded_below", "V = -q^4, whose motion ends at a finite time, and a cubic well with a pass.",
+        "Reported as diverged at its step, as long before the exact end as Verlet is right; nothing that is "
+        "shown is not finite.",
+        "Below the pass nothing may diverge.", without_bottom}}};
 }
 
 }  // namespace nysalt::hard
