@@ -74,6 +74,7 @@
 #include "nysalt/report/table.hpp"
 #include "nysalt/report/work_precision.hpp"
 #include "nysalt/report/write_file.hpp"
+#include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/pack.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

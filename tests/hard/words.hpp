@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSL-1.0
+// The methods that are tried, as data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "energy_story.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/verlet.hpp"
+
+// Dear to compile: it is once, in once/stability.cpp.
+extern template std::vector<nysalt::stability_window> nysalt::stability_windows<nysalt::run_time_word>(
+    const run_time_word&, const std::vector<double>&);
+
+namespace nysalt::hard {
+
+/// Every named method of drifts and kicks, two with gradient kicks among them; s_aia2 for z up to 2.
+std::vector<tabulated> classical_words();
+
+/// (1/2, 0.4): stable for z in 0 .. 2.58 and again in 3.16 .. 4.08.
+tabulated nystrom_with_two_windows();
+
+/// Members of families: learned ones, and one of two windows.
+std::vector<tabulated> learned_words();
+
+/// What was learned once, see the source.
+tabulated learned_fg4_for_fpu();
+tabulated learned_fg4_for_kepler();
+tabulated learned_fg4_for_henon_heiles();
+tabulated learned_r_aba4_at_resonance(int k);
+
+/// The classical ones that tell most, cheap to dear, and a learned one.
+std::vector<contender> side_by_side(const tabulated& learned);
+
+}  // namespace nysalt::hard
