@@ -260,12 +260,11 @@ class bundled_model final : public bundled_system {
   std::vector<double> values_at_starts(const trajectories_plan& plan,
                                        const std::string& name) const override {
     const auto value = observable<double>(system_, name);
-    const std::int64_t enough = std::min<std::int64_t>(plan.count, 1000);
+    constexpr std::int64_t enough = 1000;
     std::vector<double> values;
-    for (std::int64_t m = 0; m < enough; m += width) {
-      const auto count = static_cast<int>(std::min<std::int64_t>(width, enough - m));
-      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, count);
-      for (int k = 0; k < count; ++k) values.push_back(value(lane(x, k)));
+    for (std::int64_t m = 0; m < std::min(plan.count, enough); m += width) {
+      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, width);
+      for (int k = 0; k < width; ++k) values.push_back(value(lane(x, k)));
     }
     return values;
   }

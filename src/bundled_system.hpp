@@ -161,7 +161,8 @@ class bundled_system {
   virtual acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan,
                                        double temperature, const counter& progress) const = 0;
 
-  /// Of an observable at the first thousand starts of a plan, or all if they are fewer.
+  /// Of an observable at the first thousand starts of a plan, or all if they are fewer, and at those that
+  /// fill the lanes.
   virtual std::vector<double> values_at_starts(const trajectories_plan& plan,
                                                const std::string& observable) const = 0;
   /// Statistics of a method, and of the reference: small steps, and in a bath BAOAB.

@@ -162,8 +162,9 @@ std::optional<std::string> warning_of_energies(const method_source& source, cons
                                                const trajectories_plan& plan) {
   if (!source.learned || !source.learned->energies) return std::nullopt;
   if (source.learned->system != system.description()) return std::nullopt;
-  const auto found = look_outside(*source.learned->energies, source.learned->trajectories,
-                                  system.values_at_starts(plan, "energy"));
+  auto energies = system.values_at_starts(plan, "energy");
+  energies.resize(std::min(energies.size(), static_cast<std::size_t>(plan.count)));
+  const auto found = look_outside(*source.learned->energies, source.learned->trajectories, energies);
   if (!found.is_serious()) return std::nullopt;
   return fmt::format(
       "{}: {}: its errors may be larger than those that it was learned with; learn it from such starts, or "

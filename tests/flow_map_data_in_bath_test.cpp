@@ -7,6 +7,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/learning/extend_data.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -216,6 +217,36 @@ BOOST_AUTO_TEST_CASE(an_exact_flow_is_of_no_bath) {
   BOOST_TEST(refuses<wrong>(make, {"made for harmonic_oscillator", "in bath(friction=0.1"}));
 }
 
+BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
+  data_options options{.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 3};
+  const auto at_once = made(options);
+  flow_map_data<6> grown;
+  for (const std::int64_t trajectories : {5, 13, 21}) {
+    options.trajectories = trajectories;
+    extend_data(chain, law, fine_paths(fine), options, grown);
+    BOOST_TEST(grown.trajectories() == static_cast<std::size_t>(trajectories));
+    require_valid(grown, chain);
+  }
+  BOOST_TEST(grown.first_of == at_once.first_of, boost::test_tools::per_element());
+  BOOST_TEST(grown.noise == at_once.noise);
+  BOOST_TEST(grown.energies->low == at_once.energies->low);
+  BOOST_TEST(grown.energies->high == at_once.energies->high);
+  BOOST_TEST(grown.finer.size() > at_once.finer.size());  // some of each part
+  // Each is of its own path: that of another would be farther off than the reference errs.
+  for (const auto& [pair, finish] : grown.finer) {
+    BOOST_TEST((finish.p - grown.finish[pair].p).norm() < 0.01 * (finish.p - grown.start[pair].p).norm());
+  }
+  grown.finer = at_once.finer;
+  grown.evaluations = at_once.evaluations;
+  BOOST_TEST(same_bits(grown, at_once));
+  flow_map_data<6> again;
+  extend_data(chain, law, fine_paths(fine), options, again);
+  BOOST_TEST(same_bits(again, at_once));
+  options.trajectories = 4;
+  extend_data(chain, law, fine_paths(fine), options, again);
+  BOOST_TEST(again.trajectories() == 21U);  // there are enough
+}
+
 BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
   const auto whole = made({.step = 0.012, .horizon = 0.06, .trajectories = 2, .noise_parts = 2});
   const auto refused = [&](const auto& spoil, std::initializer_list<std::string_view> words) {
@@ -228,6 +259,6 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
   BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
   BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },
-                     {"coordinate 3 of noise 13 is nan", "pair", "trajectory", "not finite"}));
+                     {"not finite", "coordinate 3 of noise 13 is nan", "in pair 6 of trajectory 1"}));
   BOOST_TEST(refuses<wrong>([&] { require_valid(whole, alone); }, {"in bath(friction=2"}));
 }

@@ -244,9 +244,10 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
 
 }  // namespace detail
 
-/// As many as fit into memory.
-inline std::int64_t most_trajectories(const data_options& options, Eigen::Index dimension) {
-  const double steps = std::floor(options.horizon / options.step + 1e-9);
+/// As many as fit into memory. Throws std::invalid_argument if one does not, or has no step.
+inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
+  options.trajectories = 1;
+  const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
   return static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
 }
 
