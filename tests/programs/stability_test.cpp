@@ -38,8 +38,12 @@ bool is_bounded(const std::string& what, double step, int steps) {
   return json_of(done)["diverged"].empty();
 }
 
-json warnings_of(const std::string& arguments) {
-  return document("run --horizon 0.7 --sample-every 1000" + arguments)["warnings"];
+/// Some of these runs diverge.
+json warnings_of(const std::string& arguments, const scratch& folder = scratch("warned")) {
+  const auto done = run(folder, "run --json --sample-every 1000" + arguments);
+  BOOST_TEST((done.code == 0 || done.code == 3), done.err);
+  BOOST_TEST(done.err == "");
+  return json_of(done)["warnings"];
 }
 
 }  // namespace
@@ -50,7 +54,7 @@ BOOST_AUTO_TEST_CASE(margins_are_the_analytic_ones) {
   const double of_mclachlan = std::sqrt(8.0 / (1.0 + std::sqrt(1.0 - 4.0 * s * (1.0 - s))));
   for (const auto& [method, limit] : {std::pair{"verlet", 2.0}, std::pair{"verlet_2x", 4.0},
                                       std::pair{"mclachlan2", of_mclachlan}, std::pair{"baoab", 2.0}}) {
-    for (const double step : {0.01, 0.03, 0.035, 0.07}) {
+    for (const double step : {0.01, 0.03, 0.035, 0.055}) {
       const auto all =
           document(std::string("stability --system oscillator --omega 50 --method ") + method + at(step));
       BOOST_TEST_CONTEXT(method << " at " << step) {
@@ -87,10 +91,12 @@ BOOST_AUTO_TEST_CASE(highest_frequencies_are_the_known_ones) {
   BOOST_TEST(of_kepler["declared"].is_null());
   BOOST_TEST(of_kepler["along_starts"] < 0.9 * of_kepler["of_law"].get<double>());
   BOOST_TEST(of_kepler["starts"] == 64);
-  // On a circle all states are alike. Estimates are known to 1 %, and rounded outwards.
-  const double on_circle = of("kepler --eccentricity 0")["along_starts"];
-  BOOST_TEST(on_circle >= std::sqrt(2.0) * (1.0 - 4 * eps));
-  BOOST_TEST(on_circle <= std::sqrt(2.0) * 1.01);
+  // On a circle all states are alike: across the pull the stiffness is 1/r^3 = 1, along it -2/r^3, no
+  // frequency but as fast a motion. Estimates are known to 1 %, and rounded outwards.
+  const auto on_circle = of("kepler --eccentricity 0");
+  BOOST_TEST(on_circle["of_law"].get<double>() == std::sqrt(2.0), tolerance(8 * eps));
+  BOOST_TEST(on_circle["along_starts"] >= 1.0 - 1e-9);
+  BOOST_TEST(on_circle["along_starts"] <= 1.01);
   for (const char* linear : {"oscillator", "linear_chain --masses 20"}) {
     const auto all = of(linear);
     const double seen = all["along_starts"];
@@ -103,11 +109,11 @@ BOOST_AUTO_TEST_CASE(highest_frequencies_are_the_known_ones) {
   BOOST_TEST(of_cluster["along_starts"] < of_cluster["of_law"].get<double>());
 
   // Starts beyond the energy that bands are declared for.
-  const auto hot = of("fpu --omega 1 --spread 10");
+  const auto hot = of("fpu --omega 5 --spread 10");
   BOOST_TEST(hot["frequency_source"] == "seen along 64 starts");
   BOOST_TEST(hot["highest_frequency"] == hot["along_starts"]);
   BOOST_TEST(hot["highest_frequency"] > 1.1 * hot["declared"].get<double>());
-  BOOST_TEST(of("fpu --omega 1")["frequency_source"] == "declared");
+  BOOST_TEST(of("fpu --omega 5")["frequency_source"] == "declared");
   // What is too large to be looked at is told all the same.
   const auto large = of("fpu --pairs 100000");
   BOOST_TEST(large["along_starts"].is_null());
@@ -143,7 +149,7 @@ BOOST_AUTO_TEST_CASE(rare_starts_count) {
 }
 
 BOOST_AUTO_TEST_CASE(a_run_is_warned_of_a_small_margin) {
-  const std::string what = " --system fpu --method verlet";
+  const std::string what = " --system fpu --method verlet --horizon 0.1";
   BOOST_TEST(warnings_of(what + " --step 0.03").empty());
   const auto told = warnings_of(what + " --step 0.036");
   BOOST_REQUIRE(told.size() == 1U);
@@ -160,11 +166,11 @@ BOOST_AUTO_TEST_CASE(a_run_is_warned_of_a_small_margin) {
   BOOST_TEST(has(unstable[0], "a safe step is 0.0337"));
 
   // Without --json it is a line on standard error.
-  const auto said = run("run --horizon 0.1 --step 0.036" + what);
+  const auto said = run("run --step 0.036" + what);
   BOOST_TEST(said.code == 0);
   BOOST_TEST(is_one_line(said.err));
   BOOST_TEST(has(said.err, "warning: verlet at step 0.036"));
-  BOOST_TEST(run("run --horizon 0.1 --step 0.03" + what).err == "");
+  BOOST_TEST(run("run --step 0.03" + what).err == "");
 }
 
 // In the window behind the gap too: at its beginning, and in the gap.
@@ -175,8 +181,8 @@ BOOST_AUTO_TEST_CASE(a_run_is_warned_near_a_gap) {
     "format": "nysalt table", "version": 1, "name": "gap", "letters": "ABABA",
     "coefficients": [0.2, 0.5, 0.6, 0.5, 0.2]})";
   const auto warnings = [&](double z) {
-    return document("run --system oscillator --omega 50 --method gap.json --horizon 1" + at(z / 50.0),
-                    folder)["warnings"];
+    return warnings_of(" --system oscillator --omega 50 --method gap.json --horizon 1" + at(z / 50.0),
+                       folder);
   };
   const double again = std::sqrt(10.0);
   const double last = std::sqrt(50.0 / 3.0);
@@ -196,13 +202,13 @@ BOOST_AUTO_TEST_CASE(a_run_is_warned_near_a_gap) {
 
 // BCSS' three stages are stable up to 4.66, and at 2.976 two windows touch.
 BOOST_AUTO_TEST_CASE(a_run_is_warned_where_windows_touch) {
-  const std::string what = " --system fpu --method bcss3 --step ";
+  const std::string what = " --system fpu --method bcss3 --horizon 0.1 --step ";
   const auto told = warnings_of(what + "0.0594");
   BOOST_REQUIRE(told.size() == 1U);
   BOOST_TEST(has(told[0], "z = 2.976, where two stability windows touch"), told[0]);
   BOOST_TEST(warnings_of(what + "0.055").empty());
   BOOST_TEST(warnings_of(what + "0.063").empty());
-  const auto all = document("stability" + what + "0.0594");
+  const auto all = document("stability --system fpu --method bcss3 --step 0.0594");
   BOOST_TEST(all["touching"].size() == 1U);
   BOOST_TEST(all["bands"][0]["touching"].is_null());
   BOOST_TEST(all["bands"][1]["touching"] == all["touching"][0]);
@@ -224,7 +230,7 @@ BOOST_AUTO_TEST_CASE(where_windows_touch_nonlinear_motion_suffers) {
 
 // Its bands are for an energy; these starts have more.
 BOOST_AUTO_TEST_CASE(a_run_is_warned_of_its_own_starts) {
-  const std::string what = " --system fpu --omega 1 --method verlet --step 0.25";
+  const std::string what = " --system fpu --omega 5 --method verlet --horizon 1 --step 0.2";
   BOOST_TEST(warnings_of(what).empty());
   const auto told = warnings_of(what + " --spread 10");
   BOOST_REQUIRE(told.size() == 1U);
