@@ -197,8 +197,8 @@ verdict wells_near_the_edge(extent how) {
           outside.diverged_at.value_or(-1), outside.finite ? "yes" : "no"));
   result.show(
       {.name = "phi4_edge", .panels = {energy_panel("phi^4 chain, Verlet", std::move(curves))}},
-      "16 wells of energy 2 each, Verlet: a chain is stable at the frequencies that it may reach, not at "
-      "those that it has at rest.");
+      "16 wells of energy 2 each, Verlet. The edge is that of the frequencies that a well may reach, not of "
+      "those at rest, and a third below it lie nonlinear resonances.");
   return result;
 }
 
