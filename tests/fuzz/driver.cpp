@@ -5,6 +5,7 @@
 //   fuzz_TARGET CORPUS 1 SEED n
 // libFuzzer, which is led by what the program does with an input, drives the same targets: ./dev check fuzz.
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,12 +30,12 @@ namespace {
 
 using nysalt::fuzz::mutated;
 
-constexpr unsigned most_seconds = 60;  // for one input, of a program that is slowed down by sanitizers
+constexpr int most_seconds = 60;  // of computing for one input, by a program that sanitizers slow down
 
 char what_it_was[200];  // ready to be written by a handler of signals
 
 void tell_and_end(int signal) {
-  const char* what = signal == SIGALRM ? "an input takes too long\n" : "";
+  const char* what = signal == SIGPROF ? "an input takes too long\n" : "";
   for (const char* text : {what, static_cast<const char*>(what_it_was)}) {
     if (write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
   }
@@ -60,7 +61,8 @@ std::uint64_t number(const char* text) {
 }
 
 void give(const std::string& text) {
-  alarm(most_seconds);
+  const itimerval limit{{0, 0}, {most_seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
@@ -75,7 +77,7 @@ int main(int argc, char** argv) {
   const std::uint64_t runs = number(argv[2]);
   const std::uint64_t seed = argc > 3 ? number(argv[3]) : 20260721;
   const std::uint64_t first = argc > 4 ? number(argv[4]) : 0;
-  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) {
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGPROF}) {
     std::signal(signal, tell_and_end);
   }
   const auto began = std::chrono::steady_clock::now();
@@ -96,5 +98,6 @@ int main(int argc, char** argv) {
       "seed %llu: %llu inputs of a corpus of %zu, in %.1f s; %ld runs ended with 0, %ld with 2, %ld with 3\n",
       static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs), corpus.size(),
       seconds.count(), codes[0], codes[2], codes[3]);
-  return codes[0] > 0 && codes[2] > 0 ? 0 : 1;  // else the targets do not reach what they are to try
+  // Many inputs of which none is taken, or none refused, do not try what they are to try.
+  return runs < 100 || (codes[0] > 0 && codes[2] > 0) ? 0 : 1;
 }
