@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "eigen.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/run_time_word.hpp"
 
