@@ -9,7 +9,7 @@ if(NOT "${text}" MATCHES "^// expect: ([^\n]+)")
 endif()
 string(STRIP "${CMAKE_MATCH_1}" sentence)
 
-set(compile ${COMPILER} @${FLAGS})
+set(compile ${COMPILER} @${FLAGS} -fsyntax-only -include ${PRECOMPILED})
 execute_process(COMMAND ${compile} -DNYSALT_CONTROL ${SOURCE} ERROR_VARIABLE errors RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message("${errors}")
