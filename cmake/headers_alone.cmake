@@ -1,7 +1,7 @@
 # The target headers_alone compiles each header alone. What many of them include themselves is precompiled for
 # those, and for those only: it must not help a header that forgot it.
 
-set(dear_includes Eigen/Core fmt/format.h)
+set(dear_includes Eigen/Core Eigen/Eigenvalues fmt/format.h)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86|AMD64")
   list(APPEND dear_includes immintrin.h)
 endif()
@@ -21,7 +21,9 @@ function(find_includes header result)
       endif()
     endforeach()
     list(REMOVE_DUPLICATES all)
-    list(TRANSFORM all REPLACE "^Eigen/.*" "Eigen/Core")  # each of Eigen's includes it
+    if("${all}" MATCHES "Eigen/")
+      list(APPEND all Eigen/Core)  # each of Eigen's includes it
+    endif()
     set_property(GLOBAL PROPERTY "includes_of_${header}" "${all}")
   endif()
   get_property(all GLOBAL PROPERTY "includes_of_${header}")
@@ -38,7 +40,11 @@ function(compile_headers_alone library)
     set(precompiled "")
     foreach(dear IN LISTS dear_includes)
       if(dear IN_LIST all)
-        list(APPEND precompiled <${dear}>)
+        if(dear STREQUAL Eigen/Eigenvalues)
+          list(APPEND precompiled ${PROJECT_SOURCE_DIR}/once/eigen.hpp)  # which does not compile what is in it
+        else()
+          list(APPEND precompiled <${dear}>)
+        endif()
         string(MAKE_C_IDENTIFIER ${group}_${dear} group)
       endif()
     endforeach()

@@ -76,7 +76,7 @@ double safe_step_of(const stability_chart& chart, double highest_frequency) {
   if (chart.windows.empty() || chart.windows.front().low > 0.0 || highest_frequency == 0.0) return 0.0;
   double end = chart.windows.front().high;
   if (!chart.touching.empty()) end = std::min(end, chart.touching.front());
-  return (1.0 - wanted_margin) * end / highest_frequency;
+  return (1.0 - safe_margin) * end / highest_frequency;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ if(NOT sentences)
   message(FATAL_ERROR "the first line of ${SOURCE} must be '// expect: a sentence'")
 endif()
 
-set(compile ${COMPILER} @${FLAGS})
+set(compile ${COMPILER} @${FLAGS} -fsyntax-only -include ${PRECOMPILED})
 execute_process(COMMAND ${compile} -DNYSALT_CONTROL ${SOURCE} ERROR_VARIABLE errors RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message("${errors}")

@@ -147,7 +147,7 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
   }
   for (const auto& [low, high] : judged.stable_steps)
     result.text += fmt::format("  stable steps {:.6g} .. {:.6g}\n", low, high);
-  result.text += fmt::format("  {} ({} to spare)\n", advice(judged), percent(wanted_margin));
+  result.text += fmt::format("  {} ({} to spare)\n", advice(judged), percent(safe_margin));
 }
 
 /// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
