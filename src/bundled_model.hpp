@@ -120,7 +120,11 @@ class bundled_model final : public bundled_system {
       for (std::uint64_t n = 0; n < count; ++n) {
         states.push_back(starts_ ? (*starts_)(seed, n) : law_(seed, n));
       }
-      return stiffness_along(system_, states).highest_frequency();
+      try {
+        return stiffness_along(system_, states).highest_frequency();
+      } catch (const std::invalid_argument&) {  // the force is not finite there: the run will tell
+        return std::nullopt;
+      }
     }
     return std::nullopt;
   }

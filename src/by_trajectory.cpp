@@ -49,7 +49,7 @@ void put_by_trajectory(const std::filesystem::path& from, const std::filesystem:
     const std::size_t head = std::min(text.find('\n'), text.size() - 1) + 1;
     auto pieces = pieces_of(text, head);
     std::ranges::stable_sort(pieces, {}, &piece::trajectory);
-    atomic_file out(to);
+    atomic_file out(to, "sorted");  // a kill leaves one such file at most, which the next run writes again
     out.write(text.substr(0, head));
     for (const auto& one : pieces) out.write(text.substr(one.begin, one.end - one.begin));
     out.commit(true);

@@ -71,17 +71,26 @@ checkpoint from(const json& head, std::string_view bytes) {
   }
   const std::int64_t trajectories = whole(its.question.at("trajectories"));
   const std::int64_t steps = whole(its.question.at("steps"));
-  if (its.at.first + std::ssize(its.at.wave.diverged_at) > trajectories || its.at.wave.step > steps) {
+  const std::int64_t step = its.at.wave.step;
+  const auto is_of_it = [&](const diverged_trajectory& one) {
+    return one.trajectory < trajectories && one.step <= steps;
+  };
+  if (its.at.first + std::ssize(its.at.wave.diverged_at) > trajectories || step > steps ||
+      (step % steps_between_checks != 0 && step != steps) || !std::ranges::all_of(its.lost, is_of_it)) {
     throw std::out_of_range("first");
   }
-  its.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
-  its.sum = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
+  its.output = head.value("output", std::string());
+  its.written.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
+  its.written.crc = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
   its.in_order = head.at("in_order").get<bool>();
   its.finished = head.at("finished").get<bool>();
   its.version = head.at("nysalt").get<std::string>();
   auto& numbers = its.at.wave.numbers;
   numbers.resize(bytes.size() / sizeof(double));
-  if (numbers.size() * sizeof(double) != bytes.size()) throw std::out_of_range("numbers");
+  const std::size_t wave = std::max<std::size_t>(its.at.wave.diverged_at.size(), 1);
+  if (numbers.size() * sizeof(double) != bytes.size() || numbers.size() % wave != 0) {
+    throw std::out_of_range("numbers");
+  }
   std::memcpy(numbers.data(), bytes.data(), bytes.size());
   return its;
 }
@@ -101,8 +110,9 @@ void write_checkpoint(const std::filesystem::path& file, const checkpoint& its) 
                   {"step", its.at.wave.step},
                   {"wave", wave},
                   {"diverged", diverged},
-                  {"length", its.length},
-                  {"sum", its.sum},
+                  {"output", its.output},
+                  {"length", its.written.length},
+                  {"sum", its.written.crc},
                   {"in_order", its.in_order},
                   {"finished", its.finished}};
   const auto& numbers = its.at.wave.numbers;

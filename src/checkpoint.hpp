@@ -10,17 +10,18 @@
 #include "bundled_system.hpp"
 #include "json.hpp"
 #include "nysalt/divergence.hpp"
+#include "unfinished_file.hpp"
 
 namespace nysalt::program {
 
 /// A file of one line of JSON, the open runs (doubles, the least byte first), and a line with the CRC-32 of
 /// all before it.
 struct checkpoint {
-  json question;  // all that decides the bytes of the output
+  json question;       // all that decides the bytes of the output
+  std::string output;  // the name of its file, wherever that is
   standing at;
   std::vector<diverged_trajectory> lost;  // so far, as they were found
-  std::uint64_t length = 0;               // of the unfinished output
-  std::uint32_t sum = 0;                  // its CRC-32
+  file_sum written;                       // of the unfinished output; in the end of the finished one
   bool in_order = true;                   // that output is what the finished one will be
   bool finished = false;                  // the output is there
   std::string version;                    // of the program that wrote it; empty: of this one

@@ -28,6 +28,7 @@ class destination {
   }
 
   bool is_finished() const { return kept_ && kept_->is_finished(); }
+  bool was_changed() const { return kept_ && kept_->was_changed(); }
   samples::sink lines() {
     if (kept_) return [this](std::string_view text) { kept_->write(text); };
     if (file_) return [this](std::string_view text) { file_->write(text); };

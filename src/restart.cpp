@@ -40,24 +40,30 @@ void restart::begin() {
     refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
            file_.string());
   }
+  its_.output = output_.filename().string();
   part_.emplace(output_);
   reached({});
-  is_fresh_ = true;
 }
 
 void restart::take_up(const json& question) {
   its_ = read_checkpoint(file_);
   require_question(its_, question, file_);
+  if (!its_.output.empty() && its_.output != output_.filename()) {
+    refuse("{} is of a run with the --output {}, not {}", file_.string(), its_.output, output_.string());
+  }
+  const auto part = unfinished_file::part_of(output_);
   if (its_.finished) {
-    if (is_there(output_)) return;
-    refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
-           file_.string(), output_.string());
+    if (!is_there(output_)) {
+      refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
+             file_.string(), output_.string());
+    }
+    // It was stopped right before it took away what it had sorted.
+    if (!its_.in_order && is_there(part)) std::filesystem::remove(part);
+    return;
   }
   const bool is_whole = its_.at.first == question.at("trajectories");
-  const bool has_its_name = !is_there(unfinished_file::part_of(output_)) && its_.in_order &&
-                            is_file_of(output_, its_.length, its_.sum);
-  if (is_whole && has_its_name) return;  // it was stopped right there
-  part_.emplace(output_, its_.length, its_.sum);
+  if (is_whole && its_.in_order && !is_there(part) && sum_of(output_) == its_.written) return;  // or there
+  part_.emplace(output_, its_.written);
 }
 
 void restart::write(std::string_view text) { part_->write(text); }
@@ -70,8 +76,7 @@ void restart::reached(const standing& at) {
   its_.version.clear();
   its_.at = at;
   is_fresh_ = false;
-  its_.length = part_->length();
-  its_.sum = part_->sum();
+  its_.written = part_->written();
   write_checkpoint(file_, its_);
 }
 
@@ -86,8 +91,11 @@ void restart::commit() {
 
 void restart::finish() {
   its_.finished = true;
+  its_.written = sum_of(output_).value_or(file_sum());
   write_checkpoint(file_, its_);
   if (part_ && !its_.in_order) part_->remove();
 }
+
+bool restart::was_changed() const { return sum_of(output_) != its_.written; }
 
 }  // namespace nysalt::program

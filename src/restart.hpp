@@ -24,6 +24,8 @@ class restart {
   restart& operator=(const restart&) = delete;
 
   bool is_finished() const { return its_.finished; }
+  /// Whether the output of a finished run is not what the run wrote any more.
+  bool was_changed() const;
   const standing& from() const { return its_.at; }
   const std::vector<diverged_trajectory>& lost() const { return its_.lost; }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "nysalt/learning/stability_guard.hpp"
 #include "stability.hpp"
@@ -72,20 +73,38 @@ std::optional<double> touching_point(const stability_chart& chart, double low, d
   return std::nullopt;
 }
 
-double safe_step_of(const stability_chart& chart, double highest_frequency) {
+/// The first z below `end` at which a step turns an oscillator by a quarter, or the end.
+double quarter_turn_of(const tabulated& method, double end) {
+  constexpr int samples = 1000;
+  for (int i = 1; i <= samples; ++i) {
+    double high = end * i / samples;
+    if (half_trace_of(method, high) > 0.0) continue;
+    double low = end * (i - 1) / samples;
+    for (int halvings = 0; halvings < 50; ++halvings) {
+      const double middle = std::midpoint(low, high);
+      (half_trace_of(method, middle) > 0.0 ? low : high) = middle;
+    }
+    return low;
+  }
+  return end;
+}
+
+double safe_step_of(const tabulated& method, const stability_chart& chart, double highest_frequency) {
   if (chart.windows.empty() || chart.windows.front().low > 0.0 || highest_frequency == 0.0) return 0.0;
   double end = chart.windows.front().high;
   if (!chart.touching.empty()) end = std::min(end, chart.touching.front());
-  return (1.0 - safe_margin) * end / highest_frequency;
+  const double turned = quarter_turn_of(method, end);
+  return std::min((1.0 - safe_margin) * end, (1.0 - turn_margin) * turned) / highest_frequency;
 }
 
 }  // namespace
 
-judged_step judge(const stability_chart& chart, const known_frequencies& frequencies, double step) {
+judged_step judge(const tabulated& method, const stability_chart& chart, const known_frequencies& frequencies,
+                  double step) {
   judged_step result{{},
                      gaps_below(chart.windows, step * frequencies.highest()),
                      stable_steps(chart.windows, frequencies.bands),
-                     safe_step_of(chart, frequencies.highest())};
+                     safe_step_of(method, chart, frequencies.highest())};
   for (const auto& band : frequencies.bands) {
     const double low = step * band.low;
     const double high = step * band.high;
@@ -149,7 +168,7 @@ std::optional<std::string> instability(const std::string& name, const tabulated&
     return text.empty() ? std::nullopt : std::optional(text);
   }
   const auto known = frequencies_of(system);
-  const auto judged = judge(chart_of(method), known, step);
+  const auto judged = judge(method, chart_of(method), known, step);
   if (judged.is_stable()) return std::nullopt;
   return not_stable(name, system, step, judged, known.source());
 }
@@ -158,15 +177,16 @@ std::optional<std::string> stability_warning(const std::string& name, const tabu
                                              const bundled_system& system, double step, std::uint64_t seed) {
   if (has_rotation(method.letters())) return std::nullopt;
   const auto chart = chart_of(method);
-  if (!judge(chart, frequencies_of(system), step).is_stable()) return std::nullopt;  // instability() tells
+  if (!judge(method, chart, frequencies_of(system), step).is_stable())
+    return std::nullopt;  // instability() tells
   constexpr std::uint64_t some = 16;
   const auto known = frequencies_along_starts(system, seed, some);
-  const auto judged = judge(chart, known, step);
+  const auto judged = judge(method, chart, known, step);
   if (!judged.is_stable()) return not_stable(name, system, step, judged, known.source());
   const auto& worst = worst_of(judged);
   if (worst.margin < wanted_margin) {
     return fmt::format(
-        "{} at step {:g} is {:.2g} % from the end of a stability window, at the frequencies {:g} to {:g} "
+        "{} at step {:g} is {:.3g} % from the end of a stability window, at the frequencies {:g} to {:g} "
         "({}) "
         "of {}; {}",
         name, step, 100.0 * worst.margin, worst.band.low, worst.band.high, known.source(),

@@ -3,12 +3,15 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <system_error>
 
+#include "nysalt/report/atomic_file.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -33,10 +36,9 @@ std::uint64_t add(boost::crc_32_type& sum, std::FILE* file, std::uint64_t length
 
 unfinished_file::unfinished_file(const std::filesystem::path& file) : path_(file) { open(true); }
 
-unfinished_file::unfinished_file(const std::filesystem::path& file, std::uint64_t length, std::uint32_t sum)
-    : path_(file) {
+unfinished_file::unfinished_file(const std::filesystem::path& file, const file_sum& beginning) : path_(file) {
   open(false);
-  require_beginning(length, sum);
+  require_beginning(beginning);
 }
 
 void unfinished_file::open(bool anew) {
@@ -56,12 +58,26 @@ void unfinished_file::open(bool anew) {
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", part.string());
   }
-  if (anew && ftruncate(descriptor, 0) != 0) fail();
+  require_its_own(descriptor);
+  std::error_code failure;
+  if (anew && std::filesystem::file_size(part, failure) > 0) {
+    refuse("{} was left by a run that was stopped: go on with its checkpoint, or remove the file",
+           part.string());
+  }
 }
 
-void unfinished_file::require_beginning(std::uint64_t length, std::uint32_t sum) {
-  const bool is_there = add(sum_, file_.get(), length) == length && sum_.checksum() == sum;
-  if (!is_there) {
+/// Who held the lock before may have given the file its name meanwhile.
+void unfinished_file::require_its_own(int descriptor) const {
+  struct stat opened {};
+  struct stat named {};
+  const bool is_known = fstat(descriptor, &opened) == 0 && stat(part_of(path_).c_str(), &named) == 0;
+  if (is_known && opened.st_ino == named.st_ino && opened.st_dev == named.st_dev) return;
+  refuse("{} was just finished by another run", path_.string());
+}
+
+void unfinished_file::require_beginning(const file_sum& beginning) {
+  const auto [length, crc] = beginning;
+  if (add(sum_, file_.get(), length) != length || sum_.checksum() != crc) {
     refuse(
         "{} is not what the run to resume left there: it was edited or cut; remove the checkpoint to begin "
         "anew",
@@ -87,6 +103,7 @@ void unfinished_file::finish() {
   std::error_code failure;
   std::filesystem::rename(part_of(path_), path_, failure);
   if (failure) refuse("cannot write {}: {}", path_.string(), failure.message());
+  put_folder_on_disk(path_);
   file_.reset();
 }
 
@@ -101,11 +118,12 @@ void unfinished_file::fail() const {
          part_of(path_).string());
 }
 
-bool is_file_of(const std::filesystem::path& file, std::uint64_t length, std::uint32_t sum) {
+std::optional<file_sum> sum_of(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(std::fopen(file.c_str(), "rb"), std::fclose);
-  if (!opened) return false;
+  if (!opened) return std::nullopt;
   boost::crc_32_type its;
-  return add(its, opened.get(), length) == length && std::fgetc(opened.get()) == EOF && its.checksum() == sum;
+  const std::uint64_t length = add(its, opened.get(), std::numeric_limits<std::uint64_t>::max());
+  return file_sum{length, its.checksum()};
 }
 
 }  // namespace nysalt::program

@@ -7,27 +7,37 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace nysalt::program {
+
+/// What a file is known by: its length and CRC-32.
+struct file_sum {
+  std::uint64_t length = 0;
+  std::uint32_t crc = 0;
+  bool operator==(const file_sum&) const = default;
+};
+/// Nothing if it cannot be read.
+std::optional<file_sum> sum_of(const std::filesystem::path& file);
 
 /// FILE.part, which becomes FILE when it is finished. One process alone can hold it.
 class unfinished_file {
  public:
   static std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
-  /// Begins it anew. Throws refusal if another process writes it, or it cannot be made.
+  /// Begins it. Throws refusal if there is one, which a run that was stopped may need, if another process
+  /// writes it, or it cannot be made.
   explicit unfinished_file(const std::filesystem::path& file);
-  /// Goes on after its first `length` bytes; what follows them is cut off. Throws refusal if it is not there,
-  /// shorter, or those bytes have another CRC-32, too.
-  unfinished_file(const std::filesystem::path& file, std::uint64_t length, std::uint32_t sum);
+  /// Goes on after its beginning; what follows that is cut off. Throws refusal if it is not there, shorter,
+  /// or begins otherwise, too.
+  unfinished_file(const std::filesystem::path& file, const file_sum& beginning);
 
   /// Throws refusal if it cannot be written.
   void write(std::string_view text);
   /// Puts on the disk what was written.
   void put_on_disk();
-  std::uint64_t length() const { return length_; }
-  std::uint32_t sum() const { return sum_.checksum(); }
+  file_sum written() const { return {length_, sum_.checksum()}; }
 
   /// It becomes FILE. Throws refusal if that cannot be.
   void finish();
@@ -40,7 +50,8 @@ class unfinished_file {
   };
 
   void open(bool anew);
-  void require_beginning(std::uint64_t length, std::uint32_t sum);
+  void require_its_own(int descriptor) const;
+  void require_beginning(const file_sum& beginning);
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
@@ -48,8 +59,5 @@ class unfinished_file {
   std::uint64_t length_ = 0;
   boost::crc_32_type sum_;
 };
-
-/// Whether a file is of that length and sum.
-bool is_file_of(const std::filesystem::path& file, std::uint64_t length, std::uint32_t sum);
 
 }  // namespace nysalt::program

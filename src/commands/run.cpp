@@ -100,9 +100,20 @@ void require_files(const run_command& command) {
   require_at_least_one("--every", *command.every);
   if (command.output.empty()) refuse("--checkpoint needs --output: what was printed cannot be gone on with");
   require_writable(command.checkpoint);
-  for (const std::string& other :
-       {command.method, command.output, unfinished_file::part_of(command.output).string()}) {
-    if (is_same(command.checkpoint, other)) refuse("--checkpoint {} is {}: name another file", other, other);
+  std::vector<std::string> others{command.method, command.output};
+  for (const char* beside : {".part", ".sorted.part", ".manifest.json"})
+    others.push_back(command.output + beside);
+  for (const char* kind : {".svg", ".png", ".dat", ".gp"}) {
+    if (!command.plot) continue;
+    const std::string picture = std::filesystem::path(command.output).replace_extension(kind);
+    others.insert(others.end(), {picture, picture + ".manifest.json"});
+  }
+  for (const std::string& its : {command.checkpoint, command.checkpoint + ".next.part"}) {
+    for (const std::string& other : others) {
+      if (is_same(its, other))
+        refuse("--checkpoint {} needs the name {}, which is taken: name another file", command.checkpoint,
+               other);
+    }
   }
 }
 
@@ -195,7 +206,7 @@ int run(const run_command& asked, const common_settings& common) {
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
   shown.clear();
-  if (!common.json) {  // only now: a refusal is one line
+  if (!common.json && !was_finished) {  // only now: a refusal is one line
     for (const auto& text : warnings) warn(text);
   }
   if (!was_finished) {
@@ -232,6 +243,10 @@ int run(const run_command& asked, const common_settings& common) {
   } else {
     tell(command, result, was_finished);
   }
+  if (was_finished && its.was_changed()) {
+    warn(fmt::format("{} is not as the run left it: it was changed since", command.output));
+  }
+  if (was_finished) return done;
   return std::ssize(its.lost()) == command.trajectories ? no_result : done;
 }
 

@@ -10,8 +10,10 @@
 #include "../catalogue.hpp"
 #include "../checks.hpp"
 #include "../commands.hpp"
+#include "../learning.hpp"
 #include "../method_source.hpp"
 #include "../output.hpp"
+#include "../progress.hpp"
 #include "../seeds.hpp"
 #include "../stability_margin.hpp"
 #include "../stability_picture.hpp"
@@ -147,7 +149,8 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
   }
   for (const auto& [low, high] : judged.stable_steps)
     result.text += fmt::format("  stable steps {:.6g} .. {:.6g}\n", low, high);
-  result.text += fmt::format("  {} ({} to spare)\n", advice(judged), percent(safe_margin));
+  result.text += fmt::format("  {}: {} below the first end, and less than a quarter of a turn\n",
+                             advice(judged), percent(safe_margin));
 }
 
 /// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
@@ -242,10 +245,13 @@ int stability(const stability_command& command, const common_settings& common) {
     if (rotates) {
       add_rotation(result, its.method, *system, *command.step);
     } else {
+      progress shown;
+      prepare_starts(*system, common, shown);  // a bath drives them where its law is
+      shown.clear();
       constexpr std::uint64_t starts = 64;
       const auto known = frequencies_along_starts(*system, seed_for(role::test, common.seed), starts);
       add_frequencies(result, known, *command.step);
-      add_windows_of(result, judge(chart, known, *command.step), *system, *command.step);
+      add_windows_of(result, judge(its.method, chart, known, *command.step), *system, *command.step);
       marked = {system->description(), *command.step, known.bands};
     }
     result.document["warnings"] = warnings;

@@ -139,8 +139,7 @@ verdict absolute_value(extent how) {
 
   const auto check =
       check_force(system, {vector<double, 1>(-0.7), vector<double, 1>(0.4), vector<double, 1>(0.0)});
-  result.note(
-      fmt::format("check_force, at -0.7, 0.4 and the kink itself: {}; it cannot see a kink", check.report()));
+  result.note(fmt::format("check_force, at -0.7, 0.4 and the kink itself: {}", check.report()));
   result.show(
       {.name = "kink",
        .panels = {energy_panel("V = |q| from p = 0.55, 0.04 per evaluation", std::move(over_time)),

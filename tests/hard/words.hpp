@@ -11,10 +11,6 @@
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/verlet.hpp"
 
-// Dear to compile: it is once, in once/stability.cpp.
-extern template std::vector<nysalt::stability_window> nysalt::stability_windows<nysalt::run_time_word>(
-    const run_time_word&, const std::vector<double>&);
-
 namespace nysalt::hard {
 
 /// Every named method of drifts and kicks, two with gradient kicks among them; s_aia2 for z up to 2.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,28 @@ BOOST_AUTO_TEST_CASE(killed_again_and_again_it_comes_to_the_same_bytes) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(killed_at_random_moments_it_comes_to_the_same_bytes) {
+  const scratch folder("restart_random");
+  const std::string expected = whole(folder, in_bath);
+  std::uint64_t seed = std::random_device()();
+  std::minstd_rand random(static_cast<std::minstd_rand::result_type>(seed));
+  int kills = 0;
+  for (int n = 0; n < 20; ++n) {
+    const bool is_there = std::filesystem::exists(folder / "cut.checkpoint");
+    const double seconds = 0.01 + 0.1 * static_cast<double>(random()) / static_cast<double>(random.max());
+    const auto done = shell(folder, "timeout -s KILL " + std::to_string(seconds) + " \"$nysalt\" " +
+                                        with_checkpoint(in_bath, "cut") + (is_there ? "--resume" : "") +
+                                        " >/dev/null 2>&1");
+    kills += done.code == 137 ? 1 : 0;
+  }
+  BOOST_TEST_CONTEXT("seed " << seed << ", " << kills << " kills") {
+    BOOST_TEST(kills > 0);
+    const auto done = run(folder, with_checkpoint(in_bath, "cut", 5000) + "--resume");
+    BOOST_TEST_REQUIRE(done.code == 0, done.err);
+    BOOST_TEST((contents(folder / "cut.csv") == expected));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_of_other_noise_has_other_bytes) {
   const scratch folder("restart_other");
   BOOST_TEST((whole(folder, in_bath) != whole(folder, in_bath + "--seed 2 ")));
@@ -106,6 +129,11 @@ BOOST_AUTO_TEST_CASE(a_finished_run_ends_well_and_is_left_alone) {
   BOOST_TEST(contents(folder / "cut.csv") == output);
   const auto told = run(folder, command + "--resume");
   BOOST_TEST(told.out.find("finished already") != std::string::npos, told.out);
+  BOOST_TEST(told.err.find("it was changed since") != std::string::npos, told.err);
+  std::ofstream(folder / "other.csv") << "hello";
+  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "there is no checkpoint");
+  std::filesystem::copy(folder / "cut.checkpoint", folder / "other.checkpoint");
+  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "with the --output cut.csv");
   std::filesystem::remove(folder / "cut.csv");
   refused(folder, command + "--resume", "there is no cut.csv");
   // Starts that it takes work to find are not looked for.
@@ -124,6 +152,9 @@ BOOST_AUTO_TEST_CASE(what_is_half_asked_is_refused) {
   refused(folder, alone + "--output a.csv --checkpoint c --every 0", "--every must be at least 1");
   refused(folder, alone + "--output a.csv --checkpoint ./a.csv --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint a.csv.part --every 10", "name another file");
+  refused(folder, alone + "--output c.next --checkpoint c --every 10", "name another file");
+  refused(folder, alone + "--output a.csv --checkpoint a.csv.manifest.json --every 10", "name another file");
+  refused(folder, alone + "--plot --output a.csv --checkpoint a.svg --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint none/c --every 10", "there is no folder none");
   refused(folder, with_checkpoint(alone, "cut") + "--resume", "there is no checkpoint cut.checkpoint");
   BOOST_TEST(folder.files().empty());
@@ -143,6 +174,8 @@ BOOST_AUTO_TEST_CASE(checkpoints_that_are_not_whole_foreign_or_newer_are_refused
     BOOST_TEST((contents(file) == text));
   };
   refused(folder, command, "--resume goes on with it");
+  refused(folder, in_bath + "--output cut.csv --checkpoint another --every 100",
+          "left by a run that was stopped");
   for (const std::size_t length : {sound.size() - 1, sound.size() / 2, sound.find('\n') + 1}) {
     try_out(sound.substr(0, length), "not whole, or was edited");
   }

@@ -66,14 +66,16 @@ struct energies_outside {
   }
 };
 
-/// Of starts by their energies; one that is not finite is outside.
+/// Of starts by their energies; one that is not finite is outside. Gentle motion is followed well: what is
+/// below the range by less than a twentieth of its width counts as inside.
 inline energies_outside look_outside(const energy_range& seen, std::size_t trajectories,
                                      const std::ranges::range auto& energies) {
   energies_outside result{.seen = seen, .trajectories = trajectories};
+  const double gentle = seen.low - 0.05 * (seen.high - seen.low);
   for (const double energy : energies) {
     ++result.looked_at;
     result.energies.include(energy);
-    if (seen.contains(energy)) continue;
+    if (seen.contains(energy) || (gentle <= energy && energy < seen.low)) continue;
     ++result.outside;
     result.farthest = std::max(result.farthest, seen.distance(energy));
   }

@@ -14,8 +14,9 @@
 namespace nysalt {
 
 /// check_force() at four states of the data, from the middle of each quarter of them. A system that is a
-/// potential alone has nothing to check, and costs nothing, to compile either. Throws std::invalid_argument
-/// with its report. The data must be valid.
+/// potential alone has nothing to check, and costs nothing, to compile either. Differences are taken over
+/// lengths of order one: where they would be needed and all coordinates are far smaller, it does not look.
+/// Throws std::invalid_argument with its report. The data must be valid.
 template <SeparableSystem S>
 void require_sound_force(const S& system, const flow_map_data<S::dimension>& data) {
   if constexpr (force_may_be_wrong<S>) {
@@ -26,6 +27,12 @@ void require_sound_force(const S& system, const flow_map_data<S::dimension>& dat
       const auto& state = data.start[data.pairs() * (2 * k + 1) / (2 * enough)];
       points.push_back(state.q);
       momenta.push_back(state.p);
+    }
+    if constexpr (BlackBoxForce<S> || HasForceDerivative<S>) {
+      constexpr double far_below_one = 1e-3;
+      double largest = 0.0;
+      for (const auto& q : points) largest = std::max(largest, q.cwiseAbs().maxCoeff());
+      if (largest < far_below_one) return;
     }
     const force_check found = check_force(system, points, momenta);
     if (found.passed()) return;

@@ -15,6 +15,15 @@
 
 namespace nysalt {
 
+/// So that a file which has just got its name keeps it when the power fails; as far as the system can.
+inline void put_folder_on_disk(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int its = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (its < 0) return;
+  fsync(its);
+  close(its);
+}
+
 /// A file that is there whole or not at all: what is written goes into NAME.WRITER.part, and commit()
 /// renames it. Without a commit nothing of it is left, and programs that write the same file at once do not
 /// mix, as the writer is the process.
@@ -49,6 +58,7 @@ class atomic_file {
     if (durable && stream_) put_on_disk();
     if (stream_) std::filesystem::rename(part_, path_, failure);
     if (!stream_ || failure) fail();
+    if (durable) put_folder_on_disk(path_);
     committed_ = true;
   }
 
