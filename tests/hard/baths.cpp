@@ -27,7 +27,7 @@ phase_point<double, 1> finish(const auto& stepper, const phase_point<double, 1>&
 
 verdict idle(extent how) {
   const harmonic_oscillator alone(1.3);
-  const std::int64_t steps = how == extent::quick ? 10'000 : 200'000;
+  const std::int64_t steps = how == extent::quick ? 10'000 : 1'000'000;
   const oscillator_in_bath none(alone, bath::of_sigma(0.0, 0.0));
   const oscillator_in_bath barely(alone, bath::of_sigma(1e-12, 0.0));
   int equal = 0;
@@ -74,7 +74,7 @@ moments moments_at(double friction, double z, std::int64_t steps) {
 }
 
 verdict huge_friction(extent how) {
-  const std::int64_t steps = how == extent::quick ? 100'000 : 2'000'000;
+  const std::int64_t steps = how == extent::quick ? 100'000 : 10'000'000;
   const auto n = static_cast<double>(steps);
   const double z = 1.0;
   const moments fresh = moments_at(1e3, z, steps);

@@ -15,7 +15,7 @@
 
 namespace nysalt::hard {
 
-/// The relative error of the energy, |H - H_0|/|H_0|, or |H - H_0| where H_0 = 0.
+/// The relative error of the energy, |H - H_0|/|H_0|, or |H - H_0| where H_0 is 0 but for rounding.
 struct energy_story {
   curve shown;           // its largest value within stretches of time that grow by a quarter
   double largest = 0.0;  // in all that was seen
@@ -35,7 +35,7 @@ class energy_watch {
   energy_watch(double initial, double end) : initial_(initial), half_(0.5 * end) {}
 
   void see(double t, double energy) {
-    const double unit = initial_ == 0.0 ? 1.0 : std::abs(initial_);
+    const double unit = std::abs(initial_) < 1e-12 ? 1.0 : std::abs(initial_);
     const double error = std::abs(energy - initial_) / unit;
     story_.finite = story_.finite && std::isfinite(error);
     story_.largest = std::max(story_.largest, error);

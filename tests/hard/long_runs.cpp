@@ -43,7 +43,7 @@ double forth_and_back(const tabulated& method, double step, std::int64_t steps) 
 
 verdict negative_step(extent how) {
   const double z = 0.5;
-  const std::int64_t steps = how == extent::quick ? 10'000 : 200'000;
+  const std::int64_t steps = how == extent::quick ? 10'000 : 1'000'000;
   int symmetric = 0;
   int others = 0;
   double worst = 0.0;

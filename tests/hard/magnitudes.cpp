@@ -23,7 +23,7 @@ phase_point<double, 1> scaled(int exponent) {
 
 verdict scales(extent how) {
   const harmonic_oscillator system(1.3);
-  const std::int64_t steps = how == extent::quick ? 10'000 : 100'000;
+  const std::int64_t steps = how == extent::quick ? 10'000 : 1'000'000;
   const double step = 0.3;
   verdict result;
   std::vector<std::string> not_exact;
@@ -97,7 +97,7 @@ verdict overflow(extent) {
 
 verdict a_million(extent how) {
   const Eigen::Index pairs = 500'000;
-  const std::int64_t steps = how == extent::quick ? 20 : 200;
+  const std::int64_t steps = how == extent::quick ? 20 : 400;
   const double omega = 50.0;
   const double h = 0.01;
   const long_fpu_chain chain(pairs, omega);

@@ -54,8 +54,7 @@ struct ellipse {
 verdict ellipses(const ellipse& its, extent how) {
   const kepler system;
   const auto start = at_pericentre(its.eccentricity);
-  const double periods =
-      its.eccentricity > 0.95 ? (how == extent::quick ? 4.0 : 40.0) : (how == extent::quick ? 20.0 : 400.0);
+  const double periods = how == extent::quick ? (its.eccentricity > 0.95 ? 4.0 : 20.0) : 400.0;
   const double time = periods * 2.0 * std::numbers::pi;
   verdict result;
   std::vector<curve> curves;

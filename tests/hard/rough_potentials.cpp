@@ -148,7 +148,7 @@ verdict absolute_value(extent how) {
                    .y_label = "largest |H - H_0|",
                    .log_log = true,
                    .curves = std::move(over_step)}},
-       .width = 1300},
+       .width = 1560},
       "A kink takes from every method its order, and from some trajectories the bound too: that "
       "of the energy error is owed to smooth forces. Left, one on which every crossing meets the step at "
       "nearly the same phase, so that the errors add up, in Verlet's method as in others.");

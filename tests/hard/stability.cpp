@@ -226,7 +226,9 @@ topic stability() {
         "Inside, the energy stays below its exact swing; outside, the run is reported as diverged at the "
         "very "
         "step that the matrix of the word, multiplied out in long double, says.",
-        "Each step outside: it is ten times nearer to the end than those inside.",
+        "Each step outside, where it is ten times nearer to the end than those inside; farther out only in "
+        "gaps so narrow "
+        "that nothing would grow within the run.",
         windows_of_classical_methods},
        {"windows_of_learned_words",
         "The same for words of families, most with several windows, among them learned ones.",
