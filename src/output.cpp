@@ -95,6 +95,33 @@ void require_writable(const std::filesystem::path& file) {
   }
 }
 
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto whole = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+  };
+  return whole(a) == whole(b);
+}
+
+void require_table(const std::string& output, bool plot, const std::string& method) {
+  if (plot && output.empty()) refuse("--plot needs --output: the picture goes beside it");
+  if (output.empty()) return;
+  require_writable(output);
+  if (!method.empty() && is_same_file(method, output)) {
+    refuse("--output {} is the file of the method: name another", output);
+  }
+  const std::string ending = std::filesystem::path(output).extension();
+  if (plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
+    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
+  }
+}
+
+std::string picture_name(const std::filesystem::path& table) {
+  std::string name = table.stem().string();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  return name;
+}
+
 void require_folder(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code ignored;

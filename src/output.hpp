@@ -29,6 +29,15 @@ void write_pictures(const figure& picture, const std::filesystem::path& folder,
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
 
+/// Whether two paths lead to one file, be it there or not.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Throws refusal now if a table could not be written there later, its picture not beside it, or if it is the
+/// file of the method. Nothing is asked of an output that is empty, but that there is no picture.
+void require_table(const std::string& output, bool plot, const std::string& method);
+/// Of a picture beside a table: that of the table, in letters that gnuplot takes.
+std::string picture_name(const std::filesystem::path& table);
+
 /// Throws refusal now if a folder could not be made there later, or not be written into.
 void require_folder(const std::filesystem::path& folder);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -53,10 +52,7 @@ void draw_run(const run_command& command, std::int64_t steps, const common_setti
     values.x = its.t;
     values.y = its.values[k];
   }
-  const std::filesystem::path output(command.output);
-  figure picture{output.stem().string(), {only}};
-  for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  write_pictures(picture, folder_of(output), common);
+  write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
 }
 
 /// All that decides the bytes of the output, for a run that may be stopped and gone on with.
@@ -76,21 +72,7 @@ json question_of(const run_command& command, const bundled_system& system, const
 
 /// Throws refusal for what cannot be of the files of a run, before any work.
 void require_files(const run_command& command) {
-  const auto whole = [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-  };
-  const auto is_same = [&](const std::string& a, const std::string& b) { return whole(a) == whole(b); };
-  if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
-  if (!command.output.empty()) {
-    require_writable(command.output);
-    if (is_same(command.method, command.output))
-      refuse("--output {} is the file of the method: name another", command.output);
-  }
-  const std::string ending = std::filesystem::path(command.output).extension();
-  if (command.plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
-    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
-  }
+  require_table(command.output, command.plot, command.method);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume needs the --checkpoint to go on from");
     if (command.every) refuse("--every says how often a --checkpoint is made: name its file");
@@ -110,7 +92,7 @@ void require_files(const run_command& command) {
   }
   for (const std::string& its : {command.checkpoint, command.checkpoint + ".next.part"}) {
     for (const std::string& other : others) {
-      if (is_same(its, other))
+      if (is_same_file(its, other))
         refuse("--checkpoint {} needs the name {}, which is taken: name another file", command.checkpoint,
                other);
     }

@@ -2,9 +2,7 @@
 #include "../stability.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "../catalogue.hpp"
@@ -192,20 +190,6 @@ void add_rotation(answer& result, const tabulated& method, const bundled_system&
   }
 }
 
-void require_output(const stability_command& command) {
-  if (command.plot && command.output.empty()) refuse("--plot needs --output: the picture goes beside it");
-  if (command.output.empty()) return;
-  require_writable(command.output);
-  std::error_code ignored;
-  if (command.method && std::filesystem::equivalent(*command.method, command.output, ignored)) {
-    refuse("--output {} is the file of the method: name another", command.output);
-  }
-  const std::string ending = std::filesystem::path(command.output).extension();
-  if (command.plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
-    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
-  }
-}
-
 void write_curve(const stability_command& command, const subject& its, const stability_chart& chart,
                  const std::optional<marked_step>& marked, const common_settings& common) {
   double highest_z = 0.0;
@@ -215,10 +199,8 @@ void write_curve(const stability_command& command, const subject& its, const sta
   const auto curve = stability_curve_of(its.method, chart, highest_z);
   write_result(command.output, table_of(curve), common);
   if (!command.plot) return;
-  const std::filesystem::path output(command.output);
-  figure picture{output.stem().string(), {stability_panel(its.name, curve, chart, marked)}};
-  for (char& c : picture.name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  write_pictures(picture, folder_of(output), common);
+  const figure picture{picture_name(command.output), {stability_panel(its.name, curve, chart, marked)}};
+  write_pictures(picture, folder_of(command.output), common);
 }
 
 }  // namespace
@@ -228,7 +210,7 @@ int stability(const stability_command& command, const common_settings& common) {
   if (command.system && !command.step) {
     refuse("--system needs --step: together they say which frequencies must be stable");
   }
-  require_output(command);
+  require_table(command.output, command.plot, command.method.value_or(""));
   const auto system = command.system ? make_system(*command.system) : nullptr;
   std::vector<std::string> warnings;
   const subject its = subject_of(command, system.get(), common.force, warnings);
