@@ -66,6 +66,9 @@ verdict scales(extent how) {
                              methods.size(), steps,
                              not_exact.empty() ? "" : fmt::format("; but not {}", not_exact.front())));
   result.require(
+      other_bits == std::ssize(methods),
+      fmt::format("three times the state has other bits, in {} of {}", other_bits, methods.size()));
+  result.require(
       subnormal_is_right,
       fmt::format("subnormal states, 2^-1030 = 1e-310: right to {:.2g} of what their quantum 2^-1074 allows",
                   worst_quanta));
