@@ -167,8 +167,9 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
     result.push_back({cost(its), error, one.value.standard_error});
   }
   std::ranges::sort(result, std::greater{}, &error_at::x);
-  const auto same = std::ranges::unique(result, {}, &error_at::x);
-  result.erase(same.begin(), same.end());
+  // Not that of std::ranges: clang++ 14 does not compile what it returns.
+  const auto same = [](const error_at& a, const error_at& b) { return a.x == b.x; };
+  result.erase(std::unique(result.begin(), result.end(), same), result.end());
   return result;
 }
 
