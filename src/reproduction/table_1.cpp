@@ -93,7 +93,7 @@ void learn_columns(const setting& its, std::vector<column>& columns) {
         const auto theta = fitted(system, thinned(data, factor, one.horizon),
                                   thinned(held_out, factor, one.horizon), one.which, its.common.threads);
         if (r >= one.first.size()) one.first.push_back(theta);
-        for (const std::size_t k : {0, 1}) {
+        for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
           const double change = std::abs(theta[k].mean - one.first[r][k].mean);
           one.between_generators = std::max(one.between_generators, change);
         }
