@@ -91,7 +91,7 @@ checkpoint from(const json& head, std::string_view bytes) {
   if (numbers.size() * sizeof(double) != bytes.size() || numbers.size() % wave != 0) {
     throw std::out_of_range("numbers");
   }
-  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());  // of none there is no address
   return its;
 }
 
@@ -119,7 +119,7 @@ void write_checkpoint(const std::filesystem::path& file, const checkpoint& its) 
   std::string text = head.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const std::size_t at = text.size();
   text.resize(at + numbers.size() * sizeof(double));
-  std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
+  if (!numbers.empty()) std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
   text += last_line(text);
   atomic_file out(file, "next");  // one process writes it: a kill leaves one such file at most
   out.write(text);

@@ -9,19 +9,19 @@
 
 namespace {
 
-/// What the run of the corpus had written when it was stopped at step 4 of 8.
+/// What the run of the corpus had written when it was stopped at step 64 of 70.
 const nysalt::fuzz::input_file under_way{"out.csv.part",
                                          "trajectory,step,t,energy\n"
-                                         "0,0,0,1\n0,3,0.06,1\n1,0,0,1\n1,3,0.06,1\n2,0,0,1\n2,3,0.06,1\n"
-                                         "3,0,0,1\n3,3,0.06,1\n4,0,0,1\n4,3,0.06,1\n"};
+                                         "0,0,0,1\n0,40,0.8,1\n1,0,0,1\n1,40,0.8,1\n2,0,0,1\n2,40,0.8,1\n"
+                                         "3,0,0,1\n3,40,0.8,1\n4,0,0,1\n4,40,0.8,1\n"};
 const nysalt::fuzz::input_file finished{"out.csv", "trajectory,step,t,energy\n0,0,0,1\n"};
 
 void go_on(const std::string& text) {
   const std::vector<std::string> asked{
       "run",     "--system",       "pendulum", "--friction",    "0.1",      "--temperature",
       "0.5",     "--start",        "law",      "--method",      "baoab",    "--step",
-      "0.02",    "--horizon",      "0.16",     "--observables", "energy",   "--trajectories",
-      "5",       "--sample-every", "3",        "--every",       "4",        "--output",
+      "0.02",    "--horizon",      "1.4",      "--observables", "energy",   "--trajectories",
+      "5",       "--sample-every", "40",       "--every",       "64",       "--output",
       "out.csv", "--threads",      "1",        "--checkpoint",  "its.last", "--resume"};
   std::vector<nysalt::fuzz::input_file> files{{"its.last", text}, under_way};
   if (text.size() % 2 == 0) files.push_back(finished);
