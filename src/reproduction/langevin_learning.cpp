@@ -44,7 +44,8 @@ void learn_all(const setting& its, against_gap& one, const std::vector<double>& 
                                      .where = placement::end,
                                      .fine_step = gap_step,
                                      .repetition = r});
-      for (const std::size_t k : {0, 1}) one.theta[k][i].push_back(learned.fit.parameters[k].value);
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+        one.theta[k][i].push_back(learned.fit.parameters[k].value);
     }
   }
 }
@@ -59,7 +60,7 @@ double farthest(const against_gap& one, const std::vector<double>& gaps) {
   double worst = 0.0;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const auto linear = linear_optimum_at(gaps[i]);
-    for (const std::size_t k : {0, 1}) {
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       worst = std::max(worst, std::abs(mean_and_error(one.theta[k][i]).mean - linear[k]));
     }
   }
@@ -77,7 +78,7 @@ double largest_scatter(const against_gap& one) {
 figure picture_of(const std::vector<against_gap>& all, const std::vector<double>& gaps) {
   std::vector<panel> panels{{"b1", "gap", "b1", true, {}, "[*:*]", true},
                             {"beta1", "gap", "beta1", true, {}, "[*:*]", true}};
-  for (const std::size_t k : {0, 1}) {
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     for (const auto& one : all) {
       curve its{one.name, gaps, {}, {}, one.start == "trajectory"};
       for (const auto& samples : one.theta[k]) {
@@ -114,7 +115,8 @@ exhibit parameters_against_gap(const setting& its) {
         fmt::format("{:g}", gaps[i]),
         fmt::format("{:.4f}, {:.4f}", linear_optimum_at(gaps[i])[0], linear_optimum_at(gaps[i])[1])};
     for (const auto& one : all) {
-      for (const std::size_t k : {0, 1}) cells.push_back(with_error(with_scatter(one.theta[k][i])));
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+        cells.push_back(with_error(with_scatter(one.theta[k][i])));
     }
     rows.add(cells);
   }
