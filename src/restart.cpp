@@ -43,6 +43,7 @@ void restart::begin() {
   its_.output = output_.filename().string();
   part_.emplace(output_);
   reached({});
+  is_fresh_ = true;
 }
 
 void restart::take_up(const json& question) {

@@ -180,10 +180,9 @@ int run(const run_command& asked, const common_settings& common) {
   const auto began = std::chrono::steady_clock::now();
   const json question = question_of(command, *system, method, steps, common);
   progress shown;
-  if (!command.resume) prepare_starts(*system, common, shown);  // what is refused here leaves no file behind
-  destination its(command, common.json, question);
+  destination its(command, common.json, question);  // from now on the run can be gone on with
   const bool was_finished = its.is_finished();
-  if (command.resume && (!was_finished || common.json)) prepare_starts(*system, common, shown);
+  if (!was_finished || common.json) prepare_starts(*system, common, shown);
   samples taken(command.observables, command.step, command.sample_every, its.lines());
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
