@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const nysalt::fuzz::input_file file{"options.toml", nysalt::fuzz::within_reach(text)};
   run({"--config", file.name, "stability"}, {file});
   run({"--config", file.name, "run", "--threads", "1"}, {file});
-  if (size % 16 != 0) return 0;  // these are dear
+  if (size % 64 != 0) return 0;  // these are dear
   run({"--config", file.name, "compare", "--threads", "1", "--trajectories", "2", "--learn-trajectories", "2",
        "--json"},
       {file});
