@@ -40,12 +40,12 @@ class samples {
   json rows_ = json::array();
 };
 
-/// The observables along trajectory 0 in a table of samples, of every so many of its rows. Throws refusal if
-/// the table cannot be read.
+/// The observables along trajectory 0, as they are drawn.
 struct first_trajectory {
   std::vector<double> t;
   std::vector<std::vector<double>> values;  // of each observable
 };
+/// From a table of samples, of every so many of its rows. Throws refusal if the table cannot be read.
 first_trajectory read_first_trajectory(const std::string& table, std::int64_t every, std::size_t observables);
 
 }  // namespace nysalt::program
