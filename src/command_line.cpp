@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "build_info.hpp"
 #include "commands.hpp"
@@ -13,6 +12,7 @@
 #include "output.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -406,7 +406,7 @@ std::string as_typed(int argc, char** argv) {
 
 int run_command_line(int argc, char** argv) {
   typed to;
-  to.common.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  to.common.threads = usual_threads();
   to.common.command = as_typed(argc, argv);
   CLI::App app("Learned symplectic integrators: learn one for a system and a step, run it, compare it.",
                "nysalt");

@@ -2,8 +2,10 @@
 #include <csignal>
 
 #include "run_program.hpp"
+#include "world.hpp"
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
-  return nysalt::program::run_program(argc, argv);
+  const nysalt::program::joined_world ranks(argc, argv);
+  return ranks.leave(nysalt::program::run_program(argc, argv));
 }

@@ -18,10 +18,12 @@
 #include "build_info.hpp"
 #include "nysalt/report/write_file.hpp"
 #include "refusal.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
 void print(std::string_view text) {
+  if (!speaks_for_all()) return;
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
@@ -150,6 +152,10 @@ std::vector<std::filesystem::path> make_folder(const std::filesystem::path& fold
 void complain(std::string text) {
   const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
   std::replace_if(text.begin(), text.end(), is_control, ' ');
+  if (!speaks_for_all()) {
+    keep_unsaid(text);
+    return;
+  }
   fmt::print(stderr, "nysalt: {}\n", text);
 }
 

@@ -9,9 +9,11 @@
 #include <memory>
 #include <utility>
 
+#include "world.hpp"
+
 namespace nysalt::program {
 
-progress::progress() : visible_(isatty(STDERR_FILENO) != 0) {}
+progress::progress() : visible_(speaks_for_all() && isatty(STDERR_FILENO) != 0) {}
 progress::~progress() { clear(); }
 
 void progress::expect(double work) {

@@ -25,7 +25,7 @@ const std::vector<std::vector<std::string>> layers{
      "prepared_run_time_word", "palindrome", "served_letters", "stepper"},
     {"langevin", "family", "families/", "run_time_family", "theta_curve", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
-    {"derivatives/", "reference", "references/", "tree_sum", "ensemble", "ensembles/", "ensemble_loop",
+    {"derivatives/", "reference", "references/", "tree_sum", "communicator", "communicators/", "shard", "together", "ensemble", "ensembles/", "ensemble_loop",
      "integrate_ensemble", "ensemble_run", "flow_map_data"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},

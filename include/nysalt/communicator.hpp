@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+// Ranks that share the work, and the messages that pass between them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace nysalt {
+
+/// One of several processes that run the same program, as it sees the others: rank r of size(). All that is
+/// not send() and receive() is collective: every rank calls it, in the same order. A message has the length
+/// that its receiver expects.
+class communicator {
+ public:
+  virtual ~communicator() = default;
+
+  virtual int rank() const = 0;  // from 0
+  virtual int size() const = 0;
+
+  /// Between two ranks messages arrive in the order in which they were sent. send() may wait for receive().
+  virtual void send(std::span<const std::byte> message, int to) const = 0;
+  virtual void receive(std::span<std::byte> message, int from) const = 0;
+
+  /// All get the message of one rank.
+  virtual void broadcast(std::span<std::byte> message, int from) const = 0;
+  /// Rank r has bytes first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
+  virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const = 0;
+  virtual std::int64_t least(std::int64_t value) const = 0;
+  virtual std::int64_t total(std::int64_t value) const = 0;
+
+  bool is_first() const { return rank() == 0; }
+  bool is_alone() const { return size() == 1; }
+};
+
+/// A value that is its bytes, from one rank to all.
+template <class T>
+  requires std::is_trivially_copyable_v<T>
+void broadcast(const communicator& ranks, T& value, int from = 0) {
+  ranks.broadcast(std::as_writable_bytes(std::span(&value, 1)), from);
+}
+/// A text or list, whatever length it has at the others.
+template <class List>
+  requires std::is_trivially_copyable_v<typename List::value_type>
+void broadcast(const communicator& ranks, List& values, int from = 0) {
+  auto length = static_cast<std::int64_t>(values.size());
+  broadcast(ranks, length, from);
+  values.resize(static_cast<std::size_t>(length));
+  ranks.broadcast(std::as_writable_bytes(std::span(values)), from);
+}
+
+/// Item first_of_part(count, r, parts) is the first that part r has of `count`: parts are as equal as can be,
+/// and part 0 has one if any has.
+inline std::int64_t first_of_part(std::int64_t count, int part, int parts) {
+  return (count * part + parts - 1) / parts;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+// Processes on one machine or many, by the Message Passing Interface. Needs nysalt::mpi.
+#pragma once
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "nysalt/communicator.hpp"
+
+namespace nysalt {
+
+/// The ranks of an MPI communicator, by default of all processes that mpirun started. MPI must be initialised
+/// before, and finalised after; calls come from one thread at a time (MPI_THREAD_SERIALIZED). What MPI finds
+/// wrong ends all processes, as is its custom. Messages do not mix with those of others: it is a duplicate.
+class mpi_communicator final : public communicator {
+ public:
+  explicit mpi_communicator(MPI_Comm ranks = MPI_COMM_WORLD) {
+    MPI_Comm_dup(ranks, &ranks_);
+    MPI_Comm_rank(ranks_, &rank_);
+    MPI_Comm_size(ranks_, &size_);
+  }
+  ~mpi_communicator() override { MPI_Comm_free(&ranks_); }
+  mpi_communicator(const mpi_communicator&) = delete;
+  mpi_communicator& operator=(const mpi_communicator&) = delete;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void send(std::span<const std::byte> message, int to) const override {
+    in_pieces(message, [&](auto piece, int length) { MPI_Send(piece, length, MPI_BYTE, to, 0, ranks_); });
+  }
+  void receive(std::span<std::byte> message, int from) const override {
+    in_pieces(message, [&](auto piece, int length) {
+      MPI_Recv(piece, length, MPI_BYTE, from, 0, ranks_, MPI_STATUS_IGNORE);
+    });
+  }
+  void broadcast(std::span<std::byte> message, int from) const override {
+    in_pieces(message, [&](auto piece, int length) { MPI_Bcast(piece, length, MPI_BYTE, from, ranks_); });
+  }
+
+  void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
+    if (all.size() > longest) {
+      for (int r = 0; r < size_; ++r) {
+        const auto at = static_cast<std::size_t>(r);
+        broadcast(all.subspan(first_of[at], first_of[at + 1] - first_of[at]), r);
+      }
+      return;
+    }
+    std::vector<int> lengths;
+    std::vector<int> begins;
+    for (std::size_t r = 0; r + 1 < first_of.size(); ++r) {
+      lengths.push_back(static_cast<int>(first_of[r + 1] - first_of[r]));
+      begins.push_back(static_cast<int>(first_of[r]));
+    }
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all.data(), lengths.data(), begins.data(), MPI_BYTE,
+                   ranks_);
+  }
+
+  std::int64_t least(std::int64_t value) const override { return reduced(value, MPI_MIN); }
+  std::int64_t total(std::int64_t value) const override { return reduced(value, MPI_SUM); }
+
+ private:
+  static constexpr std::size_t longest = std::size_t{1} << 30U;  // bytes: MPI counts in int
+
+  template <class Byte, class Pass>
+  static void in_pieces(std::span<Byte> message, const Pass& pass) {
+    for (std::size_t done = 0; done < message.size(); done += longest) {
+      pass(message.data() + done, static_cast<int>(std::min(longest, message.size() - done)));
+    }
+  }
+
+  std::int64_t reduced(std::int64_t value, MPI_Op how) const {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, how, ranks_);
+    return value;
+  }
+
+  MPI_Comm ranks_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+}  // namespace nysalt

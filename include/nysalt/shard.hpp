@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+// The trajectories that one rank has of an ensemble.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "nysalt/communicators/alone.hpp"
+#include "nysalt/tree_sum.hpp"
+
+namespace nysalt {
+
+namespace detail {
+/// A term of a sum as the doubles that it is.
+inline std::span<double> numbers_in(double& term) { return {&term, 1}; }
+template <class Matrix>
+std::span<double> numbers_in(Matrix& term) {
+  return {term.data(), static_cast<std::size_t>(term.size())};
+}
+}  // namespace detail
+
+/// Trajectories first() .. first() + count() - 1 of `total`; the others are with other ranks. Ranks have
+/// consecutive blocks of 2^k leaves of tree_sum, with the largest k that leaves 32 blocks or more to a rank:
+/// then shares differ by one part in 32 at most, and where leaves are fewer, by one leaf. A rank may have
+/// none. What refers to it must not outlive the communicator.
+class shard {
+ public:
+  explicit shard(std::int64_t total, const communicator& ranks = alone) : total_(total), ranks_(&ranks) {
+    const std::int64_t leaves = (total + trajectories_of_leaf - 1) / trajectories_of_leaf;
+    blocks_ = leaves;
+    while (blocks_ / 2 >= blocks_of_rank * ranks.size()) {
+      blocks_ = (blocks_ + 1) / 2;
+      ++level_;
+    }
+  }
+
+  std::int64_t total() const { return total_; }
+  std::int64_t first() const { return first_of(ranks_->rank()); }
+  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
+  /// The first trajectory of a rank; total() of rank size().
+  std::int64_t first_of(int rank) const {
+    const std::int64_t block = first_of_part(blocks_, rank, ranks_->size());
+    return std::min(total_, (block << level_) * trajectories_of_leaf);
+  }
+  const communicator& ranks() const { return *ranks_; }
+
+  /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
+  /// large as each. The bits do not depend on the number of ranks. A rank sends two or three messages and
+  /// receives log2 of the number of ranks at most, and five more; each is as long as one term.
+  template <class T>
+  T sum(const std::vector<T>& terms, const T& zero) const {
+    if (ranks_->is_alone()) return tree_sum(terms);
+    std::vector<T> nodes = detail::sums_of_leaves(std::span<const T>(terms));
+    for (int k = 0; k < level_; ++k) detail::add_neighbours(nodes);
+    T result = up_the_tree(std::move(nodes), zero);
+    ranks_->broadcast(std::as_writable_bytes(detail::numbers_in(result)), 0);
+    return result;
+  }
+  double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }
+
+  /// Of all trajectories each rank has filled in the items of its own: all get them all. Memory and messages
+  /// grow with the trajectories: for what is small, and once.
+  template <class Item>
+    requires std::is_trivially_copyable_v<Item>
+  void gather(std::vector<Item>& all) const {
+    std::vector<std::size_t> first_bytes;
+    for (int r = 0; r <= ranks_->size(); ++r) {
+      first_bytes.push_back(static_cast<std::size_t>(first_of(r)) * sizeof(Item));
+    }
+    ranks_->gather(std::as_writable_bytes(std::span(all)), first_bytes);
+  }
+
+ private:
+  static constexpr std::int64_t blocks_of_rank = 32;
+
+  int rank_of(std::int64_t block) const { return static_cast<int>(block * ranks_->size() / blocks_); }
+
+  /// The nodes of the blocks of this rank become those of the next level, and so on; a node is where its left
+  /// half is, so that the root comes to rank 0.
+  template <class T>
+  T up_the_tree(std::vector<T> nodes, const T& zero) const {
+    std::int64_t first = first_of_part(blocks_, ranks_->rank(), ranks_->size());
+    std::int64_t all = blocks_;
+    for (int level = 0; all > 1; ++level) {
+      if (!nodes.empty() && first % 2 == 1) {
+        const auto its = std::as_bytes(detail::numbers_in(nodes.front()));
+        ranks_->send(its, rank_of((first - 1) << level));
+        nodes.erase(nodes.begin());
+        ++first;
+      }
+      const std::int64_t next = first + static_cast<std::int64_t>(nodes.size());
+      if (!nodes.empty() && next % 2 == 1 && next < all) {
+        nodes.push_back(zero);
+        ranks_->receive(std::as_writable_bytes(detail::numbers_in(nodes.back())), rank_of(next << level));
+      }
+      detail::add_neighbours(nodes);
+      first /= 2;
+      all = (all + 1) / 2;
+    }
+    return nodes.empty() ? zero : std::move(nodes.front());
+  }
+
+  std::int64_t total_;
+  std::int64_t blocks_ = 0;
+  int level_ = 0;
+  const communicator* ranks_;
+};
+
+}  // namespace nysalt

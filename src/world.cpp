@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "world.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#if defined NYSALT_HAS_MPI
+#include "nysalt/communicators/mpi.hpp"
+#endif
+
+namespace nysalt::program {
+
+namespace {
+const communicator* joined = &alone;
+std::string unsaid;
+}  // namespace
+
+const communicator& world() { return *joined; }
+
+void keep_unsaid(const std::string& text) { unsaid = text; }
+
+#if defined NYSALT_HAS_MPI
+
+namespace {
+
+/// Whether a launcher made this process one of several: Open MPI's own, or one that speaks PMIx or PMI.
+bool was_launched() {
+  return std::ranges::any_of(
+      std::initializer_list<const char*>{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"},
+      [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+int ranks_of_machine() {
+  MPI_Comm its;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &its);
+  int size = 1;
+  MPI_Comm_size(its, &size);
+  MPI_Comm_free(&its);
+  return size;
+}
+
+int ranks_here = 1;
+
+}  // namespace
+
+class joined_world::session {
+ public:
+  session(int argc, char** argv) : mpi_(argc, argv) {
+    joined = &ranks_;
+    ranks_here = ranks_of_machine();
+  }
+  ~session() { joined = &alone; }
+
+ private:
+  struct initialised {
+    initialised(int argc, char** argv) {
+      int granted = 0;
+      MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &granted);
+    }
+    ~initialised() { MPI_Finalize(); }
+  };
+  initialised mpi_;  // before the ranks, and after them
+  mpi_communicator ranks_;
+};
+
+joined_world::joined_world(int argc, char** argv) {
+  if (was_launched()) session_ = std::make_unique<session>(argc, argv);
+}
+joined_world::~joined_world() = default;
+
+int joined_world::leave(int code) const {
+  if (!session_) return code;
+  using clock = std::chrono::steady_clock;
+  constexpr auto patience = std::chrono::seconds(10);
+  const auto began = clock::now();
+  MPI_Request others;
+  MPI_Ibarrier(MPI_COMM_WORLD, &others);
+  for (int all_there = 0; true; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+    MPI_Test(&others, &all_there, MPI_STATUS_IGNORE);
+    if (all_there != 0) return code;
+    if (code == 0 || clock::now() - began < patience) continue;
+    if (!unsaid.empty()) fmt::print(stderr, "nysalt: rank {}: {}\n", world().rank(), unsaid);
+    std::fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, code);
+  }
+}
+
+#else
+
+namespace {
+constexpr int ranks_here = 1;
+}
+
+class joined_world::session {};
+joined_world::joined_world(int, char**) {}
+joined_world::~joined_world() = default;
+int joined_world::leave(int code) const { return code; }
+
+#endif
+
+int usual_threads() {
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());  // that this process may use
+  const bool is_bound = cores < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  return std::max(1, is_bound ? cores : cores / ranks_here);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+// Those who run this command together: one process, or the ranks that mpirun started.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "nysalt/communicators/alone.hpp"
+
+namespace nysalt::program {
+
+/// One process by itself, until it has joined others.
+const communicator& world();
+
+/// Rank 0 speaks and writes for all.
+inline bool speaks_for_all() { return world().is_first(); }
+
+/// Threads for a rank, if nobody asks for a number: those of the cores that it may use, shared with other
+/// ranks of the machine.
+int usual_threads();
+
+/// Joins the other ranks, if the process was started as one of several and the program is built with MPI; to
+/// be made once, in main(). To call MPI takes a tenth of a second, so that a process by itself does not.
+class joined_world {
+ public:
+  joined_world(int argc, char** argv);
+  ~joined_world();
+  joined_world(const joined_world&) = delete;
+  joined_world& operator=(const joined_world&) = delete;
+
+  /// Waits for the others and returns the exit code. A rank that ends with an error while others wait for it
+  /// in the midst of their work ends them too, after some seconds.
+  int leave(int code) const;
+
+ private:
+  class session;
+  std::unique_ptr<session> session_;
+};
+
+/// Keeps what a rank that does not speak would have said, in case nobody else says it.
+void keep_unsaid(const std::string& text);
+
+}  // namespace nysalt::program
