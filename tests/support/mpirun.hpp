@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// The program on several ranks, as a shell starts them. For tests named *_on_ranks_test.cpp, which are built
+// where there is MPI (NYSALT_MPIEXEC).
+#pragma once
+
+#include <string>
+
+#include "program.hpp"
+
+namespace nysalt::test {
+
+/// "mpirun -n RANKS $nysalt " for a line of shell(): whoever tests, on however few cores.
+inline std::string on_ranks(int ranks) {
+  std::string line = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ";
+  line += "'" NYSALT_MPIEXEC "' --oversubscribe --bind-to none -n ";
+  line += std::to_string(ranks);
+  line += " \"$nysalt\" ";
+  return line;
+}
+
+/// `mpirun -n RANKS nysalt arguments` in the folder.
+inline finished run_on(int ranks, const scratch& folder, const std::string& arguments) {
+  return shell(folder, on_ranks(ranks) + arguments);
+}
+
+}  // namespace nysalt::test
