@@ -33,6 +33,7 @@
 #include "observables.hpp"
 #include "refusal.hpp"
 #include "stretches.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -173,7 +174,8 @@ class bundled_model final : public bundled_system {
   std::int64_t most_trajectories(const learn_plan& plan) const override {
     const data_options options{.step = plan.step,
                                .horizon = plan.how.horizon,
-                               .noise_parts = noise_parts(placed(plan.family, plan.where))};
+                               .noise_parts = noise_parts(placed(plan.family, plan.where)),
+                               .ranks = &world()};
     return nysalt::most_trajectories(options, size(system_));
   }
 
@@ -209,6 +211,7 @@ class bundled_model final : public bundled_system {
                      .seed = seed,
                      .noise_parts = parts,
                      .threads = plan.threads,
+                     .ranks = &world(),
                      .progress = progress},
                     pairs);
       };

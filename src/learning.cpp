@@ -11,7 +11,9 @@
 #include "learnable.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/losses/loss_choice.hpp"
+#include "output.hpp"
 #include "seeds.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -106,6 +108,7 @@ learn_plan plan_for(const std::string& family, std::optional<placement> where, d
 }
 
 void prepare_starts(bundled_system& system, const common_settings& common, progress& shown) {
+  if (const auto advice = advice_on_threads(common.threads); !advice.empty()) warn(advice);
   shown.part("preparing the starts");
   system.prepare_starts(seed_for(role::training, common.seed));
 }

@@ -105,10 +105,20 @@ int joined_world::leave(int code) const { return code; }
 
 #endif
 
-int usual_threads() {
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency());  // that this process may use
-  const bool is_bound = cores < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
-  return std::max(1, is_bound ? cores : cores / ranks_here);
+namespace {
+/// That this process may use.
+int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+bool is_bound() { return cores() < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)); }
+}  // namespace
+
+int usual_threads() { return is_bound() ? cores() : std::max(1, cores() / ranks_here); }
+
+std::string advice_on_threads(int threads) {
+  if (world().is_alone() || !is_bound() || threads <= cores()) return {};
+  return fmt::format(
+      "each rank has {} threads and may use {} core{}: let mpirun --bind-to none, or --map-by "
+      "slot:PE={}",
+      threads, cores(), cores() == 1 ? "" : "s", threads);
 }
 
 }  // namespace nysalt::program

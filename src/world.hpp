@@ -19,6 +19,10 @@ inline bool speaks_for_all() { return world().is_first(); }
 /// ranks of the machine.
 int usual_threads();
 
+/// What to tell where a rank was given more threads than mpirun gave it cores, as it does unless told
+/// otherwise; empty if all is well.
+std::string advice_on_threads(int threads);
+
 /// Joins the other ranks, if the process was started as one of several and the program is built with MPI; to
 /// be made once, in main(). To call MPI takes a tenth of a second, so that a process by itself does not.
 class joined_world {

@@ -8,6 +8,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/learning/extend_data.hpp"
+#include "nysalt/learning/require_valid.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"

@@ -15,6 +15,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/learning/require_valid.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "support/in_lanes.hpp"

@@ -2,6 +2,7 @@
 // Ranks that share the work, and the messages that pass between them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -51,6 +52,33 @@ void broadcast(const communicator& ranks, List& values, int from = 0) {
   values.resize(static_cast<std::size_t>(length));
   ranks.broadcast(std::as_writable_bytes(std::span(values)), from);
 }
+
+/// A value of each rank, at all of them.
+template <class T>
+  requires std::is_trivially_copyable_v<T> std::vector<T> in_order_of_ranks(const communicator& ranks,
+                                                                            const T& value) {
+    std::vector<T> all(static_cast<std::size_t>(ranks.size()));
+    std::vector<std::size_t> first_bytes;
+    for (std::size_t r = 0; r <= all.size(); ++r) first_bytes.push_back(r * sizeof(T));
+    all[static_cast<std::size_t>(ranks.rank())] = value;
+    ranks.gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    return all;
+  }
+
+/// The items of rank 0, then those of rank 1, and so on, at all of them.
+template <class T>
+  requires std::is_trivially_copyable_v<T> std::vector<T> one_after_the_other(const communicator& ranks,
+                                                                              const std::vector<T>& ours) {
+    std::vector<std::size_t> first_bytes{0};
+    for (const std::size_t count : in_order_of_ranks(ranks, ours.size())) {
+      first_bytes.push_back(first_bytes.back() + count * sizeof(T));
+    }
+    std::vector<T> all(first_bytes.back() / sizeof(T));
+    const std::size_t first = first_bytes[static_cast<std::size_t>(ranks.rank())] / sizeof(T);
+    std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
+    ranks.gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    return all;
+  }
 
 /// Item first_of_part(count, r, parts) is the first that part r has of `count`: parts are as equal as can be,
 /// and part 0 has one if any has.

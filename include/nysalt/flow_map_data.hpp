@@ -22,10 +22,20 @@
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/shard.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt {
 
-/// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory.
+/// Where the pairs of one rank are among those of all.
+struct shared_pairs {
+  shard trajectories;
+  std::size_t first;  // pair
+  std::size_t total;
+};
+
+/// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory. If
+/// ranks share them, each has those of its trajectories.
 template <int N>
 struct flow_map_data {
   std::vector<phase_point<double, N>> start;
@@ -42,13 +52,15 @@ struct flow_map_data {
   // A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
 
-  // Provenance.
+  std::optional<shared_pairs> shared;  // nothing: these are all
+
+  // Provenance, that of all ranks.
   std::string system;
   std::string ensemble;
   std::string reference;
   std::uint64_t seed = 0;
-  std::int64_t evaluations = 0;  // force evaluations that it took, checks included
-  double seconds = 0.0;
+  std::int64_t evaluations = 0;          // force evaluations that it took, checks included
+  double seconds = 0.0;                  // at this rank
   std::optional<energy_range> energies;  // of all starts and finishes; none where H is not known
 
   std::size_t pairs() const { return start.size(); }
@@ -59,6 +71,13 @@ struct flow_map_data {
                                     first_of.begin()) -
            1;
   }
+
+  /// Of all ranks, as the next.
+  shard share() const {
+    return shared ? shared->trajectories : shard(static_cast<std::int64_t>(trajectories()));
+  }
+  std::size_t all_pairs() const { return shared ? shared->total : pairs(); }
+  std::size_t first_pair() const { return shared ? shared->first : 0; }  // that is here
 };
 
 struct data_options {
@@ -69,72 +88,10 @@ struct data_options {
   std::int64_t first = 0;  // number of the first trajectory: which start and which noise it has
   int noise_parts = 0;     // of a step whose noise is kept: what the letters O to be learned with need
   int threads = 1;         // changes no bit of the data
+  const communicator* ranks = &alone;  // who share the trajectories; nor does it
   // Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
-
-namespace detail {
-[[noreturn]] inline void refuse_size(const char* what, std::size_t n, Eigen::Index its, Eigen::Index wanted) {
-  throw std::invalid_argument(
-      fmt::format("{} {} of the data has not the dimension of the system: {} for {}", what, n, its, wanted));
-}
-}  // namespace detail
-
-/// Throws std::invalid_argument unless the data are of this system, hold pairs of its size, all finite, and
-/// trajectories that cover them; for data that came from elsewhere. What is not finite is named: coordinate,
-/// pair and trajectory, all but coordinates counted from 0.
-template <System S>
-void require_valid(const flow_map_data<S::dimension>& data, const S& system) {
-  if (data.system != describe(system)) {
-    throw std::invalid_argument(
-        fmt::format("the data are of {}, the system is {}", data.system, describe(system)));
-  }
-  const bool covers = !data.first_of.empty() && data.first_of.front() == 0 &&
-                      data.first_of.back() == data.pairs() &&
-                      std::is_sorted(data.first_of.begin(), data.first_of.end());
-  if (data.pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
-    throw std::invalid_argument(fmt::format("the data are not whole: {} starts, {} finishes, {} trajectories",
-                                            data.pairs(), data.finish.size(), data.trajectories()));
-  }
-  if (data.noise_parts < 0 ||
-      data.noise.size() != data.pairs() * static_cast<std::size_t>(data.noise_parts)) {
-    throw std::invalid_argument(fmt::format("the data are not whole: {} pairs with noise in {} parts hold {}",
-                                            data.pairs(), data.noise_parts, data.noise.size()));
-  }
-  if (data.step == 0.0 || !std::isfinite(data.step)) {
-    throw std::invalid_argument(fmt::format("the data cannot have the step {}", data.step));
-  }
-  for (std::size_t n = 0; n < data.noise.size(); ++n) {
-    const auto& its = data.noise[n];
-    if (its.size() != size(system)) detail::refuse_size("noise", n, its.size(), size(system));
-    for (Eigen::Index i = 0; i < its.size(); ++i) {
-      if (std::isfinite(its[i])) continue;
-      const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
-      throw std::invalid_argument(fmt::format(
-          "the data hold what is not finite: coordinate {} of noise {} is {}, in pair {} of trajectory {}",
-          i + 1, n, its[i], pair, data.trajectory_of(pair)));
-    }
-  }
-  const auto require_sound = [&](const char* what, std::size_t pair, const auto& x) {
-    if (x.q.size() != size(system)) detail::refuse_size(what, pair, x.q.size(), size(system));
-    if (x.p.size() != size(system)) detail::refuse_size(what, pair, x.p.size(), size(system));
-    if (is_finite(x)) return;
-    throw std::invalid_argument(
-        fmt::format("the data hold what is not finite: {} in the {} of pair {}, in trajectory {}",
-                    detail::not_finite_in(x), what, pair, data.trajectory_of(pair)));
-  };
-  for (std::size_t n = 0; n < data.pairs(); ++n) {
-    require_sound("start", n, data.start[n]);
-    require_sound("finish", n, data.finish[n]);
-  }
-  for (const auto& [pair, finish] : data.finer) {
-    if (pair >= data.pairs()) {
-      throw std::invalid_argument(fmt::format(
-          "the data are not whole: a finer finish is of pair {}, but there are {}", pair, data.pairs()));
-    }
-    require_sound("finer finish", pair, finish);
-  }
-}
 
 namespace detail {
 
@@ -163,7 +120,7 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
     throw std::invalid_argument(
         fmt::format("flow_map_data: noise in {} parts of a step cannot be", options.noise_parts));
   }
-  if (options.trajectories >
+  if (options.trajectories / options.ranks->size() >
       static_cast<std::int64_t>(numbers_in_memory / numbers_in(options, steps, dimension))) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
@@ -172,8 +129,8 @@ inline std::int64_t steps_of_each(const data_options& options, Eigen::Index dime
   return static_cast<std::int64_t>(steps);
 }
 
-/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane; returns the
-/// force evaluations that they took.
+/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane, of those from
+/// number options.first on; returns the force evaluations that they took.
 template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
 std::int64_t follow_reference(const S& system, const E& ensemble, const R& reference,
                               const data_options& options, std::int64_t first, int count,
@@ -223,7 +180,7 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
 }
 
-/// finish = that of the finer reference from the same start, for every so many pairs.
+/// finish = that of the finer reference from the same start, for every so many of all pairs.
 template <SeparableSystem S, Reference<S> R>
 std::int64_t check_reference(const S& system, const R& reference, const data_options& options,
                              flow_map_data<S::dimension>& data) {
@@ -231,7 +188,9 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
   const counted<S> watched(system);
   const R finer = reference.finer();
   std::size_t trajectory = 0;
-  for (std::size_t pair = 0; pair < data.pairs(); pair += data.pairs() / checks + 1) {
+  const std::size_t between = data.all_pairs() / checks + 1;
+  const std::size_t from_here = (between - data.first_pair() % between) % between;
+  for (std::size_t pair = from_here; pair < data.pairs(); pair += between) {
     while (data.first_of[trajectory + 1] <= pair) ++trajectory;
     const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
                         static_cast<std::int64_t>(pair - data.first_of[trajectory])};
@@ -242,54 +201,32 @@ std::int64_t check_reference(const S& system, const R& reference, const data_opt
   return watched.evaluations;
 }
 
-}  // namespace detail
-
-/// As many as fit into memory. Throws std::invalid_argument if one does not, or has no step.
-inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
-  options.trajectories = 1;
-  const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
-  return static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
-}
-
-/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
-/// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble
-/// and the reference; each block of trajectories has its own copy of the system. Neither lanes nor threads
-/// change a bit.
-///
-/// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
-/// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
-/// Memory: two states a pair, and half a state for each part of noise. Cost: that of the reference, and one
-/// energy a pair.
+/// Trajectories begin .. begin + count - 1 of those of the options.
 template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
-flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
-                                               const data_options& options) {
-  const auto began = std::chrono::steady_clock::now();
-  const std::int64_t steps = detail::steps_of_each(options, size(system));
-  if (options.noise_parts > 0 && !PathReference<R, S>) {
-    throw std::invalid_argument(fmt::format(
-        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference.description()));
-  }
-  const auto total = static_cast<std::size_t>(options.trajectories * steps);
-
+flow_map_data<S::dimension> make_some_pairs(const S& system, const E& ensemble, const R& reference,
+                                            data_options options, const shard& all, std::int64_t begin,
+                                            std::int64_t count) {
+  const std::int64_t steps = steps_of_each(options, size(system));
+  const auto of_trajectories = [&](std::int64_t m) { return static_cast<std::size_t>(m * steps); };
   flow_map_data<S::dimension> data;
-  for (std::int64_t m = 0; m <= options.trajectories; ++m) {
-    data.first_of.push_back(static_cast<std::size_t>(m * steps));
-  }
-  data.start.resize(total);
-  data.finish.resize(total);
+  data.shared = shared_pairs{all, of_trajectories(begin), of_trajectories(options.trajectories)};
+  for (std::int64_t m = 0; m <= count; ++m) data.first_of.push_back(of_trajectories(m));
+  data.start.resize(of_trajectories(count));
+  data.finish.resize(of_trajectories(count));
   data.noise_parts = options.noise_parts;
-  data.noise.resize(total * static_cast<std::size_t>(options.noise_parts));
+  data.noise.resize(data.pairs() * static_cast<std::size_t>(options.noise_parts));
   std::vector<energy_range> energies(data.trajectories());
   std::atomic<std::int64_t> evaluations = 0;
-
-  const auto follow = [&](std::int64_t first, int count) {
-    evaluations +=
-        detail::follow_reference(system, ensemble, reference, options, first, count, data, energies);
+  options.first += begin;
+  const auto follow = [&](std::int64_t first, int n) {
+    evaluations += follow_reference(system, ensemble, reference, options, first, n, data, energies);
   };
-  for_each_block(options.trajectories, lanes_of<S>, options.threads, follow, options.progress);
-
-  evaluations += detail::check_reference(system, reference, options, data);
-
+  const auto tell = [&](std::int64_t done) {
+    options.progress(std::min(options.trajectories, done * all.ranks().size()));
+  };
+  for_each_block(count, lanes_of<S>, options.threads, follow,
+                 options.progress ? std::function<void(std::int64_t)>(tell) : nullptr);
+  evaluations += check_reference(system, reference, options, data);
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();
     for (const auto& seen : energies) {
@@ -297,12 +234,64 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
       data.energies->include(seen.high);
     }
   }
+  data.evaluations = evaluations;
+  return data;
+}
+
+/// What is counted and seen at one rank becomes that of all.
+template <int N>
+void add_up(flow_map_data<N>& data) {
+  const shard all = data.share();
+  if (all.ranks().is_alone()) return;
+  data.evaluations = all.ranks().total(data.evaluations);
+  if (!data.energies) return;
+  for (const energy_range& seen : in_order_of_ranks(all.ranks(), *data.energies)) {
+    if (seen.low > seen.high) continue;  // a rank without trajectories
+    data.energies->include(seen.low);
+    data.energies->include(seen.high);
+  }
+}
+
+}  // namespace detail
+
+/// As many as fit into memory. Throws std::invalid_argument if one does not, or has no step.
+inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
+  options.trajectories = 1;
+  const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
+  return options.ranks->size() *
+         static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
+}
+
+/// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
+/// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble
+/// and the reference; each block of trajectories has its own copy of the system. Ranks share the
+/// trajectories, and each keeps its own. Neither lanes nor threads nor ranks change a bit.
+///
+/// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
+/// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
+/// Memory of a rank: two states a pair of its own, and half a state for each part of noise. Cost: that of the
+/// reference, and one energy a pair.
+template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
+flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensemble, const R& reference,
+                                               const data_options& options) {
+  const auto began = std::chrono::steady_clock::now();
+  detail::steps_of_each(options, size(system));
+  if (options.noise_parts > 0 && !PathReference<R, S>) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference.description()));
+  }
+  const shard all(options.trajectories, *options.ranks);
+  flow_map_data<S::dimension> data;
+  together(all.ranks(), [&] {
+    data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
+  });
+  detail::add_up(data);
+  if (options.ranks->is_alone()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);
   data.ensemble = ensemble.description();
   data.reference = reference.description();
   data.seed = options.seed;
-  data.evaluations = evaluations;
   data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return data;
 }

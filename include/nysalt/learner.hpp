@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nysalt/learning/fit.hpp"
+#include "nysalt/learning/require_valid.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/method.hpp"
 #if !defined NYSALT_COMPILED_ONCE

@@ -10,7 +10,9 @@
 #include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
+#include "../world.hpp"
 #include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt::program {
 
@@ -78,7 +80,9 @@ int learn(const learn_command& command, const common_settings& common) {
     }
   }
   const auto system = make_system(command.system);
-  if (!command.output.empty()) require_writable(command.output);
+  on_first(world(), [&] {
+    if (!command.output.empty()) require_writable(command.output);
+  });
 
   progress shown;
   method_source source;
@@ -98,7 +102,9 @@ int learn(const learn_command& command, const common_settings& common) {
       std::find_if(learned.begin(), learned.end(), [](const auto& one) { return !one.fit.usable; });
   const bool usable = bad == learned.end();
   const bool keep = !command.output.empty() && (usable || common.force);
-  if (keep) write_result(command.output, scheme_text(learned, *system, plan), common);
+  on_first(world(), [&] {
+    if (keep) write_result(command.output, scheme_text(learned, *system, plan), common);
+  });
   if (common.json) {
     json result;
     if (command.step) {

@@ -11,13 +11,14 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "nysalt/communicator.hpp"
 
-namespace nysalt::testing {
+namespace nysalt::test {
 
 /// What passed at one rank.
 struct traffic {
@@ -113,6 +114,12 @@ class thread_communicator final : public communicator {
   mutable traffic seen_;
 };
 
+/// Rank r as it sees itself: for what is asked of no other.
+inline thread_communicator rank_alone(int rank, int size) {
+  static post nowhere;
+  return {nowhere, rank, size};
+}
+
 /// Calls body(ranks) once on each rank; what the lowest rank that throws throws leaves this. A rank that
 /// throws alone, where others wait for it, would wait for ever: so would MPI.
 inline void run_ranks(int size, const std::function<void(const thread_communicator&)>& body) {
@@ -134,4 +141,4 @@ inline void run_ranks(int size, const std::function<void(const thread_communicat
   }
 }
 
-}  // namespace nysalt::testing
+}  // namespace nysalt::test

@@ -12,9 +12,21 @@
 #include <vector>
 
 #include "nysalt/learning/squares.hpp"
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
+
+/// What each trajectory, or other block of data, adds to the gradient of a loss: those of this rank.
+struct trajectory_scores {
+  std::vector<Eigen::VectorXd> of_each;
+  shard share;
+
+  trajectory_scores(std::vector<Eigen::VectorXd> all) : of_each(std::move(all)), share(std::ssize(of_each)) {}
+  trajectory_scores(std::vector<Eigen::VectorXd> ours, const shard& whose)
+      : of_each(std::move(ours)), share(whose) {}
+
+  double blocks() const { return static_cast<double>(share.total()); }
+};
 
 /// The full Hessian (not Gauss-Newton's: residuals do not vanish at the minimum) by central differences of
 /// the exact gradient. Its relative error is about 1e-8: some hundred s^2 of the step, and eps/s of the
@@ -80,31 +92,32 @@ class curvature {
   ///   E L(theta) - L(theta*) = E (theta - theta*)^T H (theta - theta*)/2 = tr(H C)/2.
   /// C is that of standard_errors(), so that H C has one H^+ less: B/(B - 1) sum_b g_b^T H^+ g_b/2. Along a
   /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
-  double expected_excess(const std::vector<Eigen::VectorXd>& scores) const {
-    const auto blocks = static_cast<double>(scores.size());
-    if (scores.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-    return tree_sum(excesses(scores)) * (blocks / (blocks - 1.0));
+  double expected_excess(const trajectory_scores& scores) const {
+    const double blocks = scores.blocks();
+    if (blocks < 2.0) return std::numeric_limits<double>::quiet_NaN();
+    return scores.share.sum(excesses(scores)) * (blocks / (blocks - 1.0));
   }
 
   /// On how many blocks that, and with it the standard errors, rest: (sum_b e_b)^2/sum_b e_b^2, with
   /// e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of parameters.
-  double deciding_blocks(const std::vector<Eigen::VectorXd>& scores) const {
-    const auto all = excesses(scores);
-    const double sum = tree_sum(all);
-    double squares = 0.0;
-    for (const double e : all) squares += e * e;
-    return squares > 0.0 ? sum * sum / squares : static_cast<double>(scores.size());
+  double deciding_blocks(const trajectory_scores& scores) const {
+    auto terms = excesses(scores);
+    const double sum = scores.share.sum(terms);
+    for (double& e : terms) e *= e;
+    const double squares = scores.share.sum(terms);
+    return squares > 0.0 ? sum * sum / squares : scores.blocks();
   }
 
   /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:
   /// H^+ (sum_b g_b g_b^T) H^+ B/(B - 1), where g_b is what block b adds to the gradient, by its residuals
   /// and by its part in the weights. It holds for a misspecified model, as a learned map is one.
   /// NaN with a single block; infinite along flat directions.
-  Eigen::VectorXd standard_errors(const std::vector<Eigen::VectorXd>& scores) const {
-    const auto blocks = static_cast<double>(scores.size());
+  Eigen::VectorXd standard_errors(const trajectory_scores& scores) const {
+    const double blocks = scores.blocks();
     std::vector<Eigen::VectorXd> squares;
-    for (const auto& score : scores) squares.push_back(solve(score).cwiseAbs2());
-    Eigen::VectorXd result = (tree_sum(squares) * (blocks / (blocks - 1.0))).cwiseSqrt();
+    for (const auto& score : scores.of_each) squares.push_back(solve(score).cwiseAbs2());
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size_);
+    Eigen::VectorXd result = (scores.share.sum(squares, zero) * (blocks / (blocks - 1.0))).cwiseSqrt();
     if (blocks < 2.0) result.setConstant(std::numeric_limits<double>::quiet_NaN());
     for (const auto& flat : flat_directions()) {
       for (Eigen::Index i = 0; i < size_; ++i) {
@@ -115,9 +128,9 @@ class curvature {
   }
 
  private:
-  std::vector<double> excesses(const std::vector<Eigen::VectorXd>& scores) const {
+  std::vector<double> excesses(const trajectory_scores& scores) const {
     std::vector<double> result;
-    for (const auto& score : scores) result.push_back(0.5 * score.dot(solve(score)));
+    for (const auto& score : scores.of_each) result.push_back(0.5 * score.dot(solve(score)));
     return result;
   }
 

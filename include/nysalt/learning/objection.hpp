@@ -10,19 +10,20 @@
 #include <vector>
 
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt::detail {
 
 /// Standard error of sum_m (a_m - b_m) over independent trajectories m; 0 if there is but one.
-inline double noise_of_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto count = static_cast<double>(a.size());
-  if (a.size() < 2) return 0.0;
+inline double noise_of_difference(const std::vector<double>& a, const std::vector<double>& b,
+                                  const shard& share) {
+  const auto count = static_cast<double>(share.total());
+  if (share.total() < 2) return 0.0;
   std::vector<double> terms;
   for (std::size_t m = 0; m < a.size(); ++m) terms.push_back(a[m] - b[m]);
-  const double mean = tree_sum(terms) / count;
+  const double mean = share.sum(terms) / count;
   for (double& term : terms) term = (term - mean) * (term - mean);
-  return std::sqrt(tree_sum(terms) * count / (count - 1.0));
+  return std::sqrt(share.sum(terms) * count / (count - 1.0));
 }
 
 /// Why a fit should not be used; empty if it may be. Settled: it converged, or is held by the guard.

@@ -12,7 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/require_valid.hpp"
+#include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/squares.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/losses/after_steps.hpp"
@@ -37,15 +40,18 @@ struct fit_options {
   int threads = 1;  // changes no bit of what is learned
 };
 
-/// What learn() makes of system and data, and solve() of this. Refers to the system.
+/// What learn() makes of system and data, and solve() of this. Refers to the system. Where ranks share the
+/// data each has its own part, and the functions are collective: all ranks search together, and find the
+/// same.
 struct learning_problem {
   run_time_family family;
   fit_options options;
   double step;
   objective loss;                              // of the data; not there if a covariance is
   std::optional<stationary_covariance> law{};  // the loss without data
-  std::function<std::vector<Eigen::VectorXd>(const Eigen::VectorXd&)> scores;  // by trajectory
-  std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;  // by trajectory
+  std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
+  shard held_out;
+  std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;  // by trajectory of this rank
   std::function<double(const Eigen::VectorXd&)> one_step_loss;                 // on held-out data
   std::function<double(const Eigen::VectorXd&)> loss_at_end;                   // of held-out trajectories
   std::function<std::int64_t()> evaluations;                                   // so far
@@ -61,10 +67,12 @@ inline bool rotates(const run_time_word& word) { return has_rotation(word) || wo
 /// these are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger by some part
 /// counts less by that part. Without this the standard errors are two to three times too small.
 template <class Loss, int N>
-std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, bool of_energy,
-                                    const Eigen::VectorXd& theta) {
+trajectory_scores scores(const Loss& loss, const metric<N>& measure, bool of_energy,
+                         const Eigen::VectorXd& theta) {
   const auto by_trajectory = residual_gradients(loss, theta);
-  const Eigen::MatrixXd sum = tree_sum(by_trajectory);
+  const Eigen::MatrixXd zero =
+      Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
+  const Eigen::MatrixXd sum = loss.share().sum(by_trajectory, zero);
   std::vector<Eigen::VectorXd> result;
   for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
     result.push_back(Eigen::VectorXd::Zero(sum.rows()));
@@ -73,14 +81,21 @@ std::vector<Eigen::VectorXd> scores(const Loss& loss, const metric<N>& measure, 
       if (!of_energy) result[m] -= sum.col(k) * measure.weight_deviations()(k, static_cast<Eigen::Index>(m));
     }
   }
-  return result;
+  return {std::move(result), loss.share()};
 }
 
-/// Whether the first trajectory is the same. In a bath other noise makes another of the same start.
+/// Whether the first trajectory, which rank 0 has, is the same. In a bath other noise makes another of the
+/// same start.
 template <int N>
 bool begin_alike(const flow_map_data<N>& a, const flow_map_data<N>& b) {
-  const bool other_noise = a.noise_parts > 0 && a.noise_parts == b.noise_parts && a.noise[0] != b.noise[0];
-  return a.start[0].q == b.start[0].q && a.start[0].p == b.start[0].p && !other_noise;
+  const communicator& ranks = a.share().ranks();
+  bool result = false;
+  if (ranks.is_first()) {
+    const bool other_noise = a.noise_parts > 0 && a.noise_parts == b.noise_parts && a.noise[0] != b.noise[0];
+    result = a.start[0].q == b.start[0].q && a.start[0].p == b.start[0].p && !other_noise;
+  }
+  broadcast(ranks, result);
+  return result;
 }
 
 /// The root mean square error of the reference, where it was checked.
@@ -93,26 +108,19 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
     measure.residual(finish.q, finish.p, data.finish[pair], r.data());
     for (const double x : r) of_trajectory += x * x;
   }
-  return std::sqrt(tree_sum(squares) / static_cast<double>(data.finer.size()));
+  const auto checks = data.share().ranks().total(std::ssize(data.finer));
+  return std::sqrt(data.share().sum(squares) / static_cast<double>(checks));
 }
 
 /// The number of steps of the shortest trajectory.
 template <int N>
 int shortest_of(const flow_map_data<N>& data) {
-  std::size_t least = data.pairs();
+  std::size_t least = data.all_pairs();
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     least = std::min(least, data.first_of[m + 1] - data.first_of[m]);
   }
-  return static_cast<int>(std::max<std::size_t>(least, 1));
-}
-
-/// Some hundred states of the data, for what is asked along them.
-template <int N>
-std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data) {
-  constexpr std::size_t most = 128;
-  std::vector<phase_point<double, N>> result;
-  for (std::size_t n = 0; n < data.pairs(); n += data.pairs() / most + 1) result.push_back(data.start[n]);
-  return result;
+  const auto of_all = data.share().ranks().least(static_cast<std::int64_t>(least));
+  return static_cast<int>(std::max<std::int64_t>(of_all, 1));
 }
 
 }  // namespace detail
@@ -134,6 +142,7 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
   using loss_type = after_steps<S, R>;
   using metric_type = metric<S::dimension>;
   const bool has_data = options.loss.of != loss_choice::kind::covariance;
+  const communicator& ranks = data.share().ranks();
   const auto measure = std::make_shared<const metric_type>(system, data, options.coordinates);
   const auto loss_over = [&](const auto& pairs, const after_steps_options& how) {
     return std::make_shared<const loss_type>(family, system, pairs, *measure, how);
@@ -157,16 +166,17 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
           [loss, measure, of_energy = how.energy](const Eigen::VectorXd& theta) {
             return detail::scores(*loss, *measure, of_energy, theta);
           },
+      .held_out = held_out.share(),
       .held_out_losses = [held](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
       .one_step_loss = [one_step,
                         measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
       .loss_at_end = [at_end](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
       .evaluations =
-          [=, of_data = data.evaluations + held_out.evaluations] {
-            return of_data + loss->evaluations() + held->evaluations() + one_step->evaluations() +
-                   at_end->evaluations();
+          [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
+            return of_data + ranks.total(loss->evaluations() + held->evaluations() + one_step->evaluations() +
+                                         at_end->evaluations());
           },
-      .guard = stability_guard(system, detail::some_states(data), detail::rotates(family.letters)),
+      .guard = stability_guard(system, some_states(data, size(system)), detail::rotates(family.letters)),
       .facts = {}};
   if (!has_data) {
     if constexpr (HasBath<S> && HasModes<S>) {
@@ -193,10 +203,10 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
   facts.guard = problem.guard.description();
   facts.coordinates_used = measure->residuals();
   facts.dropped = measure->dropped();
-  facts.samples = data.pairs();
-  facts.trajectories = data.trajectories();
-  facts.held_out_samples = held_out.pairs();
-  facts.reference_checked = !data.finer.empty();
+  facts.samples = data.all_pairs();
+  facts.trajectories = static_cast<std::size_t>(data.share().total());
+  facts.held_out_samples = held_out.all_pairs();
+  facts.reference_checked = ranks.total(std::ssize(data.finer)) > 0;
   if (facts.reference_checked) facts.reference_error = detail::error_of_reference(data, *measure);
   facts.data_seconds = data.seconds + held_out.seconds;
   return problem;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
-#include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
@@ -38,6 +38,21 @@ inline std::vector<named_parameters> starts_of(const run_time_family& family, co
                       random_start(family, starts.front().theta, free, options.seed, number)});
   }
   return starts;
+}
+
+/// Ranks search each by itself with the same sums. They would not take the same steps if their processors'
+/// libraries differed in a bit.
+inline void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
+  if (ranks.is_alone()) return;
+  Eigen::VectorXd of_first = theta;
+  ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
+                  0);
+  together(ranks, [&] {
+    if (theta == of_first) return;
+    throw std::runtime_error(
+        fmt::format("learn: rank {} came to other parameters than rank 0: run all on processors of one kind",
+                    ranks.rank()));
+  });
 }
 
 inline void require_sound(const run_time_family& family, const fit_options& options) {
@@ -99,6 +114,7 @@ fit solve(const learning_problem& problem) {
     task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
   }
   const search_result found = search(task, starts);
+  detail::require_same(problem.held_out.ranks(), found.best.theta);
   const candidate& best = found.best;
   const Eigen::VectorXd& theta = best.theta;
 
@@ -106,9 +122,9 @@ fit solve(const learning_problem& problem) {
   const auto at_start = problem.held_out_losses(starts.front().theta);
   const auto at_end = problem.held_out_losses(theta);
   summary.loss = best.loss;
-  summary.held_out_loss = tree_sum(at_end);
-  summary.held_out_start_loss = tree_sum(at_start);
-  summary.held_out_noise = detail::noise_of_difference(at_end, at_start);
+  summary.held_out_loss = problem.held_out.sum(at_end);
+  summary.held_out_start_loss = problem.held_out.sum(at_start);
+  summary.held_out_noise = detail::noise_of_difference(at_end, at_start, problem.held_out);
   summary.one_step_error = std::sqrt(problem.one_step_loss(theta));
   summary.trajectory_error = std::sqrt(problem.loss_at_end(theta));
   summary.starts_tried = found.tried;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/flow_map_data.hpp"
+#include "nysalt/learning/some_states.hpp"
 
 namespace nysalt {
 
@@ -23,8 +23,11 @@ void require_sound_force(const S& system, const flow_map_data<S::dimension>& dat
     std::vector<vector<double, S::dimension>> points;
     std::vector<vector<double, S::dimension>> momenta;
     constexpr std::size_t enough = 4;
-    for (std::size_t k = 0; k < std::min(enough, data.pairs()); ++k) {
-      const auto& state = data.start[data.pairs() * (2 * k + 1) / (2 * enough)];
+    std::vector<std::size_t> pairs;
+    for (std::size_t k = 0; k < std::min(enough, data.all_pairs()); ++k) {
+      pairs.push_back(data.all_pairs() * (2 * k + 1) / (2 * enough));
+    }
+    for (const auto& state : starts_of(data, size(system), pairs)) {
       points.push_back(state.q);
       momenta.push_back(state.p);
     }

@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
 
@@ -58,6 +58,10 @@ inline squares from_column(const Eigen::VectorXd& column, Eigen::Index parameter
   return result;
 }
 
+inline Eigen::VectorXd zero_column(Eigen::Index parameters) {
+  return Eigen::VectorXd::Zero(1 + parameters + parameters * (parameters + 1) / 2);
+}
+
 template <class Loss>
 std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
@@ -73,14 +77,12 @@ std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen
       }
     }
   };
-  const Eigen::Index p = loss.parameters();
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1 + p + p * (p + 1) / 2);
-  return loss.sums(theta, true, zero, of_stretch);
+  return loss.sums(theta, true, zero_column(loss.parameters()), of_stretch);
 }
 
 }  // namespace detail
 
-/// What each trajectory adds to the loss. Cost: one pass over the data.
+/// What each trajectory of this rank adds to the loss. Cost: one pass over the data.
 template <class Loss>
 std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
@@ -96,10 +98,11 @@ std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& t
 }
 template <class Loss>
 double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
-  return tree_sum(trajectory_losses(loss, theta));
+  return loss.share().sum(trajectory_losses(loss, theta));
 }
 
-/// What each trajectory adds to the gradient of the loss. Cost: a pass with derivatives, as for all below.
+/// What each trajectory of this rank adds to the gradient of the loss. Cost: a pass with derivatives, as for
+/// all below.
 template <class Loss>
 std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   std::vector<Eigen::VectorXd> result;
@@ -108,9 +111,12 @@ std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen:
   }
   return result;
 }
+/// Of all ranks. They pass on 1 + P + P (P + 1)/2 numbers for P parameters, however many the data.
 template <class Loss>
 squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
-  return detail::from_column(tree_sum(detail::squares_by_trajectory(loss, theta)), loss.parameters());
+  const auto by_trajectory = detail::squares_by_trajectory(loss, theta);
+  const auto sum = loss.share().sum(by_trajectory, detail::zero_column(loss.parameters()));
+  return detail::from_column(sum, loss.parameters());
 }
 /// Refers to the loss.
 template <class Loss>
@@ -118,7 +124,7 @@ objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };
 }
 
-/// What each trajectory adds to the gradient of the loss, by residual: a column each.
+/// What each trajectory of this rank adds to the gradient of the loss, by residual: a column each.
 template <class Loss>
 std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;

@@ -44,8 +44,8 @@ struct residuals_of_stretch {
 ///
 /// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// stretches; neither its lanes nor the threads change a bit of a sum.
-/// What a loss over data offers the learner: scalar, parameters(), trajectories(), residuals(), and
-/// sums(theta, with_slopes, zero, of_stretch).
+/// What a loss over data offers the learner: scalar, parameters(), trajectories(), share(), residuals(), and
+/// sums(theta, with_slopes, zero, of_stretch). Of trajectories that ranks share, each has its own.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
@@ -64,25 +64,29 @@ class after_steps {
         metric_(&measure),
         step_(data.step),
         options_(options),
+        share_(data.share()),
         starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
-    if (options.steps < 1 || starts_.pairs.empty()) {
+    const std::int64_t stretches = data.share().ranks().total(std::ssize(starts_.pairs));
+    if (options.steps < 1 || stretches == 0) {
       throw std::invalid_argument(
           fmt::format("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
                       "or fewer steps",
                       options.steps));
     }
-    share_ = 1.0 / static_cast<double>(starts_.pairs.size());
+    weight_ = 1.0 / static_cast<double>(stretches);
     parts_ = gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data));
     if (options.energy) energy_scale_ = scale_of_energy(data);
   }
 
   Eigen::Index parameters() const { return family_.parameters(); }
-  std::size_t trajectories() const { return starts_.first_of.size() - 1; }
+  std::size_t trajectories() const { return starts_.first_of.size() - 1; }  // of this rank
+  const shard& share() const { return share_; }
   /// Of each stretch.
   std::size_t residuals() const {
     return options_.energy ? 1 : static_cast<std::size_t>(metric_->residuals());
   }
-  /// Force evaluations of all passes so far, as `counted` counts them for one stretch after the other.
+  /// Force evaluations of all passes so far at this rank, as `counted` counts them for one stretch after the
+  /// other.
   std::int64_t evaluations() const { return evaluations_; }
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
@@ -119,7 +123,7 @@ class after_steps {
         of_stretch(r, terms);
         for (int k = 0; k < lanes_in<R> && stretch < part.end; ++k, ++stretch) {
           for (; stretch == starts_.first_of[trajectory + 1]; ++trajectory) {
-            result[trajectory] = sum * share_;
+            result[trajectory] = sum * weight_;
             sum = zero;
           }
           for (Eigen::Index i = 0; i < sum.size(); ++i) {
@@ -127,7 +131,7 @@ class after_steps {
           }
         }
       }
-      result[trajectory] = sum * share_;
+      result[trajectory] = sum * weight_;
       const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
@@ -199,12 +203,14 @@ class after_steps {
   /// 1/the root mean square of K(p).
   double scale_of_energy(const flow_map_data<N>& data) const {
     if constexpr (HasEnergy<S, C> && HasEnergy<S>) {
-      std::vector<double> squares;
-      for (const auto& x : data.start) {
-        const double k = kinetic_energy<double>(*system_, x.p);
-        squares.push_back(k * k);
+      std::vector<double> squares(data.trajectories(), 0.0);
+      for (std::size_t m = 0; m < data.trajectories(); ++m) {
+        for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+          const double k = kinetic_energy<double>(*system_, data.start[n].p);
+          squares[m] += k * k;
+        }
       }
-      return 1.0 / std::sqrt(tree_sum(squares) / static_cast<double>(squares.size()));
+      return 1.0 / std::sqrt(data.share().sum(squares) / static_cast<double>(data.all_pairs()));
     } else {
       throw std::invalid_argument(fmt::format(
           "an energy loss needs the potential of {} as a template over any scalar", describe(*system_)));
@@ -232,9 +238,10 @@ class after_steps {
   const S* system_;
   const metric<N>* metric_;
   double step_;
-  double share_ = 1.0;
+  double weight_ = 1.0;  // of a stretch
   double energy_scale_ = 1.0;
   after_steps_options options_;
+  shard share_;
   stretch_starts starts_;
   std::vector<stretches_in_lanes<R, N>> parts_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;

@@ -105,7 +105,7 @@ class metric {
     Eigen::VectorXd increment = zero;
     std::vector<Eigen::VectorXd> squares(data.trajectories(), zero);  // a term a trajectory
     std::vector<Eigen::VectorXd> sizes(data.trajectories(), zero);
-    const auto total = static_cast<double>(data.pairs());
+    const auto total = static_cast<double>(data.all_pairs());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
         residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
@@ -114,8 +114,8 @@ class metric {
       }
       if (which == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
     }
-    const Eigen::VectorXd sigma = tree_sum(squares);
-    const Eigen::VectorXd magnitudes = tree_sum(sizes);
+    const Eigen::VectorXd sigma = data.share().sum(squares, zero);
+    const Eigen::VectorXd magnitudes = data.share().sum(sizes, zero);
     active_.clear();
     for (Eigen::Index row = 0; row < 2 * size_; ++row) {
       if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
