@@ -286,7 +286,8 @@ class bundled_model final : public bundled_system {
                                    .seed = its.seed,
                                    .threads = its.threads,
                                    .first = plan.first,
-                                   .progress = progress};
+                                   .progress = progress,
+                                   .ranks = &world()};
     // Half a step on is where B(1/2) at the beginning of a word leads.
     const bool leaps = method.letters().letters().front() == kick::letter && method.coefficients()[0] == 0.5;
     const statistics_wanted wanted{.histogram = plan.bins,
@@ -357,7 +358,8 @@ class bundled_model final : public bundled_system {
             .trajectories = plan.count,
             .seed = plan.seed,
             .threads = plan.threads,
-            .progress = progress};
+            .progress = progress,
+            .ranks = &world()};
   }
 
   model_reference<Alone> reference() const { return {system_, facts_.frequency}; }

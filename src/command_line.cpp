@@ -8,6 +8,7 @@
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "number.hpp"
+#include "nysalt/together.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
 #include "refusal.hpp"
@@ -367,7 +368,10 @@ int run_parsed(const CLI::App& command, typed& to) {
         "--spread", "--start", "--friction", "--sigma", "--temperature", "--step"}) {
     if (given(command, option)) to.stability.system = to.stability_system;
   }
-  return stability(to.stability, to.common);
+  int code = done;
+  on_first(world(), [&] { code = stability(to.stability, to.common); });
+  broadcast(world(), code);
+  return code;
 }
 
 /// As a shell would take it again.

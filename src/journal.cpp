@@ -9,7 +9,9 @@
 #include <iterator>
 #include <string_view>
 
+#include "nysalt/together.hpp"
 #include "refusal.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -24,6 +26,26 @@ std::string line_of(const json& its) {
 }  // namespace
 
 journal::journal(const std::filesystem::path& file, const json& question, bool resume) : path_(file) {
+  std::string text;
+  on_first(world(), [&] { text = open_file(); });
+  broadcast(world(), text);
+  const std::string head = line_of({{"format", format}, {"question", question}});
+  const std::size_t whole = read(text, question, head);
+  if (!resume && !found_.empty()) {
+    refuse("{} holds {} finished parts of a run that was stopped: --resume goes on, or remove the file",
+           path_.string(), found_.size());
+  }
+  on_first(world(), [&] {
+    if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
+      refuse("cannot write {}", path_.string());
+    }
+    std::fseek(file_.get(), 0, SEEK_END);
+    if (whole == 0) write(head);
+  });
+}
+
+/// What is in it.
+std::string journal::open_file() {
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
     refuse("cannot write {}: it is no ordinary file; name another --output", path_.string());
@@ -35,15 +57,8 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", path_.string());
   }
-  const std::string head = line_of({{"format", format}, {"question", question}});
-  const std::size_t whole = read(question, head);
-  if (!resume && !found_.empty()) {
-    refuse("{} holds {} finished parts of a run that was stopped: --resume goes on, or remove the file",
-           path_.string(), found_.size());
-  }
-  if (ftruncate(descriptor, static_cast<off_t>(whole)) != 0) refuse("cannot write {}", path_.string());
-  std::fseek(file_.get(), 0, SEEK_END);
-  if (whole == 0) write(head);
+  std::ifstream input(path_, std::ios::binary);
+  return {std::istreambuf_iterator<char>(input), {}};
 }
 
 namespace {
@@ -66,9 +81,7 @@ void require_same(const json& its, const json& question, const std::filesystem::
 }  // namespace
 
 /// The length of its whole lines.
-std::size_t journal::read(const json& question, const std::string& head) {
-  std::ifstream input(path_, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(input), {}};
+std::size_t journal::read(const std::string& text, const json& question, const std::string& head) {
   std::size_t at = 0;
   for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
     const json line = json::parse(std::string_view(text).substr(at, end - at), nullptr, false);
@@ -90,8 +103,8 @@ std::size_t journal::read(const json& question, const std::string& head) {
 }
 
 void journal::keep(const std::string& part, const json& result) {
-  if (!file_) return;
-  write(line_of({{"part", part}, {"result", result}}));
+  if (path_.empty()) return;
+  on_first(world(), [&] { write(line_of({{"part", part}, {"result", result}})); });
   has_written_ = true;
 }
 

@@ -13,7 +13,9 @@
 namespace nysalt::program {
 
 /// A file of one line a finished part, each written as soon as it is there. Numbers in it come back to the
-/// bit. A last line that was cut off does not count. Without a file nothing is kept.
+/// bit. A last line that was cut off does not count. Without a file nothing is kept. Rank 0 reads and writes
+/// the file, and all ranks know what is in it: they make one together, ask for the same parts, and fail
+/// alike.
 class journal {
  public:
   /// Nowhere.
@@ -36,7 +38,7 @@ class journal {
     keep(part, result);
     return result;
   }
-  /// Takes the file away: all is finished, and written elsewhere.
+  /// Takes the file away: all is finished, and written elsewhere. No other rank needs to call it.
   void remove();
 
  private:
@@ -44,7 +46,8 @@ class journal {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::size_t read(const json& question, const std::string& head);
+  std::string open_file();
+  std::size_t read(const std::string& text, const json& question, const std::string& head);
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
 

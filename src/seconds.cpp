@@ -5,12 +5,16 @@
 #include <cmath>
 
 #include "nysalt/analysis/timing.hpp"
+#include "nysalt/together.hpp"
+#include "world.hpp"
 
 namespace nysalt::program {
 
+namespace {
+
 /// In turns, so that a machine that slows down slows all; each job is long enough for the clock.
-std::vector<timed_job> seconds_per_time(const bundled_system& system,
-                                        const std::vector<timed_method>& methods, double seconds) {
+std::vector<timed_job> measured(const bundled_system& system, const std::vector<timed_method>& methods,
+                                double seconds) {
   constexpr double job = 1e-3;
   constexpr std::int64_t most_trajectories = 64;
   std::vector<std::function<void()>> jobs;
@@ -38,6 +42,16 @@ std::vector<timed_job> seconds_per_time(const bundled_system& system,
     result[i].least /= simulated[i];
     result[i].median /= simulated[i];
   }
+  return result;
+}
+
+}  // namespace
+
+std::vector<timed_job> seconds_per_time(const bundled_system& system,
+                                        const std::vector<timed_method>& methods, double seconds) {
+  std::vector<timed_job> result;
+  on_first(world(), [&] { result = measured(system, methods, seconds); });
+  broadcast(world(), result);
   return result;
 }
 

@@ -16,7 +16,8 @@ struct timed_method {
 };
 
 /// Seconds for one unit of time of one trajectory of a large ensemble, of each method, on this thread; all
-/// take turns for some `seconds`, unless a single trajectory takes longer.
+/// take turns for some `seconds`, unless a single trajectory takes longer. Rank 0 measures, and the others
+/// wait without using the processor; all get the numbers.
 std::vector<timed_job> seconds_per_time(const bundled_system& system,
                                         const std::vector<timed_method>& methods, double seconds);
 

@@ -12,6 +12,7 @@
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "support/in_lanes.hpp"
+#include "support/ranks_as_threads.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;
@@ -33,10 +34,10 @@ struct seen {
 };
 
 template <class S>
-seen by(const S& system, int threads) {
+seen by(const S& system, int threads, const communicator& ranks = alone) {
   seen result;
   const ensemble_options options{
-      .trajectories = trajectories, .steps = steps, .every = every, .threads = threads};
+      .trajectories = trajectories, .steps = steps, .every = every, .threads = threads, .ranks = &ranks};
   const auto take = [&](std::int64_t m, std::int64_t n, double value) {
     auto& its = result.values[static_cast<std::size_t>(m)];
     if (n != every * std::ssize(its)) throw std::logic_error("out of the order of time");
@@ -55,24 +56,45 @@ const henon_heiles galaxy;
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
-  seen alone;
+  seen singly;
   const auto stepper = make_stepper(galaxy, verlet(), 0.1);
   int diverged = 0;
   for (std::int64_t m = 0; m < trajectories; ++m) {
     const auto look = [&](std::int64_t, double, const auto& x) {
-      alone.values[static_cast<std::size_t>(m)].push_back(x.q[0]);
+      singly.values[static_cast<std::size_t>(m)].push_back(x.q[0]);
     };
     const auto end = integrate(stepper, law(1, static_cast<std::uint64_t>(m)), steps, look, every);
-    alone.diverged_at.push_back(end.diverged_at);
+    singly.diverged_at.push_back(end.diverged_at);
     diverged += end.diverged_at ? 1 : 0;
   }
   BOOST_TEST(diverged > 0);
   BOOST_TEST(diverged < trajectories);
   for (const int threads : {1, 2, 3}) {
-    BOOST_TEST((by(galaxy, threads) == alone));
-    BOOST_TEST((by(in_lanes<henon_heiles, 1>(galaxy), threads) == alone));
-    BOOST_TEST((by(in_lanes<henon_heiles, 3>(galaxy), threads) == alone));
-    BOOST_TEST((by(in_lanes<henon_heiles, 8>(galaxy), threads) == alone));
+    BOOST_TEST((by(galaxy, threads) == singly));
+    BOOST_TEST((by(in_lanes<henon_heiles, 1>(galaxy), threads) == singly));
+    BOOST_TEST((by(in_lanes<henon_heiles, 3>(galaxy), threads) == singly));
+    BOOST_TEST((by(in_lanes<henon_heiles, 8>(galaxy), threads) == singly));
+  }
+}
+
+// There are three leaves: of five ranks two have nothing to follow.
+BOOST_AUTO_TEST_CASE(each_trajectory_is_followed_by_one_rank) {
+  const auto whole = by(galaxy, 1);
+  for (const int size : {2, 3, 5}) {
+    std::vector<seen> parts(static_cast<std::size_t>(size));
+    testing::run_ranks(size, [&](const communicator& ranks) {
+      parts[static_cast<std::size_t>(ranks.rank())] = by(galaxy, 1, ranks);
+    });
+    seen all;
+    for (const seen& part : parts) {
+      BOOST_TEST((part.diverged_at == whole.diverged_at));
+      for (std::size_t m = 0; m < all.values.size(); ++m) {
+        if (part.values[m].empty()) continue;
+        BOOST_TEST(all.values[m].empty());
+        all.values[m] = part.values[m];
+      }
+    }
+    BOOST_TEST((all.values == whole.values));
   }
 }
 

@@ -32,6 +32,9 @@ class communicator {
   virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const = 0;
   virtual std::int64_t least(std::int64_t value) const = 0;
   virtual std::int64_t total(std::int64_t value) const = 0;
+  /// All wait until all are there. The other calls may burn their processor while they wait, as what comes
+  /// soon is there sooner then; this one leaves it to those that work, and takes some milliseconds.
+  virtual void meet() const = 0;
 
   bool is_first() const { return rank() == 0; }
   bool is_alone() const { return size() == 1; }

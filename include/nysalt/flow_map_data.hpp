@@ -21,6 +21,7 @@
 #include "nysalt/energy_range.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/progress_of_share.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/together.hpp"
@@ -221,11 +222,8 @@ flow_map_data<S::dimension> make_some_pairs(const S& system, const E& ensemble, 
   const auto follow = [&](std::int64_t first, int n) {
     evaluations += follow_reference(system, ensemble, reference, options, first, n, data, energies);
   };
-  const auto tell = [&](std::int64_t done) {
-    options.progress(std::min(options.trajectories, done * all.ranks().size()));
-  };
   for_each_block(count, lanes_of<S>, options.threads, follow,
-                 options.progress ? std::function<void(std::int64_t)>(tell) : nullptr);
+                 progress_of_share(all.ranks(), count, options.trajectories, options.progress));
   evaluations += check_reference(system, reference, options, data);
   if constexpr (HasEnergy<S>) {
     data.energies.emplace();

@@ -13,10 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/communicators/alone.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/progress_of_share.hpp"
+#include "nysalt/shard.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt {
 
@@ -28,6 +32,7 @@ struct ensemble_options {
   int threads = 1;                                       // changes no bit
   std::int64_t first = 0;                                // number of the first trajectory
   std::function<void(std::int64_t done)> progress = {};  // after each block; never two calls at once
+  const communicator* ranks = &alone;                    // who share the trajectories; changes no bit
 };
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T
@@ -35,11 +40,11 @@ struct ensemble_options {
 /// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
 /// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken;
 /// it may be read, so reading must bear any state. Neither lanes nor threads change a bit; whoever sums over
-/// m then takes tree_sum.
+/// m then takes tree_sum. Of several ranks each follows, and takes of, those of its shard(trajectories).
 ///
-/// Returns where each trajectory diverged, if it did; divergence is looked for as in integrate(). Memory:
-/// none that grows with the steps. Throws std::invalid_argument if trajectories, steps, every or threads
-/// cannot be, or a start does not fit.
+/// Returns where each trajectory diverged, if it did, on all ranks; divergence is looked for as in
+/// integrate(). Memory: 16 bytes a trajectory, and none that grows with the steps. Throws
+/// std::invalid_argument if trajectories, steps, every or threads cannot be, or a start does not fit.
 template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class Take>
 std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepper, const E& ensemble,
                                                             const ensemble_options& options,
@@ -52,9 +57,12 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
         "integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
         options.trajectories, options.first, options.steps, options.every));
   }
+  const communicator& ranks = *options.ranks;
+  const shard own(options.trajectories, ranks);
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
   const auto follow = [&](std::int64_t block, int count) {
-    const std::int64_t first = options.first + block;
+    const std::int64_t place = own.first() + block;
+    const std::int64_t first = options.first + place;
     const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
     std::vector<T> numbers(width);
     std::vector<double> of_one(width);
@@ -69,9 +77,13 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
     hand_over(0, numbers, first_lanes<T>(count));
     lockstep<Stepper, T> all(stepper, start, count, first);
     all.go_on(options.steps, options.every, width, read, hand_over);
-    for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(block + k)] = all.diverged_at(k);
+    for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = all.diverged_at(k);
   };
-  for_each_block(options.trajectories, lanes_in<T>, options.threads, follow, options.progress);
+  together(ranks, [&] {
+    for_each_block(own.count(), lanes_in<T>, options.threads, follow,
+                   progress_of_share(ranks, own.count(), options.trajectories, options.progress));
+  });
+  own.gather(diverged_at);
   return diverged_at;
 }
 

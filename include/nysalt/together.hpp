@@ -63,10 +63,15 @@ void together(const communicator& ranks, const Work& work) {
   throw std::runtime_error(text);
 }
 
-/// The same of what rank 0 alone does, such as writing a file.
+/// The same of what rank 0 alone does, such as writing a file. Meanwhile the others leave it the processor.
 template <class Work>
 void on_first(const communicator& ranks, const Work& work) {
+  struct meeting {
+    const communicator& ranks;
+    ~meeting() { ranks.meet(); }  // whether or not the work succeeds
+  };
   together(ranks, [&] {
+    const meeting at_end{ranks};
     if (ranks.is_first()) work();
   });
 }

@@ -10,12 +10,15 @@
 #include "../output.hpp"
 #include "../ranking.hpp"
 #include "../refusal.hpp"
+#include "../world.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
 constexpr const char* journal_name = "journal.jsonl";
+constexpr int unfinished = -1;  // no exit code
 
 /// The report on the very question, if it is there.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
@@ -34,23 +37,33 @@ bool has_value(const json& report) {
   return std::ranges::any_of(rows, [](const json& its) { return !its.contains("reason"); });
 }
 
+/// Prints the report on the very question, if it is there: the exit code.
+int print_answer(const std::filesystem::path& folder, const comparison& all) {
+  if (std::filesystem::exists(folder / journal_name)) return unfinished;
+  const auto there = answer(folder, all.question());
+  if (!there) return unfinished;
+  print(all.common().json ? text_of(*there) : fmt::format("It is finished: {}\n", folder.string()));
+  return has_value(*there) ? done : no_result;
+}
+
 /// Where it cannot be, nothing stays but what was finished.
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
-  const auto made = make_folder(folder);
+  std::vector<std::filesystem::path> made;
+  on_first(world(), [&] { made = make_folder(folder); });
   journal kept(folder / journal_name, all.question(), resume);
   try {
     all.learn_and_measure(kept);
   } catch (const json::exception&) {
     refuse("{} is not whole, or was edited: remove it to begin anew", (folder / journal_name).string());
   } catch (...) {
-    if (kept.is_empty()) {
+    if (kept.is_empty()) {  // on rank 0 alone there is something to remove
       kept.remove();
       std::error_code ignored;
       for (auto its = made.rbegin(); its != made.rend(); ++its) std::filesystem::remove(*its, ignored);
     }
     throw;
   }
-  write_report(all, folder);
+  on_first(world(), [&] { write_report(all, folder); });
   if (kept.found() > 0) warn(fmt::format("{} finished parts were taken from the journal", kept.found()));
   kept.remove();
 }
@@ -65,13 +78,13 @@ int compare(const compare_command& command, const common_settings& common) {
     journal nowhere;
     all.learn_and_measure(nowhere);
   } else {
-    require_folder(folder);
-    if (command.resume && !std::filesystem::exists(folder / journal_name)) {
-      if (const auto there = answer(folder, all.question())) {
-        print(common.json ? text_of(*there) : fmt::format("It is finished: {}\n", command.output));
-        return has_value(*there) ? done : no_result;
-      }
-    }
+    int code = unfinished;
+    on_first(world(), [&] {
+      require_folder(folder);
+      if (command.resume) code = print_answer(folder, all);
+    });
+    broadcast(world(), code);
+    if (code != unfinished) return code;
     measure_in(folder, all, command.resume);
   }
   if (common.json) {

@@ -3,16 +3,18 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
+#include "../world.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt::program {
 
 int recommend(const recommend_command& command, const common_settings& common) {
   recommendation all(command, common);
-  if (!command.output.empty()) require_writable(command.output);
+  if (!command.output.empty()) on_first(world(), [&] { require_writable(command.output); });
   all.learn_and_rank();
   const auto scheme = all.scheme();
   const bool writes = scheme && !command.output.empty();
-  if (writes) write_result(command.output, *scheme, common);
+  if (writes) on_first(world(), [&] { write_result(command.output, *scheme, common); });
   if (common.json) {
     json result = all.document();
     result["output"] = writes ? json(command.output) : json(nullptr);

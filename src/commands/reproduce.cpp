@@ -10,6 +10,7 @@
 #include "../refusal.hpp"
 #include "../reproduction/parts.hpp"
 #include "../reproduction/report.hpp"
+#include "../world.hpp"
 
 namespace nysalt::program {
 
@@ -58,6 +59,7 @@ class timetable {
 }  // namespace
 
 int reproduce(const reproduce_command& command, const common_settings& common) {
+  if (!world().is_alone()) refuse("reproduce is the work of one process: start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) require_folder(command.output);
   progress shown;

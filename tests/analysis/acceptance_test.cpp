@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../support/in_lanes.hpp"
+#include "../support/ranks_as_threads.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
@@ -93,6 +94,25 @@ BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
   BOOST_TEST(acceptance(in_lanes<fpu_chain<3>, 1>(chain), bcss2(), law, options).of_each == in_lanes_of_it);
   options.seed = 2;
   BOOST_TEST(acceptance(chain, bcss2(), law, options).of_each != in_lanes_of_it);
+}
+
+// Of 37 trajectories there are three leaves, and of five ranks two have nothing to follow; some diverge.
+BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
+  trajectory_options options{.step = 0.05, .steps = 3, .trajectories = 37};
+  const auto expected = acceptance(chain, bcss2(), law, options);
+  for (const int size : {1, 2, 3, 5}) {
+    std::vector<acceptance_result> found(static_cast<std::size_t>(size));
+    testing::run_ranks(size, [&](const communicator& ranks) {
+      trajectory_options on_ranks = options;
+      on_ranks.ranks = &ranks;
+      found[static_cast<std::size_t>(ranks.rank())] = acceptance(chain, bcss2(), law, on_ranks);
+    });
+    for (const auto& its : found) {
+      BOOST_TEST(its.of_each == expected.of_each);
+      BOOST_TEST(its.probability.mean == expected.probability.mean);
+      BOOST_TEST(its.diverged_at.size() == expected.diverged_at.size());
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_diverged_is_rejected) {

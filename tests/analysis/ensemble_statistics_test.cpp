@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Statistics of ensembles: those of a law that is known, those that stored trajectories give, and the same
-// bits by any lanes and threads.
+// bits by any lanes, threads and ranks.
 #include "nysalt/analysis/ensemble_statistics.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -10,6 +10,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/in_lanes.hpp"
+#include "../support/ranks_as_threads.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -209,6 +210,31 @@ BOOST_AUTO_TEST_CASE(neither_lanes_nor_threads_change_a_bit) {
     }
     options.seed = 2;
     BOOST_TEST(!equal(galaxy::run(galaxy::system, options), expected));
+  }
+}
+
+// 37 trajectories are three shares, of which five ranks get none or one; 1100 are 35 groups.
+BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
+  for (const std::int64_t trajectories : {37, 1100}) {
+    ensemble_options options{.trajectories = trajectories, .steps = 40};
+    options.first = 5;
+    const auto expected = galaxy::run(galaxy::system, options);
+    BOOST_TEST(!expected.lost.empty());
+    for (const int size : {1, 2, 3, 5}) {
+      std::vector<gathered_statistics> found(static_cast<std::size_t>(size));
+      testing::run_ranks(size, [&](const communicator& ranks) {
+        ensemble_options on_ranks = options;
+        on_ranks.ranks = &ranks;
+        found[static_cast<std::size_t>(ranks.rank())] = galaxy::run(galaxy::system, on_ranks);
+      });
+      for (const auto& its : found) {
+        BOOST_TEST(equal(its, expected));
+        for (std::size_t g = 0; g < expected.histogram_of_groups.size(); ++g) {
+          BOOST_TEST(its.histogram_of_groups.at(g).counts() == expected.histogram_of_groups[g].counts(),
+                     boost::test_tools::per_element());
+        }
+      }
+    }
   }
 }
 

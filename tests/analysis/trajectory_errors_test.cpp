@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/in_lanes.hpp"
+#include "../support/ranks_as_threads.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
@@ -81,6 +82,22 @@ struct losing {
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const estimate& a, const estimate& b) {
   return same_bits(a.mean, b.mean) && same_bits(a.standard_error, b.standard_error);
+}
+bool same_bits(const trajectory_errors_result& a, const trajectory_errors_result& b) {
+  bool same = same_bits(a.reference_error.value(), b.reference_error.value()) &&
+              same_bits(a.null_model.value(), b.null_model.value()) &&
+              same_bits(a.predictable_until.value(), b.predictable_until.value());
+  const auto numbers = [](double x, double y) { return same_bits(x, y); };
+  const auto lost = [](const diverged_trajectory& x, const diverged_trajectory& y) {
+    return x.trajectory == y.trajectory && x.step == y.step;
+  };
+  for (std::size_t k = 0; k < a.methods.size(); ++k) {
+    const method_error& x = a.methods[k];
+    const method_error& y = b.methods[k];
+    same = same && same_bits(x.error, y.error) && std::ranges::equal(x.of_each, y.of_each, numbers) &&
+           std::ranges::equal(x.diverged_at, y.diverged_at, lost);
+  }
+  return same;
 }
 
 }  // namespace
@@ -180,6 +197,37 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
       BOOST_TEST(several.methods[0].diverged_at.size() == one.methods[0].diverged_at.size());
     }
     BOOST_TEST((one.methods[0].diverged > 0) == (step == .05));
+  }
+}
+
+// Some diverge; of four leaves five ranks have none or one.
+BOOST_AUTO_TEST_CASE(the_number_of_ranks_changes_no_bit) {
+  std::vector<std::int64_t> told;
+  const auto run = [&](const communicator& ranks, int threads, std::uint64_t seed) {
+    trajectory_options options{
+        .step = .05, .steps = 20, .trajectories = 50, .seed = seed, .threads = threads, .ranks = &ranks};
+    options.null_model = true;
+    options.perturbation = 1e-6;
+    options.progress = [&told, &ranks](std::int64_t done) {
+      if (!ranks.is_first()) throw std::logic_error("not the first rank told it");
+      told.push_back(done);
+    };
+    return trajectory_errors(chain, reference, law, std::array<verlet, 1>(), state_measure(chain), options);
+  };
+  const auto expected = run(alone, 1, 1);
+  BOOST_TEST(expected.methods[0].diverged > 0);
+  BOOST_TEST(!same_bits(run(alone, 1, 2), expected));
+  for (const int size : {1, 2, 3, 5}) {
+    for (const int threads : {1, 2}) {
+      told.clear();
+      std::vector<trajectory_errors_result> found(static_cast<std::size_t>(size));
+      testing::run_ranks(size, [&](const communicator& ranks) {
+        found[static_cast<std::size_t>(ranks.rank())] = run(ranks, threads, 1);
+      });
+      for (const auto& its : found) BOOST_TEST(same_bits(its, expected));
+      BOOST_REQUIRE(!told.empty());
+      BOOST_TEST(told.back() == 50);
+    }
   }
 }
 
@@ -344,6 +392,31 @@ BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_t
     BOOST_TEST(refuses<std::invalid_argument>(
         [&] { trajectory_errors(chain, reference, listed<6>(starts), verlet(), path, options); },
         {"start 20 ", "not finite"}));
+  }
+}
+
+// On the second rank of two and of three one is seen at once and one late, on the last one another.
+BOOST_AUTO_TEST_CASE(all_ranks_name_the_first_trajectory_in_trouble) {
+  std::vector<state> starts;
+  for (std::uint64_t m = 0; m < 60; ++m) starts.push_back(law(1, m));
+  for (const std::size_t m : {58U, 40U, 33U}) starts[m].q[0] = NAN;
+  const auto said = [&](const communicator& ranks) {
+    try {
+      trajectory_errors(chain, reference, listed<6>(starts), verlet(), path,
+                        {.step = .01, .steps = 5, .trajectories = 60, .ranks = &ranks});
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const std::string expected = said(alone);
+  BOOST_TEST_CONTEXT(expected) { BOOST_TEST(expected.find("start 33 ") != std::string::npos); }
+  for (const int size : {2, 3, 5}) {
+    std::vector<std::string> found(static_cast<std::size_t>(size));
+    testing::run_ranks(size, [&](const communicator& ranks) {
+      found[static_cast<std::size_t>(ranks.rank())] = said(ranks);
+    });
+    for (const auto& its : found) BOOST_TEST(its == expected);
   }
 }
 

@@ -116,7 +116,14 @@ require_match("${sentences}" "nysalt::learner brings [^ ]*;Ceres::ceres;[^ ]*glo
 # Components, with Ceres and without.
 set(no_ceres -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
 configure(link_interface -D COMPONENTS=learner)
-refuses("nysalt has no component 'lerner': the only one is learner" link_interface -D COMPONENTS=lerner)
+require_no_match("${sentences}" "nysalt::mpi")
+if(EXISTS ${FOLDER}/installed/include/nysalt/communicators/mpi.hpp)
+  configure(link_interface -D COMPONENTS=mpi)
+  require_match("${sentences}" "nysalt::mpi brings [^ ]*;MPI::MPI_CXX")
+  refuses("nysalt's component mpi needs an MPI 3.1" link_interface
+    -D COMPONENTS=mpi -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+endif()
+refuses("nysalt has no component 'lerner': there are learner and mpi" link_interface -D COMPONENTS=lerner)
 refuses("nysalt's component learner needs Ceres 2.1 (Debian: libceres-dev)" learn ${no_ceres})
 configure(integrate ${no_ceres})  # also shows that nothing is found only because Ceres looks for it too
 build_and_run(integrate)

@@ -9,15 +9,17 @@
 
 namespace nysalt::test {
 
-/// "mpirun -n RANKS $nysalt " for a line of shell(): whoever tests, on however few cores.
-inline std::string on_ranks(int ranks) {
+/// "mpirun -n RANKS " for a line of shell(): whoever tests, on however few cores.
+inline std::string mpirun(int ranks) {
   std::string line = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ";
   line += "OMPI_MCA_btl_vader_single_copy_mechanism=none ";
   line += "'" NYSALT_MPIEXEC "' --oversubscribe --bind-to none -n ";
-  line += std::to_string(ranks);
-  line += " \"$nysalt\" ";
+  line += std::to_string(ranks) + " ";
   return line;
 }
+
+/// "mpirun -n RANKS $nysalt "
+inline std::string on_ranks(int ranks) { return mpirun(ranks) + "\"$nysalt\" "; }
 
 /// `mpirun -n RANKS nysalt arguments` in the folder.
 inline finished run_on(int ranks, const scratch& folder, const std::string& arguments) {

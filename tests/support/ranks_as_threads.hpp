@@ -96,6 +96,8 @@ class thread_communicator final : public communicator {
     return sum;
   }
 
+  void meet() const override { total(0); }
+
   const traffic& seen() const { return seen_; }
 
  private:

@@ -15,6 +15,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
 
@@ -32,12 +33,12 @@ struct acceptance_result {
 ///
 /// with H at the two ends only. A trajectory that diverged is a rejected one. The rule keeps the law
 /// exp(-H/kT) if the map is reversible and keeps volume, so that only symmetric methods are taken; what the
-/// number tells of a sampler at work, it tells for starts of that law. Neither lanes nor threads change a
-/// bit.
+/// number tells of a sampler at work, it tells for starts of that law. Neither lanes, threads nor
+/// ranks change a bit, and all ranks get the result.
 ///
-/// Memory: 24 bytes a trajectory. Throws std::invalid_argument if the method is not symmetric, the system is
-/// in a bath that acts (H is not its own then), kT is not positive and finite, there is not one step or
-/// trajectory, or a start does not fit.
+/// Memory: 32 bytes a trajectory on each rank. Throws std::invalid_argument if the method is not symmetric,
+/// the system is in a bath that acts (H is not its own then), kT is not positive and finite, there is not one
+/// step or trajectory, or a start does not fit.
 template <SeparableSystem S, Method M, Ensemble<S> E>
   requires HasEnergy<S> acceptance_result acceptance(const S& system, const M& method, const E& ensemble,
                                                      const trajectory_options& options,
@@ -60,7 +61,7 @@ template <SeparableSystem S, Method M, Ensemble<S> E>
       throw std::invalid_argument(
           fmt::format("acceptance: kT must be positive and finite, got {}", temperature));
     }
-    require_room(options, 1, 1);
+    together(*options.ranks, [&] { require_room(options, 1, 1); });
     const auto stepper = make_stepper(system, method, options.step);
     std::vector<double> at_start(static_cast<std::size_t>(options.trajectories));
     std::vector<double> of_each(at_start.size(), 0.0);
@@ -81,8 +82,10 @@ template <SeparableSystem S, Method M, Ensemble<S> E>
                                      .every = options.steps,
                                      .seed = options.seed,
                                      .threads = options.threads,
-                                     .progress = options.progress};
+                                     .progress = options.progress,
+                                     .ranks = options.ranks};
     const auto diverged = integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take);
+    shard(options.trajectories, *options.ranks).gather(of_each);
 
     acceptance_result result{mean_and_error(of_each), of_each, {}};
     for (std::size_t m = 0; m < diverged.size(); ++m) {

@@ -14,6 +14,7 @@
 #include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/statistics_along.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/divergence.hpp"
 
 namespace nysalt {
@@ -43,13 +44,15 @@ inline std::int64_t trajectories_of_group(std::int64_t trajectories) {
 }
 
 /// Keeps the sums of each group of trajectories, and a few numbers of each trajectory. Threads may keep
-/// trajectories of different groups at a time; those of one group are kept in their order.
+/// trajectories of different groups at a time; those of one group are kept in their order. A rank keeps the
+/// trajectories first() .. first() + count() - 1: some of the shares of a thread, one after the other.
 class gathering {
  public:
-  /// Refers to what is wanted. `interval` is the time between samples.
+  /// Refers to what is wanted, and to the ranks. `interval` is the time between samples.
   gathering(const statistics_wanted& wanted, std::int64_t trajectories, std::int64_t samples, double interval,
-            double centre)
+            double centre, const communicator& ranks)
       : wanted_(&wanted),
+        ranks_(&ranks),
         samples_(samples),
         interval_(interval),
         centre_(centre),
@@ -63,6 +66,8 @@ class gathering {
 
   /// Of how many consecutive trajectories one thread takes care.
   int trajectories_of_thread() const { return static_cast<int>(std::max<std::int64_t>(group_size_, 16)); }
+  std::int64_t first() const { return first_of(ranks_->rank()); }
+  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
 
   /// Trajectory m, from 0 on, in lane k.
   template <class T>
@@ -80,7 +85,16 @@ class gathering {
     }
   }
 
-  /// When all are kept; `first` is the number of trajectory 0.
+  /// Each rank has kept its own, and all get all.
+  void gather() {
+    if (ranks_->is_alone()) return;
+    gather(lost_at_, 1);
+    gather(means_, 1);
+    if (wanted_->histogram) gather_histograms();
+    if (wanted_->lags) gather_covariances();
+  }
+
+  /// When all are kept and gathered; `first` is the number of trajectory 0.
   gathered_statistics result(std::int64_t first) {
     gathered_statistics all;
     all.samples = samples_;
@@ -102,6 +116,43 @@ class gathering {
   }
 
  private:
+  /// That of rank size() is the number of all.
+  std::int64_t first_of(int rank) const {
+    const std::int64_t all = std::ssize(lost_at_);
+    const std::int64_t shares = (all - 1) / trajectories_of_thread() + 1;
+    return std::min(all, first_of_part(shares, rank, ranks_->size()) * trajectories_of_thread());
+  }
+  /// Of lists that hold so many items for each trajectory, or for each group.
+  template <class Item>
+  void gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item = 1) const {
+    std::vector<std::size_t> first_bytes;
+    for (int r = 0; r <= ranks_->size(); ++r) {
+      const std::int64_t first = (first_of(r) + trajectories_of_item - 1) / trajectories_of_item;
+      first_bytes.push_back(static_cast<std::size_t>(first) * items * sizeof(Item));
+    }
+    ranks_->gather(std::as_writable_bytes(std::span(all)), first_bytes);
+  }
+  void gather_histograms() {
+    std::vector<std::int64_t> all;
+    for (const histogram& group : histograms_) {
+      all.insert(all.end(), group.counts().begin(), group.counts().end());
+    }
+    const std::size_t bins = histograms_.front().counts().size();
+    gather(all, bins, group_size_);
+    for (std::size_t g = 0; g < histograms_.size(); ++g) {
+      histograms_[g] = histogram(*wanted_->histogram, std::span(all).subspan(g * bins, bins));
+    }
+  }
+  void gather_covariances() {
+    std::vector<pair_sums> all;
+    for (const autocovariance_sums& group : covariances_) all.insert(all.end(), group.begin(), group.end());
+    const std::size_t lags = covariances_.front().size();
+    gather(all, lags, group_size_);
+    for (std::size_t g = 0; g < covariances_.size(); ++g) {
+      std::ranges::copy(std::span(all).subspan(g * lags, lags), covariances_[g].begin());
+    }
+  }
+
   estimate over_trajectories(double time_means::*mean) const {
     std::vector<double> of_each;
     for (std::size_t m = 0; m < means_.size(); ++m) {
@@ -119,6 +170,7 @@ class gathering {
   }
 
   const statistics_wanted* wanted_;
+  const communicator* ranks_;
   std::int64_t samples_;
   double interval_;
   double centre_;

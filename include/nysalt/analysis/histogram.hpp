@@ -46,6 +46,15 @@ class histogram {
     counts_.resize(static_cast<std::size_t>(bins.count) + 2);
   }
 
+  /// That of which counts() are known. Throws std::invalid_argument also if they are of other bins.
+  histogram(const equal_bins& bins, std::span<const std::int64_t> counts) : histogram(bins) {
+    if (counts.size() != counts_.size()) {
+      throw std::invalid_argument(fmt::format(
+          "histogram: {} counts are not those of {} bins, below and above", counts.size(), bins.count));
+    }
+    counts_.assign(counts.begin(), counts.end());
+  }
+
   /// Throws std::invalid_argument if x is NaN; infinities lie below and above.
   void add(double x) {
     if (std::isnan(x)) throw std::invalid_argument("histogram: NaN lies in no bin");

@@ -24,6 +24,9 @@
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/progress_of_share.hpp"
+#include "nysalt/shard.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt {
 
@@ -70,7 +73,7 @@ void require_comparable(const S& system, const R& reference, std::span<const M> 
 /// method beside it, as many trajectories at a time as there are lanes; all measures look at the same runs.
 /// In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
 /// reference's own error is taken on the first 16 trajectories. If no measure needs a reference, none runs
-/// but for its noise. Neither lanes nor threads change a bit, nor does a measure those of another.
+/// but for its noise. Neither lanes, threads nor ranks change a bit, nor does a measure those of another.
 ///
 /// For the measures that need a reference, if the options ask for it:
 ///   null_model         the error of what stays as it was at the start, over all trajectories;
@@ -80,8 +83,9 @@ void require_comparable(const S& system, const R& reference, std::span<const M> 
 ///                      root mean squares (by means for averaging::mean), and do so to the end; this is the
 ///                      median. Infinite if that does not come to pass, so a longer horizon can tell more.
 ///
-/// System, reference, ensemble and measures are used by several threads at once. Memory: 24 bytes for each
-/// measure, method and trajectory, and none that grows with the steps.
+/// System, reference, ensemble and measures are used by several threads at once. Ranks share the trajectories
+/// by whole leaves, and all get the results. Memory: 24 bytes for each measure, method and trajectory on each
+/// rank, and none that grows with the steps. Messages: once at the end, these bytes.
 /// Throws std::invalid_argument if there is not one measure, step or trajectory, they do not fit into memory,
 /// the perturbation is not positive, a start does not fit, or what method, reference and measure refuse;
 /// std::runtime_error if the reference is not finite. Of several trajectories in trouble it is the first that
@@ -96,19 +100,13 @@ std::vector<trajectory_errors_result> trajectory_errors(
   const std::size_t count = std::ranges::size(methods);
   const std::span<const M> all(std::ranges::data(methods), count);
   if (measures.empty()) throw std::invalid_argument("trajectory_errors: at least one measure is needed");
-  require_room(options, count, joined_measures(measures).width(), measures.size());
-  const int parts = parts_of_noise(system, all);
-  detail::require_comparable(system, reference, all, parts, options);
-
+  const communicator& ranks = *options.ranks;
+  const shard own(options.trajectories, ranks);
   const auto trajectories = static_cast<std::size_t>(options.trajectories);
   const std::size_t checks = std::min(trajectories, most_checks);
   const std::size_t perturbed = options.perturbation ? checks : 0;
-  const std::vector<std::vector<run_score>> no_runs(count, std::vector<run_score>(trajectories));
-  std::vector<detail::measured_trajectories> found(measures.size());
-  for (auto& its : found) {
-    its = {no_runs, std::vector<double>(checks), std::vector<double>(options.null_model ? trajectories : 0),
-           std::vector<double>(perturbed)};
-  }
+  std::vector<detail::measured_trajectories> found;
+  int parts = 0;
 
   const auto follow = [&](std::int64_t first, int n) {
     const auto start = sound_starts<T>(system, ensemble, options.seed, first, n);
@@ -134,7 +132,16 @@ std::vector<trajectory_errors_result> trajectory_errors(
       }
     }
   };
-  for_each_block(options.trajectories, lanes_of<S>, options.threads, follow, options.progress);
+  const auto follow_own = [&](std::int64_t block, int n) { follow(own.first() + block, n); };
+  together(ranks, [&] {
+    require_room(options, count, joined_measures(measures).width(), measures.size());
+    parts = parts_of_noise(system, all);
+    detail::require_comparable(system, reference, all, parts, options);
+    found.assign(measures.size(), {count, trajectories, checks, options.null_model, perturbed});
+    for_each_block(own.count(), lanes_of<S>, options.threads, follow_own,
+                   progress_of_share(ranks, own.count(), options.trajectories, options.progress));
+  });
+  for (auto& its : found) its.gather(own);
 
   std::vector<trajectory_errors_result> results;
   for (std::size_t i = 0; i < measures.size(); ++i) {

@@ -2,11 +2,13 @@
 // What methods, and their reference, come to along many trajectories by one measure.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "nysalt/analysis/method_error.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
 
@@ -22,6 +24,22 @@ namespace detail {
 
 /// What is left of all trajectories by one measure.
 struct measured_trajectories {
+  /// Nothing yet.
+  measured_trajectories(std::size_t methods, std::size_t trajectories, std::size_t checked, bool null,
+                        std::size_t perturbed)
+      : runs(methods, std::vector<run_score>(trajectories)),
+        checks(checked),
+        null_model(null ? trajectories : 0),
+        predictable_until(perturbed) {}
+
+  /// Each rank has filled in its own, and all get all. The few that checks are of are in the first leaf.
+  void gather(const shard& its) {
+    for (auto& of_method : runs) its.gather(of_method);
+    if (!null_model.empty()) its.gather(null_model);
+    broadcast(its.ranks(), checks);
+    broadcast(its.ranks(), predictable_until);
+  }
+
   std::vector<std::vector<run_score>> runs;  // of each method
   std::vector<double> checks;                // of the reference against its finer self
   std::vector<double> null_model;

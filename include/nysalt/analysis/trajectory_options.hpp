@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nysalt/communicators/alone.hpp"
 #include "nysalt/divergence.hpp"
 #include "nysalt/lanes.hpp"
 
@@ -24,11 +25,12 @@ struct trajectory_options {
   std::function<void(std::int64_t done)> progress = {};  // after some trajectories; never two calls at once
   bool null_model = false;                               // what is left out costs nothing, as the next
   std::optional<double> perturbation = {};  // relative, of starts: how long are trajectories predictable?
+  const communicator* ranks = &alone;       // who share the trajectories; changes no bit
 };
 
 /// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure
 /// and trajectory, and a stretch of samples of `width` numbers (of all measures) for each method and thread,
-/// fit into memory.
+/// fit into the memory of a rank: the scores of all trajectories come to each of them.
 inline void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
                          std::size_t measures = 1) {
   if (options.steps < 1 || options.trajectories < 1) {

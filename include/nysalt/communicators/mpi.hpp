@@ -5,10 +5,12 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "nysalt/communicator.hpp"
@@ -64,6 +66,17 @@ class mpi_communicator final : public communicator {
 
   std::int64_t least(std::int64_t value) const override { return reduced(value, MPI_MIN); }
   std::int64_t total(std::int64_t value) const override { return reduced(value, MPI_SUM); }
+
+  void meet() const override {
+    MPI_Request others;
+    MPI_Ibarrier(ranks_, &others);
+    int all_there = 0;
+    MPI_Test(&others, &all_there, MPI_STATUS_IGNORE);
+    while (all_there == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      MPI_Test(&others, &all_there, MPI_STATUS_IGNORE);
+    }
+  }
 
  private:
   static constexpr std::size_t longest = std::size_t{1} << 30U;  // bytes: MPI counts in int

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// One rank's progress, told as that of all.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "nysalt/communicator.hpp"
+
+namespace nysalt {
+
+/// What to tell of the progress with `count` trajectories, those of this rank, so that `progress` hears of
+/// all `total`. Shares are equal but for a little: rank 0 tells of its own as if it were the whole, and the
+/// others are silent.
+inline std::function<void(std::int64_t)> progress_of_share(
+    const communicator& ranks, std::int64_t count, std::int64_t total,
+    const std::function<void(std::int64_t)>& progress) {
+  if (!progress || ranks.is_alone()) return progress;
+  if (!ranks.is_first()) return {};
+  return [progress, count, total](std::int64_t done) {
+    const double share = static_cast<double>(done) / static_cast<double>(count);
+    progress(static_cast<std::int64_t>(share * static_cast<double>(total)));
+  };
+}
+
+}  // namespace nysalt
