@@ -32,7 +32,7 @@
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
-#include "stretches.hpp"
+#include "run_in_waves.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -323,9 +323,9 @@ class bundled_model final : public bundled_system {
            const counter& progress) const override {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
     if (plan.trajectories.count < width / 4 || size(system_) > 20'000) {
-      run_over<double>(method, plan, take, progress);
+      run_in_waves<double>(system_, *starts_, method, plan, take, progress, world());
     } else {
-      run_over<T>(method, plan, take, progress);
+      run_in_waves<T>(system_, *starts_, method, plan, take, progress, world());
     }
   }
 
@@ -351,64 +351,6 @@ class bundled_model final : public bundled_system {
 
  private:
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
-
-  template <class P>
-  void run_over(const tabulated& method, const sampled_plan& plan,
-                const std::function<void(std::int64_t, const record&)>& take, const counter& progress) const {
-    using states = phase_point<P, S::dimension>;
-    std::vector<std::function<P(const states&)>> watched;
-    for (const auto& name : plan.observables) watched.push_back(observable<P>(system_, name));
-    const auto read = [&](const states& x, std::span<P> values) {
-      for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
-    };
-    const trajectories_plan& all = plan.trajectories;
-    const auto stepper = make_stepper(system_, method, all.step, counter_noise(all.seed));
-    const stretches its(all.steps, plan.stretch);
-    // In memory at a time: a million numbers, or a few blocks of long trajectories.
-    const std::int64_t numbers =
-        (its.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system_);
-    const std::int64_t at_a_time =
-        std::max<std::int64_t>(all.threads, 1'000'000 / numbers / lanes_in<P>) * lanes_in<P>;
-    standing at = plan.from;
-    while (at.first < all.count) {
-      const bool is_under_way = !at.wave.diverged_at.empty();
-      const std::int64_t count =
-          is_under_way ? std::ssize(at.wave.diverged_at) : std::min(at_a_time, all.count - at.first);
-      using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
-      auto runs = is_under_way ? wave(stepper, *starts_, all.seed, at.first, count, at.wave, all.threads)
-                               : wave(stepper, *starts_, all.seed, at.first, count, all.threads);
-      while (runs.step() < all.steps) {
-        std::vector<record> records(static_cast<std::size_t>(count));
-        const std::int64_t before = is_under_way || runs.step() > 0 ? runs.step() : -1;
-        for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
-        const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
-          auto& of_one = records[static_cast<std::size_t>(m - at.first)].values;
-          of_one.insert(of_one.end(), values.begin(), values.end());
-        };
-        const std::int64_t end = its.end_after(runs.step());
-        const auto share = [&](std::int64_t step) {
-          return static_cast<double>(step) / static_cast<double>(all.steps);
-        };
-        const auto tell = [&](std::int64_t done) {
-          if (!progress) return;
-          const double of_wave = static_cast<double>(count) * share(runs.step()) +
-                                 static_cast<double>(done) * share(end - runs.step());
-          const double of_all = static_cast<double>(at.first) + of_wave;
-          progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
-        };
-        runs.go_on(end, plan.every, watched.size(), read, keep, all.threads, tell);
-        for (std::size_t i = 0; i < records.size(); ++i) {
-          const std::int64_t m = at.first + static_cast<std::int64_t>(i);
-          const auto lost = runs.diverged_at(m);
-          if (lost && *lost > before) records[i].diverged_at = lost;
-          if (!records[i].values.empty() || records[i].diverged_at) take(m, records[i]);
-        }
-        if (end < all.steps && plan.reached) plan.reached({at.first, runs.save()});
-      }
-      at = {at.first + count, {}};
-      if (plan.reached) plan.reached(at);
-    }
-  }
 
   static trajectory_options options_of(const trajectories_plan& plan, const counter& progress = {}) {
     return {.step = plan.step,

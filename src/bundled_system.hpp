@@ -86,8 +86,9 @@ struct sampled_plan {
   std::vector<std::string> observables;
   std::int64_t every = 1;
   std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
+  // Of rank 0 alone:
   standing from = {};
-  std::function<void(const standing&)> reached = {};  // told after each stretch
+  std::function<void(const standing&)> reached = {};  // told after each stretch, if there are stretches
 };
 
 /// What is gathered along the trajectories of a plan, sampled every so many steps.
@@ -177,8 +178,8 @@ class bundled_system {
   virtual std::optional<double> fine_step_for_ranking(double step) const = 0;
   virtual std::string reference_of_statistics(double step, std::optional<double> fine_step) const = 0;
 
-  /// Hands records over, wave by wave of as many trajectories as fit into memory; in a wave stretch by
-  /// stretch, and in that in the order of the trajectories. Progress is told in thousandths.
+  /// Hands records over at rank 0, wave by wave of as many trajectories as fit into memory; in a wave stretch
+  /// by stretch, and in that in the order of the trajectories. Progress is told in thousandths. Collective.
   virtual void run(const tabulated& method, const sampled_plan& plan,
                    const std::function<void(std::int64_t, const record&)>& take,
                    const counter& progress) const = 0;

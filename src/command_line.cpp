@@ -186,7 +186,7 @@ void add_run(CLI::App& app, typed& to) {
   add_number(command, "--trajectories", to.run.trajectories, "how many");
   command.add_option("--observables", to.observables, "what to sample [that of the system]");
   add_number(command, "--sample-every", to.run.sample_every, "so many steps");
-  command.add_option("--output", to.run.output, "CSV file [standard output]");
+  command.add_option("--output", to.run.output, "file: CSV, or .h5, .npy [standard output]");
   command.add_flag("--plot", to.run.plot, "draw the first trajectory beside the output");
   command.add_option("--checkpoint", to.run.checkpoint, "file to go on from if the run is stopped");
   add_number(command, "--every", to.run.every, "so many steps a checkpoint is made");

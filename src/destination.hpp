@@ -2,63 +2,65 @@
 // Where the samples of a run go.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "array_layout.hpp"
 #include "bundled_system.hpp"
 #include "nysalt/report/atomic_file.hpp"
-#include "output.hpp"
 #include "restart.hpp"
+#include "sample_arrays.hpp"
 #include "samples.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
 
-/// Where the lines of a run go: into a file, into one that it can go on with if it is stopped, onto standard
-/// output; or nowhere, where there is a document.
+/// Where the records of a run go: into a file, into one that the run can go on with if it is stopped, onto
+/// standard output; or into the document, where there is one.
 class destination {
  public:
-  destination(const run_command& command, bool as_json, const json& question) : as_json_(as_json) {
-    if (!command.checkpoint.empty()) {
-      kept_.emplace(command.output, command.checkpoint, question, command.resume);
-    } else if (!command.output.empty()) {
-      file_.emplace(command.output);
-    }
-  }
+  /// Makes the file. `question` is all that decides its bytes, `about` what a file of arrays tells of it.
+  /// Throws refusal if it cannot be made, or gone on with.
+  destination(const run_command& command, std::int64_t steps, bool as_json, const json& question,
+              const json& about);
+  /// A file that did not take its name, and has no checkpoint, does not stay.
+  ~destination();
+  destination(const destination&) = delete;
+  destination& operator=(const destination&) = delete;
 
   bool is_finished() const { return kept_ && kept_->is_finished(); }
   bool was_changed() const { return kept_ && kept_->was_changed(); }
-  samples::sink lines() {
-    if (kept_) return [this](std::string_view text) { kept_->write(text); };
-    if (file_) return [this](std::string_view text) { file_->write(text); };
-    if (as_json_) return {};
-    return [](std::string_view text) { print(text); };
-  }
-  /// What of a plan is done, and how to be told of more.
-  void take_up(sampled_plan& plan, std::optional<std::int64_t> every) {
-    if (!kept_) return;
-    plan.stretch = every;
-    plan.from = kept_->from();
-    plan.reached = [this](const standing& at) { kept_->reached(at); };
-  }
-  void lose(const diverged_trajectory& one) { kept_ ? kept_->lose(one) : lost_.push_back(one); }
+  /// How far the run is.
+  standing from() const { return kept_ ? kept_->from() : standing(); }
+
+  /// Before the first record is taken.
+  void begin();
+  void take(std::int64_t trajectory, const record& its);
+  /// All before is taken: a checkpoint, if there are any.
+  void reached(const standing& at);
   const std::vector<diverged_trajectory>& lost() const { return kept_ ? kept_->lost() : lost_; }
 
-  /// All lines were written: the output takes its name.
-  void commit() {
-    if (kept_) kept_->commit();
-    if (file_) file_->commit();
-  }
+  /// All was taken: the output takes its name.
+  void commit();
   /// And what belongs to it is there too.
-  void finish() {
-    if (kept_) kept_->finish();
-  }
+  void finish();
+
+  /// Of what was written, of every so many samples.
+  first_trajectory read_first(std::int64_t every) const;
+  /// Adds to a document where the samples are, or themselves.
+  void describe(json& document) const;
 
  private:
-  bool as_json_;
+  std::string output_;
+  std::size_t columns_;
+  std::optional<array_layout> arrays_;
   std::optional<restart> kept_;
-  std::optional<atomic_file> file_;
+  std::optional<atomic_file> table_;     // without a checkpoint
+  std::optional<unfinished_file> part_;  // of arrays without a checkpoint, until it has its name
+  std::unique_ptr<sample_sink> sink_;    // none if the run is finished
+  samples* rows_ = nullptr;              // the same, if it is one of rows
   std::vector<diverged_trajectory> lost_;
 };
 

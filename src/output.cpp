@@ -35,25 +35,29 @@ namespace {
 std::filesystem::path manifest_of(std::filesystem::path file) { return file += ".manifest.json"; }
 }  // namespace
 
-void write_manifest(const std::filesystem::path& file, const common_settings& common) {
+json versions() {
   const auto eigen = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
   const auto boost =
       fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);
   const auto of_fmt =
       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
-  const json manifest{{"file", file.filename().string()},
-                      {"command", common.command},
-                      {"options", common.options},
-                      {"seed", common.seed},
-                      {"versions",
-                       {{"nysalt", version},
-                        {"Eigen", eigen},
-                        {"Boost", boost},
-                        {"Ceres", CERES_VERSION_STRING},
-                        {"fmt", of_fmt}}},
-                      {"compiler", compiler},
-                      {"flags", compiler_flags},
-                      {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+  return {{"nysalt", version},
+          {"Eigen", eigen},
+          {"Boost", boost},
+          {"Ceres", CERES_VERSION_STRING},
+          {"fmt", of_fmt}};
+}
+
+void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more) {
+  json manifest{{"file", file.filename().string()},
+                {"command", common.command},
+                {"options", common.options},
+                {"seed", common.seed},
+                {"versions", versions()},
+                {"compiler", compiler},
+                {"flags", compiler_flags},
+                {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+  if (!more.is_null()) manifest.update(more);
   write_file(manifest_of(file), text_of(manifest));
 }
 

@@ -16,8 +16,11 @@ namespace nysalt::program {
 /// Prints to standard output. Throws refusal if it cannot be written; a reader who went away is no error.
 void print(std::string_view text);
 
-/// FILE.manifest.json beside FILE: command, seed, versions, compiler, flags, time.
-void write_manifest(const std::filesystem::path& file, const common_settings& common);
+/// Of the program and the libraries in it, by name.
+json versions();
+
+/// FILE.manifest.json beside FILE: command, seed, versions, compiler, flags, time, and the members of `more`.
+void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more = {});
 
 /// A whole file and its manifest.
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common);

@@ -2,6 +2,7 @@
 #include "restart.hpp"
 
 #include <system_error>
+#include <utility>
 
 #include "by_trajectory.hpp"
 #include "refusal.hpp"
@@ -18,8 +19,8 @@ bool is_there(const std::filesystem::path& file) {
 }  // namespace
 
 restart::restart(const std::filesystem::path& output, const std::filesystem::path& checkpoint,
-                 const json& question, bool resume)
-    : output_(output), file_(checkpoint) {
+                 const json& question, bool resume, std::optional<array_layout> arrays)
+    : output_(output), file_(checkpoint), arrays_(std::move(arrays)) {
   if (resume) {
     take_up(question);
   } else {
@@ -42,7 +43,14 @@ void restart::begin() {
   }
   its_.output = output_.filename().string();
   part_.emplace(output_);
-  reached({});
+  try {
+    if (arrays_) arrays_->lay_out(*part_);
+    if (arrays_) its_.written = sum_in(part_->part()).value_or(file_sum());
+    reached({});
+  } catch (...) {
+    part_->remove();
+    throw;
+  }
   is_fresh_ = true;
 }
 
@@ -63,21 +71,33 @@ void restart::take_up(const json& question) {
     return;
   }
   const bool is_whole = its_.at.first == question.at("trajectories");
-  if (is_whole && its_.in_order && !is_there(part) && sum_of(output_) == its_.written) return;  // or there
-  part_.emplace(output_, its_.written);
+  if (is_whole && its_.in_order && !is_there(part) && sum_in(output_) == its_.written) return;  // or there
+  part_.emplace(go_on_with_part());
 }
 
-void restart::write(std::string_view text) { part_->write(text); }
+unfinished_file restart::go_on_with_part() const {
+  if (!arrays_) return {output_, its_.written};
+  auto part = unfinished_file::left_by_another(output_);
+  if (sum_in(part.part()) == its_.written) return part;
+  refuse(
+      "{} is not what the run to resume left there: it was edited or cut; remove the checkpoint to begin "
+      "anew",
+      part.part().string());
+}
+
+std::optional<file_sum> restart::sum_in(const std::filesystem::path& file) const {
+  return arrays_ ? arrays_->sum_of_head(file) : sum_of(file);
+}
 
 void restart::reached(const standing& at) {
   // Of one trajectory alone what is written is in order, wherever it is cut.
-  if (at.wave.diverged_at.size() > 1) its_.in_order = false;
+  if (at.wave.diverged_at.size() > 1 && !arrays_) its_.in_order = false;
   part_->put_on_disk();
   warn_of_version(its_, file_);  // only now: the run has taken what it was given
   its_.version.clear();
   its_.at = at;
   is_fresh_ = false;
-  its_.written = part_->written();
+  if (!arrays_) its_.written = part_->written();
   write_checkpoint(file_, its_);
 }
 
@@ -92,11 +112,11 @@ void restart::commit() {
 
 void restart::finish() {
   its_.finished = true;
-  its_.written = sum_of(output_).value_or(file_sum());
+  its_.written = sum_in(output_).value_or(file_sum());
   write_checkpoint(file_, its_);
   if (part_ && !its_.in_order) part_->remove();
 }
 
-bool restart::was_changed() const { return sum_of(output_) != its_.written; }
+bool restart::was_changed() const { return sum_in(output_) != its_.written; }
 
 }  // namespace nysalt::program

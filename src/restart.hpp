@@ -4,8 +4,8 @@
 
 #include <filesystem>
 #include <optional>
-#include <string_view>
 
+#include "array_layout.hpp"
 #include "checkpoint.hpp"
 #include "unfinished_file.hpp"
 
@@ -16,8 +16,10 @@ class restart {
   /// Begins the run of a question, or, if it is to resume, goes on where its checkpoint says. Throws refusal
   /// for a checkpoint that is none, not whole or of another run; to resume, if there is none or the output
   /// under way is not what it knows; to begin, if there is one of a run that was stopped.
+  /// The output is a table that grows, or, where `arrays` are given, one in which all has its place: then
+  /// what was written there after the checkpoint is written again, and only the rest must be as it was.
   restart(const std::filesystem::path& output, const std::filesystem::path& checkpoint, const json& question,
-          bool resume);
+          bool resume, std::optional<array_layout> arrays = {});
   /// Of a run that reached nothing, as it was refused after all, nothing stays.
   ~restart();
   restart(const restart&) = delete;
@@ -29,8 +31,9 @@ class restart {
   const standing& from() const { return its_.at; }
   const std::vector<diverged_trajectory>& lost() const { return its_.lost; }
 
-  /// More of the output.
-  void write(std::string_view text);
+  /// Whether there is an output under way: not if it has its name already.
+  bool is_under_way() const { return part_.has_value(); }
+  unfinished_file& part() { return *part_; }
   void lose(const diverged_trajectory& one) { its_.lost.push_back(one); }
   /// Makes a checkpoint of all that was written.
   void reached(const standing& at);
@@ -42,9 +45,13 @@ class restart {
  private:
   void begin();
   void take_up(const json& question);
+  unfinished_file go_on_with_part() const;
+  /// Of the output, be it under way or not.
+  std::optional<file_sum> sum_in(const std::filesystem::path& file) const;
 
   std::filesystem::path output_;
   std::filesystem::path file_;
+  std::optional<array_layout> arrays_;
   checkpoint its_;
   bool is_fresh_ = false;                // begun here, and nothing reached
   std::optional<unfinished_file> part_;  // none once the output has its name

@@ -8,13 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "bundled_system.hpp"
-#include "checkpoint.hpp"
 #include "json.hpp"
+#include "sample_sink.hpp"
 
 namespace nysalt::program {
 
-class samples {
+class samples final : public sample_sink {
  public:
   using sink = std::function<void(std::string_view)>;
 
@@ -22,8 +21,8 @@ class samples {
   samples(std::vector<std::string> observables, double step, std::int64_t every, sink lines);
 
   /// Writes the first line, with the names of the columns.
-  void begin();
-  void take(std::int64_t trajectory, const record& its);
+  void begin() override;
+  void take(std::int64_t trajectory, const record& its) override;
 
   json columns() const;
   const json& rows() const { return rows_; }
@@ -40,11 +39,6 @@ class samples {
   json rows_ = json::array();
 };
 
-/// The observables along trajectory 0, as they are drawn.
-struct first_trajectory {
-  std::vector<double> t;
-  std::vector<std::vector<double>> values;  // of each observable
-};
 /// From a table of samples, of every so many of its rows. Throws refusal if the table cannot be read.
 first_trajectory read_first_trajectory(const std::string& table, std::int64_t every, std::size_t observables);
 

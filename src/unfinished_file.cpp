@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -39,6 +40,13 @@ unfinished_file::unfinished_file(const std::filesystem::path& file) : path_(file
 unfinished_file::unfinished_file(const std::filesystem::path& file, const file_sum& beginning) : path_(file) {
   open(false);
   require_beginning(beginning);
+}
+
+unfinished_file unfinished_file::left_by_another(const std::filesystem::path& file) {
+  unfinished_file its;
+  its.path_ = file;
+  its.open(false);
+  return its;
 }
 
 void unfinished_file::open(bool anew) {
@@ -94,6 +102,16 @@ void unfinished_file::write(std::string_view text) {
   sum_.process_bytes(text.data(), text.size());
 }
 
+void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = pwrite(fileno(file_.get()), bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail();
+    at += static_cast<std::uint64_t>(done);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+}
+
 void unfinished_file::put_on_disk() {
   if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail();
 }
@@ -114,16 +132,23 @@ void unfinished_file::remove() {
 }
 
 void unfinished_file::fail() const {
-  refuse("cannot write {}: is the folder there, writable, and not full? With --resume the run goes on",
+  refuse("cannot write {}: is the folder there, writable, and not full? From a checkpoint --resume goes on",
          part_of(path_).string());
 }
 
-std::optional<file_sum> sum_of(const std::filesystem::path& file) {
+std::optional<file_sum> sum_of(const std::filesystem::path& file, const std::vector<byte_range>& left_out) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!opened) return std::nullopt;
   boost::crc_32_type its;
-  const std::uint64_t length = add(its, opened.get(), std::numeric_limits<std::uint64_t>::max());
-  return file_sum{length, its.checksum()};
+  std::uint64_t at = 0;
+  for (const auto& [first, end] : left_out) {
+    add(its, opened.get(), first - at);
+    if (fseeko(opened.get(), static_cast<off_t>(end), SEEK_SET) != 0) return std::nullopt;
+    at = end;
+  }
+  add(its, opened.get(), std::numeric_limits<std::uint64_t>::max());
+  if (fseeko(opened.get(), 0, SEEK_END) != 0) return std::nullopt;
+  return file_sum{static_cast<std::uint64_t>(ftello(opened.get())), its.checksum()};
 }
 
 }  // namespace nysalt::program

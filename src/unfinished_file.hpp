@@ -3,12 +3,15 @@
 #pragma once
 
 #include <boost/crc.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace nysalt::program {
 
@@ -18,8 +21,14 @@ struct file_sum {
   std::uint32_t crc = 0;
   bool operator==(const file_sum&) const = default;
 };
-/// Nothing if it cannot be read.
-std::optional<file_sum> sum_of(const std::filesystem::path& file);
+/// Bytes first .. end - 1.
+struct byte_range {
+  std::uint64_t first;
+  std::uint64_t end;
+};
+/// The CRC-32 leaves out some ranges, which do not overlap, in their order. Nothing if it cannot be read.
+std::optional<file_sum> sum_of(const std::filesystem::path& file,
+                               const std::vector<byte_range>& left_out = {});
 
 /// FILE.part, which becomes FILE when it is finished. One process alone can hold it.
 class unfinished_file {
@@ -32,9 +41,14 @@ class unfinished_file {
   /// Goes on after its beginning; what follows that is cut off. Throws refusal if it is not there, shorter,
   /// or begins otherwise, too.
   unfinished_file(const std::filesystem::path& file, const file_sum& beginning);
+  /// Goes on in the midst of it, whatever it is. Throws refusal if it is not there.
+  static unfinished_file left_by_another(const std::filesystem::path& file);
 
-  /// Throws refusal if it cannot be written.
+  std::filesystem::path part() const { return part_of(path_); }
+  /// At its end. Throws refusal if it cannot be written.
   void write(std::string_view text);
+  /// At a place of its own, where nothing was written to the end. Throws refusal if it cannot be written.
+  void put(std::uint64_t at, std::span<const std::byte> bytes);
   /// Puts on the disk what was written.
   void put_on_disk();
   file_sum written() const { return {length_, sum_.checksum()}; }
@@ -49,6 +63,7 @@ class unfinished_file {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  unfinished_file() = default;
   void open(bool anew);
   void require_its_own(int descriptor) const;
   void require_beginning(const file_sum& beginning);

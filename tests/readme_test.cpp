@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the README shows is what is compiled and run, and what it points at is there.
+// What the README and the docs show is what is compiled and run, and what it points at is there.
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
@@ -53,6 +53,14 @@ BOOST_AUTO_TEST_CASE(the_code_in_the_readme_is_that_of_the_example) {
   const auto shown = between(readme, "```cpp", "```");
   BOOST_TEST(shown.size() > 100);
   BOOST_TEST(shown == outdented(between(example, "// [readme]", "// [/readme]")));
+}
+
+BOOST_AUTO_TEST_CASE(the_python_in_the_docs_is_that_of_the_example) {
+  const auto page = contents(root / "docs" / "program.md");
+  const auto example = contents(root / "examples" / "read_run.py");
+  const auto shown = between(page, "```python", "```");
+  BOOST_TEST(shown.size() > 100);
+  BOOST_TEST(shown == between(example, "# [docs]", "# [/docs]"));
 }
 
 BOOST_AUTO_TEST_CASE(paths_in_the_readme_exist) {

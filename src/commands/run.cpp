@@ -13,11 +13,13 @@
 #include "../method_source.hpp"
 #include "../output.hpp"
 #include "../progress.hpp"
-#include "../samples.hpp"
+#include "../run_question.hpp"
 #include "../seeds.hpp"
 #include "../stability_margin.hpp"
 #include "../stretches.hpp"
+#include "../world.hpp"
 #include "nysalt/report/plot.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt::program {
 
@@ -39,10 +41,10 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
 /// 2000 points.
-void draw_run(const run_command& command, std::int64_t steps, const common_settings& common) {
+void draw_run(const run_command& command, const destination& output, std::int64_t steps,
+              const common_settings& common) {
   const std::size_t columns = command.observables.size();
-  const std::int64_t every = (steps / command.sample_every + 1) / 2000 + 1;
-  const auto its = read_first_trajectory(command.output, every, columns);
+  const auto its = output.read_first((steps / command.sample_every + 1) / 2000 + 1);
   const std::string y_label = columns == 1 ? command.observables.front() : "";
   panel only{fmt::format("{}, step {:g}", command.method, command.step), "t", y_label, false, {}};
   for (std::size_t k = 0; k < columns; ++k) {
@@ -53,21 +55,6 @@ void draw_run(const run_command& command, std::int64_t steps, const common_setti
     values.y = its.values[k];
   }
   write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
-}
-
-/// All that decides the bytes of the output, for a run that may be stopped and gone on with.
-json question_of(const run_command& command, const bundled_system& system, const tabulated& method,
-                 std::int64_t steps, const common_settings& common) {
-  return {{"system", system.parameters()},
-          {"starts", system.starts()},
-          {"letters", method.letters().letters()},
-          {"coefficients", method.coefficients()},
-          {"step", command.step},
-          {"steps", steps},
-          {"trajectories", command.trajectories},
-          {"observables", command.observables},
-          {"sample_every", command.sample_every},
-          {"seed", common.seed}};
 }
 
 /// Throws refusal for what cannot be of the files of a run, before any work.
@@ -99,7 +86,7 @@ void require_files(const run_command& command) {
   }
 }
 
-json document(const run_command& command, const bundled_system& system, const samples& taken,
+json document(const run_command& command, const bundled_system& system, const destination& output,
               const json& diverged) {
   json result{{"system", system.description()},
               {"method", command.method},
@@ -107,14 +94,20 @@ json document(const run_command& command, const bundled_system& system, const sa
               {"trajectories", command.trajectories},
               {"sample_every", command.sample_every},
               {"starts", system.starts()},
-              {"diverged", diverged},
-              {"columns", taken.columns()}};
-  if (command.output.empty()) {
-    result["rows"] = taken.rows();
-  } else {
-    result["output"] = command.output;
-  }
+              {"diverged", diverged}};
+  output.describe(result);
   return result;
+}
+
+/// A file of NumPy has no place for these; a table and HDF5 hold them themselves.
+json more_of_manifest(const run_command& command, std::int64_t steps, const json& diverged) {
+  if (std::filesystem::path(command.output).extension() != ".npy") return {};
+  return {{"axes", {"trajectory", "sample", "observable"}},
+          {"observables", command.observables},
+          {"step", command.step},
+          {"steps", steps},
+          {"sample_every", command.sample_every},
+          {"diverged", diverged}};
 }
 
 json with_times(std::vector<diverged_trajectory> lost, double step) {
@@ -158,6 +151,24 @@ void tell(const run_command& command, const json& result, bool was_finished) {
   }
 }
 
+/// The output and what belongs to it take their names.
+void put_in_place(const run_command& command, destination& output, std::int64_t steps,
+                  const common_settings& common) {
+  output.commit();
+  if (!command.output.empty()) {
+    const json diverged = with_times(output.lost(), command.step);
+    write_manifest(command.output, common, more_of_manifest(command, steps, diverged));
+  }
+  if (command.plot) draw_run(command, output, steps, common);
+  output.finish();
+}
+
+/// What rank 0 decides, all know.
+bool agreed(bool at_first) {
+  broadcast(world(), at_first);
+  return at_first;
+}
+
 }  // namespace
 
 int run(const run_command& asked, const common_settings& common) {
@@ -166,24 +177,27 @@ int run(const run_command& asked, const common_settings& common) {
   require_at_least_one("--trajectories", command.trajectories);
   require_at_least_one("--sample-every", command.sample_every);
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
-  require_files(command);
+  on_first(world(), [&] { require_files(command); });
   const auto system = make_system(command.system);
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
   std::vector<std::string> warnings;
-  const method_source source = find_method(command.method);
+  method_source source;
+  together(world(), [&] { source = find_method(command.method); });
   const tabulated method = coefficients_at(source, *system, command.step, common.force,
                                            placement_asked(command.placement), warnings);
 
   const auto began = std::chrono::steady_clock::now();
-  const json question = question_of(command, *system, method, steps, common);
   progress shown;
-  destination its(command, common.json, question);  // from now on the run can be gone on with
-  const bool was_finished = its.is_finished();
+  std::optional<destination> output;  // at rank 0
+  on_first(world(), [&] {             // from now on the run can be gone on with
+    output.emplace(command, steps, common.json, question_of(command, *system, method, steps, common.seed),
+                   about_run(command, *system, method, steps, common.seed));
+  });
+  const bool was_finished = agreed(output && output->is_finished());
   if (!was_finished || common.json) prepare_starts(*system, common, shown);
-  samples taken(command.observables, command.step, command.sample_every, its.lines());
   const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
                                common.threads};
   shown.clear();
@@ -197,38 +211,37 @@ int run(const run_command& asked, const common_settings& common) {
       warnings.push_back(*text);
       if (!common.json) warn(*text);
     }
-    sampled_plan sampled{plan, command.observables, command.sample_every};
-    its.take_up(sampled, command.every);
-    if (sampled.from.is_new()) taken.begin();
-    const auto take = [&](std::int64_t m, const record& one) {
-      taken.take(m, one);
-      if (one.diverged_at) its.lose({m, *one.diverged_at});
-    };
+    sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
+    on_first(world(), [&] {
+      output->begin();
+      sampled.from = output->from();
+      sampled.reached = [&](const standing& at) { output->reached(at); };
+    });
+    const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
     system->run(method, sampled, take, shown.counter(1000));
-    its.commit();
     shown.clear();
-    if (!command.output.empty()) write_manifest(command.output, common);
-    if (command.plot) draw_run(command, steps, common);
-    its.finish();
+    on_first(world(), [&] { put_in_place(command, *output, steps, common); });
   }
 
-  json result = document(command, *system, taken, with_times(its.lost(), command.step));
-  result["steps"] = steps;
-  result["seed"] = common.seed;
-  if (!was_finished || common.json) result["evaluations"] = system->count_evaluations(method, plan);
-  result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  result["warnings"] = warnings;
-  if (common.json) {
-    print(text_of(result));
-  } else {
-    tell(command, result, was_finished);
-  }
-  if (was_finished && its.was_changed()) {
-    warn(fmt::format("{} is not as the run left it: it was changed since", command.output));
-  }
-  if (was_finished) return done;
-  return std::ssize(its.lost()) == command.trajectories ? no_result : done;
+  on_first(world(), [&] {
+    json result = document(command, *system, *output, with_times(output->lost(), command.step));
+    result["steps"] = steps;
+    result["seed"] = common.seed;
+    if (!was_finished || common.json) result["evaluations"] = system->count_evaluations(method, plan);
+    result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    result["warnings"] = warnings;
+    if (common.json) {
+      print(text_of(result));
+    } else {
+      tell(command, result, was_finished);
+    }
+    if (was_finished && output->was_changed()) {
+      warn(fmt::format("{} is not as the run left it: it was changed since", command.output));
+    }
+  });
+  const bool all_diverged = agreed(output && std::ssize(output->lost()) == command.trajectories);
+  return all_diverged && !was_finished ? no_result : done;
 }
 
 }  // namespace nysalt::program

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/killed.hpp"
 #include "../support/program.hpp"
 #include "../support/without_times.hpp"
 
@@ -33,18 +34,6 @@ const std::string alone =
 std::string with_checkpoint(const std::string& line, const std::string& name, int every = 100) {
   return line + "--output " + name + ".csv --checkpoint " + name + ".checkpoint --every " +
          std::to_string(every) + " ";
-}
-
-/// Kills `line` without warning once its checkpoint tells of `step`, or of finished trajectories; whether it
-/// was still running then.
-bool killed_at(const scratch& folder, const std::string& line, const std::string& checkpoint, int step) {
-  const std::string reached = "\"$(head -n 1 " + checkpoint +
-                              R"x( 2>/dev/null | sed -n 's/.*"first":[0-9]*,"step":\([0-9]*\).*/\1/p')")x";
-  const auto done =
-      shell(folder, "\"$nysalt\" " + line + " >/dev/null 2>&1 & pid=$!\n" +
-                        "while kill -0 $pid 2>/dev/null; do n=" + reached + "; [ \"${n:-0}\" -ge " +
-                        std::to_string(step) + " ] && break; done\nkill -9 $pid");
-  return done.code == 0;
 }
 
 std::string whole(const scratch& folder, const std::string& line) {

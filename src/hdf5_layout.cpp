@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "hdf5_layout.hpp"
+
+#if defined NYSALT_HAS_HDF5
+#include <fmt/format.h>
+#include <hdf5.h>
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <utility>
+
+namespace nysalt::program {
+
+#if defined NYSALT_HAS_HDF5
+
+static_assert(std::endian::native == std::endian::little,
+              "the numbers are put there as this machine has them");
+
+namespace {
+
+/// What the library counts by a number, closed when it goes.
+class handle {
+ public:
+  handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5 failed");
+  }
+  handle(handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  handle& operator=(handle&&) = delete;
+  ~handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void require_done(herr_t result) {
+  if (result < 0) throw std::runtime_error("HDF5 failed");
+}
+
+handle properties(hid_t of_class) { return {H5Pcreate(of_class), H5Pclose}; }
+
+/// Of a file that this process may have locked itself; the version of the format is always the same.
+handle access() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
+  handle its = properties(H5P_FILE_ACCESS);
+  require_done(H5Pset_file_locking(its, false, true));
+  require_done(H5Pset_libver_bounds(its, H5F_LIBVER_V18, H5F_LIBVER_V18));
+  return its;
+}
+
+hid_t type_of(const hdf5_dataset& its) { return its.is_of_integers ? H5T_STD_I64LE : H5T_IEEE_F64LE; }
+
+void add_attribute(hid_t file, const std::string& name, hid_t type, hid_t space, const void* value) {
+  const handle its(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require_done(H5Awrite(its, type, value));
+}
+
+void add_text(hid_t file, const std::string& name, const std::string& text) {
+  const handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  require_done(H5Tset_size(type, H5T_VARIABLE));  // which Python reads as str
+  require_done(H5Tset_cset(type, H5T_CSET_UTF8));
+  const handle one(H5Screate(H5S_SCALAR), H5Sclose);
+  const char* begin = text.c_str();
+  add_attribute(file, name, type, one, static_cast<const void*>(&begin));
+}
+
+void add_attribute(hid_t file, const std::string& name, const json& value) {
+  const handle one(H5Screate(H5S_SCALAR), H5Sclose);
+  const auto is_number = [](const json& its) { return its.is_number(); };
+  if (value.is_number_integer()) {
+    const auto number = value.get<std::int64_t>();
+    add_attribute(file, name, H5T_STD_I64LE, one, &number);
+  } else if (value.is_number()) {
+    const auto number = value.get<double>();
+    add_attribute(file, name, H5T_IEEE_F64LE, one, &number);
+  } else if (value.is_array() && !value.empty() && std::ranges::all_of(value, is_number)) {
+    const auto numbers = value.get<std::vector<double>>();
+    const hsize_t count = numbers.size();
+    const handle all(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    add_attribute(file, name, H5T_IEEE_F64LE, all, numbers.data());
+  } else {
+    const bool is_text = value.is_string();
+    add_text(file, name,
+             is_text ? value.get<std::string>() : value.dump(-1, ' ', false, json::error_handler_t::replace));
+  }
+}
+
+void add_dataset(hid_t file, const hdf5_dataset& its) {
+  const std::vector<hsize_t> shape(its.shape.begin(), its.shape.end());
+  const handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+  // One piece: a trajectory is read at once, and one time of all for a page of the disk each; pieces that
+  // were good for both would need an index, which a killed run might leave behind in disorder.
+  const handle how = properties(H5P_DATASET_CREATE);
+  require_done(H5Pset_layout(how, H5D_CONTIGUOUS));
+  require_done(H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY));
+  require_done(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER));
+  require_done(H5Pset_obj_track_times(how, false));
+  const handle made(H5Dcreate2(file, its.name.c_str(), type_of(its), space, H5P_DEFAULT, how, H5P_DEFAULT),
+                    H5Dclose);
+}
+
+std::uint64_t place_of(hid_t file, const hdf5_dataset& its) {
+  const handle found(H5Dopen2(file, its.name.c_str(), H5P_DEFAULT), H5Dclose);
+  const handle type(H5Dget_type(found), H5Tclose);
+  const handle space(H5Dget_space(found), H5Sclose);
+  std::vector<hsize_t> shape(its.shape.size());
+  const bool is_it = H5Tequal(type, type_of(its)) > 0 &&
+                     H5Sget_simple_extent_ndims(space) == static_cast<int>(shape.size()) &&
+                     H5Sget_simple_extent_dims(space, shape.data(), nullptr) >= 0 &&
+                     std::ranges::equal(shape, its.shape);
+  const haddr_t place = H5Dget_offset(found);
+  if (!is_it || place == HADDR_UNDEF) throw std::runtime_error("another dataset");
+  return place;
+}
+
+}  // namespace
+
+bool has_hdf5() { return true; }
+
+std::string hdf5_version() { return fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE); }
+
+void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset>& datasets,
+               const json& attributes) {
+  const handle how = properties(H5P_FILE_CREATE);
+  require_done(H5Pset_obj_track_times(how, false));
+  const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, access()), H5Fclose);
+  for (const auto& [name, value] : attributes.items()) add_attribute(made, name, value);
+  for (const auto& one : datasets) add_dataset(made, one);
+  require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));  // to close it may fail unheard
+}
+
+std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
+                                          const std::vector<hdf5_dataset>& datasets) {
+  const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access()), H5Fclose);
+  std::vector<std::uint64_t> places;
+  for (const auto& one : datasets) places.push_back(place_of(opened, one));
+  return places;
+}
+
+#else
+
+bool has_hdf5() { return false; }
+std::string hdf5_version() { return ""; }
+void make_hdf5(const std::filesystem::path&, const std::vector<hdf5_dataset>&, const json&) {
+  throw std::logic_error("built without HDF5");
+}
+std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path&, const std::vector<hdf5_dataset>&) {
+  throw std::logic_error("built without HDF5");
+}
+
+#endif
+
+}  // namespace nysalt::program

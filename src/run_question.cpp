@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "run_question.hpp"
+
+#include "hdf5_layout.hpp"
+#include "output.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+json question_of(const run_command& command, const bundled_system& system, const tabulated& method,
+                 std::int64_t steps, std::uint64_t seed) {
+  return {{"system", system.parameters()},
+          {"starts", system.starts()},
+          {"letters", method.letters().letters()},
+          {"coefficients", method.coefficients()},
+          {"step", command.step},
+          {"steps", steps},
+          {"trajectories", command.trajectories},
+          {"observables", command.observables},
+          {"sample_every", command.sample_every},
+          {"seed", seed}};
+}
+
+json about_run(const run_command& command, const bundled_system& system, const tabulated& method,
+               std::int64_t steps, std::uint64_t seed) {
+  json its{{"format", "nysalt run"}, {"format_version", 1}};
+  json libraries = versions();
+  its["nysalt"] = libraries["nysalt"];
+  libraries.erase("nysalt");
+  libraries["HDF5"] = hdf5_version();
+  its["libraries"] = libraries;
+  its["description"] = system.description();
+  its["method"] = command.method;
+  its.update(question_of(command, system, method, steps, seed));
+  its["observables"] = listed(command.observables);
+  its["units"] =
+      "those of the system's Hamiltonian, in which nothing is scaled; t = step number * step; kinetic "
+      "temperatures are energies (kT)";
+  return its;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSL-1.0
+// Outputs of `run` as arrays: the numbers of the table to the bit, the same bytes however often it was
+// stopped, and what cannot be is refused.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../support/arrays.hpp"
+#include "../support/killed.hpp"
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+// Noise, and several blocks of lanes.
+std::string of_length(const std::string& horizon, int every = 70) {
+  return "run --system fpu --friction 0.01 --sigma 0.05 --method baoab --step 0.01 --trajectories 37 "
+         "--observables stiff_energy,q1,p6 --horizon " +
+         horizon + " --sample-every " + std::to_string(every) + " ";
+}
+const std::string in_bath = of_length("40");
+// Some of them diverge, at several steps.
+const std::string with_losses =
+    "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --horizon 6000 --trajectories 40 "
+    "--sample-every 7 --observables energy,q2 ";
+
+const std::vector<std::string> kinds {
+#if defined NYSALT_HAS_HDF5
+  ".h5",
+#endif
+      ".npy"
+};
+
+void done(const scratch& folder, const std::string& line) {
+  const auto its = run(folder, line);
+  BOOST_TEST_REQUIRE(its.code == 0, line << ": " << its.err);
+}
+
+/// The numbers of a table of samples where arrays have them, observable by observable; elsewhere NaN.
+std::vector<std::vector<double>> numbers_of(const std::filesystem::path& table, std::size_t trajectories,
+                                            std::size_t samples, int every) {
+  std::istringstream lines(contents(table));
+  std::string line;
+  std::getline(lines, line);
+  const auto columns = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',') - 2);
+  std::vector<std::vector<double>> all(columns, std::vector<double>(trajectories * samples, std::nan("")));
+  while (std::getline(lines, line)) {
+    char* rest = line.data();
+    const std::uint64_t m = std::strtoull(rest, &rest, 10);
+    const std::uint64_t i = std::strtoull(rest + 1, &rest, 10) / static_cast<std::uint64_t>(every);
+    std::strtod(rest + 1, &rest);
+    for (auto& its : all) its[m * samples + i] = std::strtod(rest + 1, &rest);
+  }
+  return all;
+}
+
+/// Of observable k, trajectory by trajectory.
+std::vector<double> values(const std::filesystem::path& file, std::size_t k, const std::string& name) {
+#if defined NYSALT_HAS_HDF5
+  if (file.string().find(".h5") != std::string::npos) return read_hdf5(file, name).numbers;
+#endif
+  const array all = read_npy(file);
+  std::vector<double> its;
+  for (std::size_t i = k; i < all.numbers.size(); i += all.shape[2]) its.push_back(all.numbers[i]);
+  return its;
+}
+
+bool are_equal(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+void refused(const scratch& folder, const std::string& line, const std::string& why) {
+  const auto before = folder.files();
+  const auto its = shell(folder, line);
+  BOOST_TEST(its.code == 2, line << " ended with " << its.code);
+  BOOST_TEST(its.err.find(why) != std::string::npos, line << " said " << its.err);
+  BOOST_TEST(std::count(its.err.begin(), its.err.end(), '\n') == 1, its.err);
+  BOOST_TEST((folder.files() == before), line << " left something");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(arrays_hold_the_numbers_of_the_table_to_the_bit) {
+  struct asked {
+    std::string line;
+    std::vector<std::string> names;
+    std::size_t trajectories;
+    std::size_t samples;
+    int every;
+  };
+  for (const auto& its : {asked{in_bath, {"stiff_energy", "q1", "p6"}, 37, 58, 70},
+                          asked{with_losses, {"energy", "q2"}, 40, 2858, 7}}) {
+    const scratch folder("arrays");
+    done(folder, its.line + "--output a.csv");
+    const auto expected = numbers_of(folder / "a.csv", its.trajectories, its.samples, its.every);
+    for (const auto& kind : kinds) {
+      done(folder, its.line + "--output a" + kind);
+      done(folder, its.line + "--seed 2 --output other" + kind);
+      BOOST_TEST(!std::filesystem::exists(folder / ("a" + kind + ".part")));
+      for (std::size_t k = 0; k < its.names.size(); ++k) {
+        const auto found = values(folder / ("a" + kind), k, its.names[k]);
+        BOOST_TEST(std::ranges::equal(found, expected[k], are_equal), its.line << kind << its.names[k]);
+        const auto other = values(folder / ("other" + kind), k, its.names[k]);
+        BOOST_TEST(!std::ranges::equal(other, expected[k], are_equal));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_manifest_says_what_numpys_file_has_no_place_for) {
+  const scratch folder("arrays_npy");
+  const auto told = run(folder, with_losses + "--output a.npy --json");
+  BOOST_TEST_REQUIRE(told.code == 0, told.err);
+  const auto document = json_of(told);
+  BOOST_TEST(document["output"] == "a.npy");
+  const array its = read_npy(folder / "a.npy");
+  BOOST_TEST(its.shape == (std::vector<std::uint64_t>{40, 2858, 2}), boost::test_tools::per_element());
+  const auto manifest = nlohmann::ordered_json::parse(contents(folder / "a.npy.manifest.json"));
+  BOOST_TEST(manifest["observables"] == (nlohmann::ordered_json{"energy", "q2"}));
+  BOOST_TEST(manifest["diverged"] == document["diverged"]);
+  BOOST_TEST(manifest["sample_every"] == 7);
+}
+
+#if defined NYSALT_HAS_HDF5
+BOOST_AUTO_TEST_CASE(a_file_of_hdf5_tells_what_it_is) {
+  const scratch folder("arrays_hdf5");
+  const auto told = run(folder, with_losses + "--output a.h5 --json");
+  BOOST_TEST_REQUIRE(told.code == 0, told.err);
+  const std::string file = folder / "a.h5";
+  const array step = read_hdf5(file, "step");
+  const array t = read_hdf5(file, "t");
+  BOOST_TEST_REQUIRE(step.numbers.size() == 2858U);
+  for (std::size_t i = 0; i < step.numbers.size(); ++i) {
+    if (step.numbers[i] != 7.0 * static_cast<double>(i)) BOOST_ERROR("step of sample " << i);
+    if (t.numbers[i] != step.numbers[i] * 0.3) BOOST_ERROR("t of sample " << i);
+  }
+  std::vector<double> lost(40, -1.0);
+  const auto document = json_of(told);
+  for (const auto& one : document["diverged"]) lost[one["trajectory"].get<std::size_t>()] = one["step"];
+  BOOST_TEST(std::ranges::count(lost, -1.0) < 38);  // else it would say little
+  BOOST_TEST(read_hdf5(file, "diverged_at").numbers == lost, boost::test_tools::per_element());
+  BOOST_TEST(text_in_hdf5(file, "format") == "nysalt run");
+  BOOST_TEST(text_in_hdf5(file, "method") == "verlet");
+  BOOST_TEST(text_in_hdf5(file, "observables") == "energy, q2");
+  BOOST_TEST(nlohmann::ordered_json::parse(text_in_hdf5(file, "system"))["spread"] == 2.5);
+  BOOST_TEST(numbers_in_hdf5(file, "step") == std::vector<double>{0.3}, boost::test_tools::per_element());
+  BOOST_TEST(numbers_in_hdf5(file, "seed") == std::vector<double>{1}, boost::test_tools::per_element());
+  const std::vector<double> verlet{0.5, 1.0, 0.5};
+  BOOST_TEST(numbers_in_hdf5(file, "coefficients") == verlet, boost::test_tools::per_element());
+}
+#else
+BOOST_AUTO_TEST_CASE(without_hdf5_such_a_file_is_refused) {
+  refused(scratch("arrays_without"), "\"$nysalt\" " + in_bath + "--output a.h5", "built without HDF5");
+}
+#endif
+
+BOOST_AUTO_TEST_CASE(killed_it_can_be_read_and_goes_on_to_the_same_bytes) {
+  const std::string longer = of_length("400");
+  for (const auto& kind : kinds) {
+    const scratch folder("arrays_killed");
+    done(folder, longer + "--threads 1 --output whole" + kind);
+    const std::string expected = contents(folder / ("whole" + kind));
+    const std::string part = folder / ("a" + kind + ".part");
+    const std::string command = longer + "--output a" + kind + " --checkpoint a.checkpoint --every ";
+    BOOST_TEST(killed_at(folder, command + "100", "a.checkpoint", 500));
+    const auto of_part = values(part, 1, "q1");
+    const auto of_whole = values(folder / ("whole" + kind), 1, "q1");
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < of_whole.size(); ++i) {
+      missing += std::isnan(of_part[i]) ? 1U : 0U;
+      if (!std::isnan(of_part[i]) && of_part[i] != of_whole[i]) BOOST_ERROR(i << " is another number");
+    }
+    BOOST_TEST(missing > 0U);
+    BOOST_TEST(missing < of_whole.size());
+    BOOST_TEST(killed_at(folder, command + "100 --resume --threads 1", "a.checkpoint", 1200));
+    done(folder, command + "5000 --resume");
+    BOOST_TEST((contents(folder / ("a" + kind)) == expected), kind);
+    BOOST_TEST(!std::filesystem::exists(part));
+    const auto again = run(folder, command + "5000 --resume");
+    BOOST_TEST(again.out.find("finished already") != std::string::npos, again.out << again.err);
+    BOOST_TEST(again.err == "");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_output_under_way_that_is_another_is_refused) {
+  const std::string longer = of_length("400");
+  for (const auto& kind : kinds) {
+    const scratch folder("arrays_edited");
+    const std::string command =
+        "\"$nysalt\" " + longer + "--output a" + kind + " --checkpoint a.checkpoint --every 100 ";
+    BOOST_TEST(killed_at(folder, command.substr(10), "a.checkpoint", 300));
+    const std::string part = folder / ("a" + kind + ".part");
+    const std::string sound = contents(part);
+    const auto try_out = [&](const std::string& text) {
+      std::ofstream(part, std::ios::binary) << text;
+      refused(folder, command + "--resume", "edited or cut");
+    };
+    try_out(sound.substr(0, sound.size() - 8));
+    std::string edited = sound;
+    edited[20] ^= 1;
+    try_out(edited);
+    try_out("");
+    std::ofstream(part, std::ios::binary) << sound;
+    refused(folder, "\"$nysalt\" " + longer + "--output a" + kind, "left by a run that was stopped");
+    std::filesystem::remove(part);
+    refused(folder, command + "--resume", "there is no a" + kind + ".part");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(its_picture_is_that_of_the_table) {
+  const scratch folder("arrays_plot");
+  done(folder, in_bath + "--plot --output a.csv");
+  const std::string data = contents(folder / "a.dat");
+  BOOST_TEST(data.size() > 1000U);
+  for (const auto& kind : kinds) {
+    done(folder, in_bath + "--plot --output b" + kind);
+    BOOST_TEST(contents(folder / "b.dat") == data);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
+  const std::string command = "\"$nysalt\" ";
+  for (const auto& kind : kinds) {
+    const scratch folder("arrays_refused");
+    refused(folder, command + in_bath + "--output none/a" + kind, "there is no folder none");
+    // A file may have so many blocks of 512 bytes, and the kernel says so rather than kill the process.
+    const std::string limited = "trap '' XFSZ; ulimit -f 100; ";
+    refused(folder, limited + command + in_bath + "--output a" + kind, "not full?");
+    refused(folder, limited + command + in_bath + "--checkpoint c --every 100 --output a" + kind,
+            "not full?");
+  }
+  const scratch folder("arrays_large");
+  refused(folder, command + of_length("1e5", 1) + "--output a.npy", "let --output end in .h5");
+#if defined NYSALT_HAS_HDF5
+  refused(folder, command + of_length("1e11", 1) + "--output a.h5 --checkpoint c --every 1000",
+          "its disk has");
+#endif
+}

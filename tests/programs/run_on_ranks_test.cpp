@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSL-1.0
+// `mpirun nysalt run`: the bytes of one process, on any number of ranks and threads; a rank that dies ends
+// the job, and another number of ranks goes on with it.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "../support/killed.hpp"
+#include "../support/mpirun.hpp"
+#include "../support/program.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+// Noise, several blocks of lanes, the last of them not full.
+std::string in_bath(const std::string& horizon) {
+  return "run --system fpu --friction 0.01 --sigma 0.05 --method baoab --step 0.01 --trajectories 77 "
+         "--observables stiff_energy,q1,p6 --sample-every 70 --horizon " +
+         horizon + " ";
+}
+// Some of them diverge, at several steps.
+const std::string with_losses =
+    "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --horizon 600 --trajectories 90 "
+    "--sample-every 7 ";
+
+struct shared {
+  int ranks;
+  int threads;
+};
+
+std::string on(const shared& by) { return on_ranks(by.ranks); }
+std::string threads(const shared& by) { return "--threads " + std::to_string(by.threads) + " "; }
+
+/// The same output, and the same document but for times and the name of that.
+void same_as_alone(const std::string& line, const std::string& kind, const std::vector<shared>& all) {
+  const scratch folder("ranks");
+  const auto alone = run(folder, line + "--threads 1 --json --output a" + kind);
+  BOOST_TEST_REQUIRE(alone.code == 0, alone.err);
+  const std::string expected = contents(folder / ("a" + kind));
+  for (const auto& by : all) {
+    std::filesystem::remove(folder / ("a" + kind));
+    const auto its = shell(folder, on(by) + line + threads(by) + "--json --output a" + kind);
+    BOOST_TEST_CONTEXT(line << kind << " on " << by.ranks << " ranks, " << by.threads << " threads") {
+      BOOST_TEST_REQUIRE(its.code == 0, its.err);
+      BOOST_TEST((contents(folder / ("a" + kind)) == expected));
+      BOOST_TEST(without_times(its.out) == without_times(alone.out));
+    }
+  }
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+void refused_once(const scratch& folder, const std::string& line, const std::string& why) {
+  const auto before = folder.files();
+  const auto its = shell(folder, line);
+  BOOST_TEST(its.code == 2, line << " ended with " << its.code);
+  BOOST_TEST(count(its.err, why) == 1U, line << " said " << its.err);
+  BOOST_TEST(count(its.err, "nysalt: ") == 1U, line << " said " << its.err);
+  BOOST_TEST((folder.files() == before), line << " left something");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(ranks_and_threads_change_no_byte) {
+  same_as_alone(in_bath("20"), ".csv", {{1, 2}, {2, 1}, {3, 2}});
+  same_as_alone(with_losses, ".csv", {{2, 2}, {3, 1}});
+  same_as_alone(with_losses, ".npy", {{2, 1}});
+#if defined NYSALT_HAS_HDF5
+  same_as_alone(in_bath("20"), ".h5", {{3, 1}});
+  same_as_alone(with_losses, ".h5", {{2, 2}});
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(ranks_without_a_trajectory_do_no_harm) {
+  const std::string two =
+      "run --system pendulum --method srkn6b --step 0.1 --horizon 400 --sample-every 10 --trajectories 2 ";
+  const scratch folder("ranks_idle");
+  const auto alone = run(folder, two);
+  const auto shared = run_on(3, folder, two);
+  BOOST_TEST(shared.code == 0, shared.err);
+  BOOST_TEST(alone.out.size() > 1000U);
+  BOOST_TEST((shared.out == alone.out));
+}
+
+BOOST_AUTO_TEST_CASE(a_rank_that_dies_ends_the_job_and_others_go_on_with_it) {
+  for (const std::string kind : {".csv", ".npy"}) {
+    const scratch folder("ranks_killed");
+    const std::string line = in_bath("400");
+    const auto whole = run(folder, line + "--output whole" + kind);
+    BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+    const std::string command =
+        line + "--output a" + kind + " --checkpoint a.checkpoint --threads 1 --every ";
+    // The last of the processes that mpirun started.
+    const std::string kill_one = "kill -9 $(pgrep -P $pid | tail -n 1) && ! wait $pid";
+    const auto killed = shell(folder, on_ranks(3) + command + "100 >/dev/null 2>&1 & pid=$!\n" +
+                                          wait_for("a.checkpoint", 500) + kill_one);
+    BOOST_TEST(killed.code == 0, killed.err);
+    BOOST_TEST(std::filesystem::exists(folder / ("a" + kind + ".part")));
+    const auto again = shell(folder, on_ranks(2) + command + "100 --resume >/dev/null 2>&1 & pid=$!\n" +
+                                         wait_for("a.checkpoint", 3000) + kill_one);
+    BOOST_TEST(again.code == 0, again.err);
+    const auto its = kind == ".csv" ? run(folder, command + "5000 --resume")
+                                    : run_on(2, folder, command + "5000 --resume");
+    BOOST_TEST_REQUIRE(its.code == 0, its.err);
+    BOOST_TEST((contents(folder / ("a" + kind)) == contents(folder / ("whole" + kind))));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_is_told_once_and_all_know_that_all_diverged) {
+  const scratch folder("ranks_refused");
+  refused_once(folder, on_ranks(3) + in_bath("20") + "--output none/a.csv", "there is no folder none");
+  refused_once(folder, on_ranks(3) + "run --method mine.json --step 0.1 --horizon 1 --output a.csv",
+               "mine.json");
+  // A file may have so many blocks of 512 bytes: found out in the midst.
+  refused_once(folder, "trap '' XFSZ; ulimit -f 100; " + on_ranks(2) + in_bath("40") + "--output a.csv",
+               "not full?");
+  const auto lost = run_on(2, folder,
+                           "run --system henon_heiles --spread 50 --method verlet --step 0.3 --horizon 600 "
+                           "--trajectories 40 --output a.csv");
+  BOOST_TEST(lost.code == 3, lost.err);
+}
