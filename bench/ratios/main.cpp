@@ -3,8 +3,8 @@
 // stdout, and ratios.json and the picture into the folder.
 #include <cstdio>
 #include <exception>
-#include <fstream>
 
+#include "../processor.hpp"
 #include "document.hpp"
 #include "heaviest_run.hpp"
 #include "picture.hpp"
@@ -13,14 +13,6 @@
 namespace {
 
 using namespace nysalt::bench;
-
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 nlohmann::ordered_json machine(const measurements& gnu, const measurements& clang) {
   nlohmann::ordered_json result{{"processor", processor()}, {"cores", gnu.context.value("num_cpus", 0)}};
