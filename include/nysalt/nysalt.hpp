@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// All of nysalt but the learner (which needs Ceres) and what needs Boost.Odeint.
+// All of nysalt but the learner (which needs Ceres), and what needs Boost.Odeint or MPI.
 #pragma once
 
 #include "nysalt/analysis/acceptance.hpp"
@@ -22,6 +22,7 @@
 #include "nysalt/analysis/total_variation.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
+#include "nysalt/communicators/alone.hpp"
 #include "nysalt/counted.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
@@ -76,6 +77,7 @@
 #include "nysalt/report/write_file.hpp"
 #include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/pack.hpp"
+#include "nysalt/shard.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"

@@ -50,8 +50,9 @@ class shard {
   const communicator& ranks() const { return *ranks_; }
 
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
-  /// large as each. The bits do not depend on the number of ranks. A rank sends two or three messages and
-  /// receives log2 of the number of ranks at most, and five more; each is as long as one term.
+  /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
+  /// receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one term, and
+  /// rank 0 tells all the result.
   template <class T>
   T sum(const std::vector<T>& terms, const T& zero) const {
     if (ranks_->is_alone()) return tree_sum(terms);
