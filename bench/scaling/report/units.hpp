@@ -28,6 +28,7 @@ inline std::string amount(double bytes) {
 }
 
 inline std::string with_error(const cost& its, double unit) {
+  if (its.value == 0.0) return "too small to tell";
   const double error = its.standard_error / unit;
   const auto digits = error >= 10.0 ? fmt::format("{:.0f}", error) : fmt::format("{:.2g}", error);
   return fmt::format("{:.4g} +- {}", its.value / unit, digits);
