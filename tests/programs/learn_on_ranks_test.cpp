@@ -13,7 +13,7 @@ using namespace nysalt::test;
 namespace {
 
 /// Data for twenty leaves and a bit, and what is told of them.
-const std::string common = " --fine-step 0.001 --horizon 0.3 --trajectories 330 --json ";
+const std::string common = " --fine-step 0.00025 --horizon 0.3 --trajectories 330 --json ";
 
 std::int64_t count(const std::string& text, const std::string& part) {
   std::int64_t found = 0;
