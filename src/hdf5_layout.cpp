@@ -44,9 +44,14 @@ void require_done(herr_t result) {
 
 handle properties(hid_t of_class) { return {H5Pcreate(of_class), H5Pclose}; }
 
+/// To be called first.
+void set_up_library() {
+  H5dont_atexit();                              // where the disk was full it would try again then, and crash
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
+}
+
 /// Of a file that this process may have locked itself; the version of the format is always the same.
 handle access() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
   handle its = properties(H5P_FILE_ACCESS);
   require_done(H5Pset_file_locking(its, false, true));
   require_done(H5Pset_libver_bounds(its, H5F_LIBVER_V18, H5F_LIBVER_V18));
@@ -126,6 +131,7 @@ std::string hdf5_version() { return fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VE
 
 void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset>& datasets,
                const json& attributes) {
+  set_up_library();
   const handle how = properties(H5P_FILE_CREATE);
   require_done(H5Pset_obj_track_times(how, false));
   const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, access()), H5Fclose);
@@ -136,6 +142,7 @@ void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset
 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
                                           const std::vector<hdf5_dataset>& datasets) {
+  set_up_library();
   const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access()), H5Fclose);
   std::vector<std::uint64_t> places;
   for (const auto& one : datasets) places.push_back(place_of(opened, one));

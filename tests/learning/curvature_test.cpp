@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(only_free_parameters_count) {
   BOOST_TEST(solved[1] == 1.0 / valley(1e-9)(1, 1), boost::test_tools::tolerance(1e-14));
   const curvature none(valley(1.0), {});
   BOOST_TEST(none.is_minimum());
-  BOOST_TEST(norm(none.standard_errors({3, Eigen::Vector2d::Ones()})) == 0.0);
+  BOOST_TEST(norm(none.standard_errors(std::vector<Eigen::VectorXd>(3, Eigen::Vector2d::Ones()))) == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(saddles_are_no_minima) {

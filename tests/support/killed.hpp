@@ -23,7 +23,7 @@ inline bool killed_at(const scratch& folder, const std::string& line, const std:
                       int step) {
   std::string lines = "\"$nysalt\" " + line + " >/dev/null 2>&1 & pid=$!\n";
   lines += wait_for(checkpoint, step);
-  return shell(folder, lines + "kill -9 $pid").code == 0;
+  return shell(folder, lines + "kill -9 $pid && ! wait $pid").code == 0;
 }
 
 }  // namespace nysalt::test
