@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -107,7 +108,11 @@ int joined_world::leave(int code) const { return code; }
 
 namespace {
 /// That this process may use.
-int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int cores() {
+  cpu_set_t its;
+  if (sched_getaffinity(0, sizeof its, &its) != 0) return 1;  // of more than 1024
+  return std::max(1, CPU_COUNT(&its));
+}
 bool is_bound() { return cores() < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)); }
 }  // namespace
 

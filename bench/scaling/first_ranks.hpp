@@ -5,11 +5,10 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <optional>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Learning over ranks: making the data, a pass over them, the whole; and what memory it takes.
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>

@@ -5,9 +5,7 @@
 //   nysalt_scaling memory TRAJECTORIES STEPS  of each rank, for the data to learn from
 #include <mpi.h>
 
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>

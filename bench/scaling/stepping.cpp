@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // An ensemble that ranks share: one number a trajectory, and its mean. Beside it a kernel that shares nothing
 // and never leaves the registers, which tells what the machine has to give.
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../peers/splitmix.hpp"

@@ -2,7 +2,6 @@
 // Jobs on a cluster, from what was fitted on one machine and what is assumed of the other.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 

@@ -2,8 +2,8 @@
 // Efficiency against ranks: as measured beside the model, and as the model goes on.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "jobs.hpp"
@@ -17,14 +17,13 @@ inline panel panel_of_efficiencies(const std::string& title) {
   result.title = title;
   result.x_label = "ranks";
   result.y_label = "efficiency";
-  result.log_log = true;
-  result.linear_y = true;
   result.y_range = "[0:1.1]";
   return result;
 }
 
 inline panel measured_panel(const measured& all, const fitted& model) {
   panel result = panel_of_efficiencies("Measured, and the model (dashed)");
+  result.points = true;
   for (const std::string what : {"BAOAB", "pass"}) {
     for (const std::string scaling : {"strong", "weak"}) {
       curve points{.label = fmt::format("{}, {}", what, scaling), .x = {1.0}, .y = {1.0}, .error = {0.0}};
@@ -49,6 +48,8 @@ inline panel measured_panel(const measured& all, const fitted& model) {
 
 inline panel foretold_panel(const foretold& on) {
   panel result = panel_of_efficiencies("Foretold, at fixed trajectories");
+  result.log_log = true;
+  result.linear_y = true;
   const auto add = [&](const std::string& label, const std::function<double(std::int64_t)>& seconds) {
     curve its{.label = label, .x = {}, .y = {}};
     for (std::int64_t ranks = 1; ranks <= 1'048'576; ranks *= 2) {

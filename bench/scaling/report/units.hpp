@@ -2,7 +2,6 @@
 // Numbers as a person reads them.
 #pragma once
 
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
