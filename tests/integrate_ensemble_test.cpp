@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_followed_by_one_rank) {
   const auto whole = by(galaxy, 1);
   for (const int size : {2, 3, 5}) {
     std::vector<seen> parts(static_cast<std::size_t>(size));
-    testing::run_ranks(size, [&](const communicator& ranks) {
+    run_ranks(size, [&](const communicator& ranks) {
       parts[static_cast<std::size_t>(ranks.rank())] = by(galaxy, 1, ranks);
     });
     seen all;

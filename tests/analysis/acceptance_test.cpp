@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
   const auto expected = acceptance(chain, bcss2(), law, options);
   for (const int size : {1, 2, 3, 5}) {
     std::vector<acceptance_result> found(static_cast<std::size_t>(size));
-    testing::run_ranks(size, [&](const communicator& ranks) {
+    run_ranks(size, [&](const communicator& ranks) {
       trajectory_options on_ranks = options;
       on_ranks.ranks = &ranks;
       found[static_cast<std::size_t>(ranks.rank())] = acceptance(chain, bcss2(), law, on_ranks);

@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
     BOOST_TEST(!expected.lost.empty());
     for (const int size : {1, 2, 3, 5}) {
       std::vector<gathered_statistics> found(static_cast<std::size_t>(size));
-      testing::run_ranks(size, [&](const communicator& ranks) {
+      run_ranks(size, [&](const communicator& ranks) {
         ensemble_options on_ranks = options;
         on_ranks.ranks = &ranks;
         found[static_cast<std::size_t>(ranks.rank())] = galaxy::run(galaxy::system, on_ranks);

@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_ranks_changes_no_bit) {
     for (const int threads : {1, 2}) {
       told.clear();
       std::vector<trajectory_errors_result> found(static_cast<std::size_t>(size));
-      testing::run_ranks(size, [&](const communicator& ranks) {
+      run_ranks(size, [&](const communicator& ranks) {
         found[static_cast<std::size_t>(ranks.rank())] = run(ranks, threads, 1);
       });
       for (const auto& its : found) BOOST_TEST(same_bits(its, expected));
@@ -413,7 +413,7 @@ BOOST_AUTO_TEST_CASE(all_ranks_name_the_first_trajectory_in_trouble) {
   BOOST_TEST_CONTEXT(expected) { BOOST_TEST(expected.find("start 33 ") != std::string::npos); }
   for (const int size : {2, 3, 5}) {
     std::vector<std::string> found(static_cast<std::size_t>(size));
-    testing::run_ranks(size, [&](const communicator& ranks) {
+    run_ranks(size, [&](const communicator& ranks) {
       found[static_cast<std::size_t>(ranks.rank())] = said(ranks);
     });
     for (const auto& its : found) BOOST_TEST(its == expected);

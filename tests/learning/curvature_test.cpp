@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(only_free_parameters_count) {
   BOOST_TEST(solved[1] == 1.0 / valley(1e-9)(1, 1), boost::test_tools::tolerance(1e-14));
   const curvature none(valley(1.0), {});
   BOOST_TEST(none.is_minimum());
-  BOOST_TEST(norm(none.standard_errors({3, Eigen::Vector2d::Ones()})) == 0.0);
+  BOOST_TEST(norm(none.standard_errors(std::vector<Eigen::VectorXd>(3, Eigen::Vector2d::Ones()))) == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(saddles_are_no_minima) {
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
   const double excess = curvature(valley(0.1), {0, 1}).expected_excess(scores);
   BOOST_TEST(std::abs(excess - 0.5 * (valley(0.1) * sandwich).trace()) <= 1e3 * eps * norm(sandwich));
   BOOST_TEST(std::abs(excess - 0.5 * sandwich.trace()) > 0.01 * excess);  // H matters
-  const auto unknown = curvature(valley(0.1), {0, 1}).standard_errors({scores[0]});
+  const auto unknown = curvature(valley(0.1), {0, 1}).standard_errors(std::vector{scores[0]});
   BOOST_TEST(std::isnan(unknown[0]));
   const auto unbounded = curvature(valley(0.0), {0, 1}).standard_errors(scores);
   BOOST_TEST(unbounded[0] == infinite);
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(the_expected_excess_is_finite_on_a_flat_direction) {
   const double expected = 0.5 * 1.5 * (0.09 + 0.01 + 0.04);  // over the curvature 1, and B/(B - 1) = 3/2
   BOOST_TEST(curvature(valley(0.0), {0, 1}).expected_excess(scores) == expected,
              boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(std::isnan(curvature(valley(0.0), {0, 1}).expected_excess({scores[0]})));
+  BOOST_TEST(std::isnan(curvature(valley(0.0), {0, 1}).expected_excess(std::vector{scores[0]})));
   BOOST_TEST(curvature(valley(0.0), {}).expected_excess(scores) == 0.0);
 }
 

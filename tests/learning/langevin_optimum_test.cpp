@@ -49,7 +49,7 @@ struct symmetric_stages {
 
 fitted_parameter learn_beta1(placement where, const damped_oscillator& x, double z, const listed<1>& starts,
                              std::int64_t trajectories) {
-  const auto system = system_of(x);
+  const auto system = bathed_system(x);
   const double step = z / omega;
   const auto data = make_flow_map_data(
       system, starts, exact_paths(x),

@@ -83,8 +83,8 @@ BOOST_AUTO_TEST_CASE(residuals_are_those_of_the_lyapunov_equation) {
         const auto expected = expected_residuals(x, method, step);
         const double rounding = rounding_of(x, method, step);
         BOOST_TEST_CONTEXT(method.name << ", step " << step << ", gamma " << gamma) {
-          BOOST_TEST((residuals_of(system_of(x), method, step) - expected).norm() <= rounding);
-          BOOST_TEST((residuals_of(system_of(x), method, 0.99 * step) - expected).norm() > rounding);
+          BOOST_TEST((residuals_of(bathed_system(x), method, step) - expected).norm() <= rounding);
+          BOOST_TEST((residuals_of(bathed_system(x), method, 0.99 * step) - expected).norm() > rounding);
         }
       }
     }
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(residuals_are_those_of_the_lyapunov_equation) {
 // BAOAB: the law of q is exact, and that of p too narrow by z^2/4 [leimkuhler_matthews_2015].
 BOOST_AUTO_TEST_CASE(baoab_errs_in_momenta_alone) {
   const double z = 3.0 * 0.4;
-  const auto r = residuals_of(system_of(oscillator), baoab_told, 0.4);
+  const auto r = residuals_of(bathed_system(oscillator), baoab_told, 0.4);
   const double rounding = rounding_of(oscillator, baoab_told, 0.4);
   BOOST_TEST(std::abs(r[0]) <= rounding);
   BOOST_TEST(std::abs(r[1]) <= rounding);
@@ -108,9 +108,9 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
   const double c = 0.013;
   const told gradient{"", run_time_word("OBAGABO"), {0.5, b, 0.5, 1.0 - 2.0 * b, c, 0.5, b, 0.5}};
   const told kicks{"", run_time_word("OBABABO"), {0.5, b, 0.5, 1.0 - 2.0 * b - 2.0 * c * z * z, 0.5, b, 0.5}};
-  const auto expected = residuals_of(system_of(oscillator), kicks, step);
+  const auto expected = residuals_of(bathed_system(oscillator), kicks, step);
   const double rounding = rounding_of(oscillator, kicks, step);
-  BOOST_TEST((residuals_of(system_of(oscillator), gradient, step) - expected).norm() <= rounding);
+  BOOST_TEST((residuals_of(bathed_system(oscillator), gradient, step) - expected).norm() <= rounding);
   BOOST_TEST(expected.norm() > 1e-4);
 
   const in_bath chain(linear_chain(Eigen::Vector2d(36.0, 8.0).asDiagonal()), bath::of_sigma(1.5, 0.8));
@@ -147,9 +147,9 @@ BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not
 
 BOOST_AUTO_TEST_CASE(neither_units_nor_temperature_matter) {
   const told method = tell(member<thermostatted_family<nystrom, placement::end>>({0.4, 0.41}));
-  const auto r = residuals_of(system_of({3.0, 1.5, 0.8}), method, 0.4);
-  const auto same = residuals_of(system_of({6.0, 3.0, 0.1}), method, 0.2);
-  const auto other = residuals_of(system_of({3.0, 1.6, 0.8}), method, 0.4);
+  const auto r = residuals_of(bathed_system({3.0, 1.5, 0.8}), method, 0.4);
+  const auto same = residuals_of(bathed_system({6.0, 3.0, 0.1}), method, 0.2);
+  const auto other = residuals_of(bathed_system({3.0, 1.6, 0.8}), method, 0.4);
   BOOST_TEST((r - same).norm() <= rounding_of(oscillator, method, 0.4));
   BOOST_TEST((r - other).norm() > 1e-4);
 }
@@ -158,8 +158,8 @@ BOOST_AUTO_TEST_CASE(neither_units_nor_temperature_matter) {
 // a palindrome with O in it, seen from there, likewise.
 BOOST_AUTO_TEST_CASE(of_palindromes_friction_does_not_matter) {
   for (const told& method : methods) {
-    const auto strong = residuals_of(system_of(oscillator), method, 0.4);
-    const auto weak = residuals_of(system_of({3.0, 0.1, 0.8}), method, 0.4);
+    const auto strong = residuals_of(bathed_system(oscillator), method, 0.4);
+    const auto weak = residuals_of(bathed_system({3.0, 0.1, 0.8}), method, 0.4);
     const double rounding = rounding_of({3.0, 0.1, 0.8}, method, 0.4);
     BOOST_TEST_CONTEXT(method.name) {
       BOOST_TEST((strong - weak).norm() <= 2.0 * rounding);
@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
 BOOST_AUTO_TEST_CASE(the_value_is_the_sum_of_squares_whatever_is_asked_of_derivatives) {
   const told method = tell(two_stages<placement::end>());
   const auto& c = method.c;
-  const stationary_covariance loss(system_of(oscillator), method.word, 0.4);
+  const stationary_covariance loss(bathed_system(oscillator), method.word, 0.4);
   double sum = 0.0;
   for (const double r : loss.residuals(c)) sum += r * r;
   const auto all = loss.at(c, by_each(c));
@@ -231,14 +231,14 @@ BOOST_AUTO_TEST_CASE(the_value_is_the_sum_of_squares_whatever_is_asked_of_deriva
 BOOST_AUTO_TEST_CASE(a_word_that_keeps_no_law_is_infinitely_far) {
   const auto loss_of = [](double z) {
     const auto& [name, word, c] = baoab_told;
-    return stationary_covariance(system_of(oscillator), word, z / oscillator.omega).at(c, by_each(c));
+    return stationary_covariance(bathed_system(oscillator), word, z / oscillator.omega).at(c, by_each(c));
   };
   BOOST_TEST(loss_of(1.999).is_finite());
   BOOST_TEST(!std::isfinite(loss_of(2.001).value));
   BOOST_TEST(!loss_of(2.001).is_finite());
   BOOST_TEST(!std::isfinite(loss_of(200.0).value));
 
-  const stationary_covariance symmetric(system_of(oscillator), run_time_word("OABAO"), 0.3);
+  const stationary_covariance symmetric(bathed_system(oscillator), run_time_word("OABAO"), 0.3);
   BOOST_TEST(std::isfinite(symmetric.residuals(std::vector{0.25, 0.5, 1.0, 0.5, 0.75})[0]));
   BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{-0.1, 0.5, 1.0, 0.5, 1.1})[0]));  // back in time
   BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{0.0, 0.5, 1.0, 0.5, 0.0})[0]));   // no bath left
@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(a_word_that_keeps_no_law_is_infinitely_far) {
 
 BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
   using wrong = std::invalid_argument;
-  const auto warm = system_of(oscillator);
+  const auto warm = bathed_system(oscillator);
   const run_time_word word("OABAO");
   const auto made = [](const auto& system, const run_time_word& w, double step) {
     return [=] { stationary_covariance(system, w, step); };

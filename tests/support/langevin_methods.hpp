@@ -33,7 +33,7 @@ using langevin_methods =
 
 using bathed_oscillator = in_bath<harmonic_oscillator>;
 
-inline bathed_oscillator system_of(const damped_oscillator& x) {
+inline bathed_oscillator bathed_system(const damped_oscillator& x) {
   return {harmonic_oscillator(x.omega), bath::of_sigma(x.gamma, x.sigma)};
 }
 inline std::vector<spelled> spell(const Method auto& method) {
@@ -57,7 +57,7 @@ struct one_at {
 
 /// A step of the library's as it is: what it makes of unit states and of unit numbers, as it is linear.
 inline gaussian_step<2> library_step(const damped_oscillator& x, const Method auto& method, double h) {
-  const auto system = system_of(x);
+  const auto system = bathed_system(x);
   gaussian_step<2> result;
   const auto stepped = [&](phase_point<double, 1> state, int flow) {
     make_stepper(system, method, h, one_at{flow}).step(state);

@@ -27,7 +27,7 @@ sampled sample(const Method auto& method, const Noise& noise) {
   constexpr std::int64_t steps = 300;
   constexpr std::int64_t every = 4;
   using T = pack<double>;
-  const auto system = system_of(oscillator);
+  const auto system = bathed_system(oscillator);
   const auto stepper = make_stepper(system, method, step, noise);
   std::vector<moments> of;
   for (std::uint64_t first = 0; first < trajectories; first += lanes_in<T>) {

@@ -18,7 +18,7 @@ double difference(const auto& a, const auto& b) { return (a - b).cwiseAbs().maxC
 /// Error of the map over a time 2 in so many steps of the merged loop, without noise.
 double error_in(std::int64_t steps, const Method auto& method) {
   const damped_oscillator x{2.0, 0.7, 0.0};
-  const auto system = system_of(x);
+  const auto system = bathed_system(x);
   const auto stepper = make_stepper(system, method, 2.0 / static_cast<double>(steps));
   const auto finish = [&](double q, double p) {
     auto run = stepper.open(point(q, p));

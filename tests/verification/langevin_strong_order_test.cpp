@@ -40,7 +40,7 @@ driven solution(std::uint64_t first) {
   driven result{recorded_path<T, 1>(fine, oscillator.gamma, first), start.cast<T>()};
   std::vector<vector<T, 1>> noise(fine_intervals);
   exact_paths(oscillator)
-      .advance(system_of(oscillator), result.finish, horizon, {1, first, 0}, std::span(noise));
+      .advance(bathed_system(oscillator), result.finish, horizon, {1, first, 0}, std::span(noise));
   for (const auto& xi : noise) result.path.add(xi);
   return result;
 }
@@ -59,7 +59,7 @@ struct measured {
 };
 /// With noise_of(path), the noise that a method takes for that of the path.
 measured errors(const Method auto& method, std::int64_t steps, const auto& noise_of) {
-  const auto system = system_of(oscillator);
+  const auto system = bathed_system(oscillator);
   Eigen::Array2d sum(0.0, 0.0);
   Eigen::Array2d squares(0.0, 0.0);
   for (const auto& [path, finish] : solutions()) {
