@@ -55,9 +55,7 @@ BOOST_AUTO_TEST_CASE(ranks_and_threads_change_no_byte) {
 BOOST_AUTO_TEST_CASE(a_killed_run_goes_on_with_other_ranks_to_the_same_bytes) {
   const scratch folder("compare_killed");
   BOOST_TEST_REQUIRE(run(folder, along_paths + "whole").code == 0);
-  std::string killed = mpirun(2);
-  killed += "sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec ";
-  killed += "\"$nysalt\" " + along_paths + "killed' >/dev/null 2>&1 & all=$!\n";
+  std::string killed = on_known_ranks(2, along_paths + "killed") + " >/dev/null 2>&1 & all=$!\n";
   killed += "while kill -0 $all 2>/dev/null && ";
   killed += "[ \"$(cat killed/journal.jsonl 2>/dev/null | wc -l)\" -lt 4 ]; do sleep .01; done\n";
   killed += "kill -9 $(cat pid.1); wait $all; echo $?; cp -r killed alone";

@@ -99,10 +99,9 @@ BOOST_AUTO_TEST_CASE(a_rank_that_dies_ends_the_job_and_others_go_on_with_it) {
     BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
     const std::string command =
         line + "--output a" + kind + " --checkpoint a.checkpoint --threads 1 --every ";
-    // The last of the processes that mpirun started.
-    const std::string kill_one = "kill -9 $(pgrep -P $pid | tail -n 1) && ! wait $pid";
-    const auto killed = shell(folder, on_ranks(3) + command + "100 >/dev/null 2>&1 & pid=$!\n" +
-                                          wait_for("a.checkpoint", 500) + kill_one);
+    const auto killed =
+        shell(folder, on_known_ranks(3, command + "100") + " >/dev/null 2>&1 & pid=$!\n" +
+                          wait_for("a.checkpoint", 500) + "kill -9 $(cat pid.2) && ! wait $pid");
     BOOST_TEST(killed.code == 0, killed.err);
     BOOST_TEST(std::filesystem::exists(folder / ("a" + kind + ".part")));
     const auto its = kind == ".csv" ? run(folder, command + "5000 --resume")

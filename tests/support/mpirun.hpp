@@ -21,6 +21,14 @@ inline std::string mpirun(int ranks) {
 /// "mpirun -n RANKS $nysalt "
 inline std::string on_ranks(int ranks) { return mpirun(ranks) + "\"$nysalt\" "; }
 
+/// "mpirun -n RANKS $nysalt arguments", where rank r leaves the number of its process in the file pid.r.
+inline std::string on_known_ranks(int ranks, const std::string& arguments) {
+  std::string line = mpirun(ranks) + "sh -c 'echo $$ >pid.$OMPI_COMM_WORLD_RANK; exec \"$nysalt\" ";
+  line += arguments;
+  line += "'";
+  return line;
+}
+
 /// `mpirun -n RANKS nysalt arguments` in the folder.
 inline finished run_on(int ranks, const scratch& folder, const std::string& arguments) {
   return shell(folder, on_ranks(ranks) + arguments);
