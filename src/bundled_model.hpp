@@ -174,8 +174,7 @@ class bundled_model final : public bundled_system {
   std::int64_t most_trajectories(const learn_plan& plan) const override {
     const data_options options{.step = plan.step,
                                .horizon = plan.how.horizon,
-                               .noise_parts = noise_parts(placed(plan.family, plan.where)),
-                               .ranks = &world()};
+                               .noise_parts = noise_parts(placed(plan.family, plan.where))};
     return nysalt::most_trajectories(options, size(system_));
   }
 

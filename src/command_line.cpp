@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <sstream>
 
 #include "build_info.hpp"
 #include "commands.hpp"
@@ -406,6 +407,16 @@ std::string as_typed(int argc, char** argv) {
          command.get_name(), listed(option_names(command)));
 }
 
+/// Ranks may have different numbers of threads.
+std::string without_threads(const std::string& options) {
+  std::istringstream lines(options);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("threads=") == std::string::npos) result += line + '\n';
+  }
+  return result;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -459,6 +470,7 @@ int run_command_line(int argc, char** argv) {
     refuse("{}; {} --help tells what it takes", problem.what(), where);
   }
   to.common.options = app.config_to_str();
+  require_agreement("options", without_threads(to.common.options));
   const auto asked = app.get_subcommands();
   if (asked.empty()) {
     print(three_commands);

@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk is
   const nysalt::program::joined_world ranks(argc, argv);
   return ranks.leave(nysalt::program::run_program(argc, argv));
 }

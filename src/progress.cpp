@@ -2,7 +2,6 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cstdio>
@@ -13,7 +12,7 @@
 
 namespace nysalt::program {
 
-progress::progress() : visible_(speaks_for_all() && isatty(STDERR_FILENO) != 0) {}
+progress::progress() : visible_(speaks_for_all() && has_terminal()) {}
 progress::~progress() { clear(); }
 
 void progress::expect(double work) {

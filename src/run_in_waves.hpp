@@ -21,10 +21,9 @@
 namespace nysalt::program {
 
 /// How many trajectories, of so many numbers each, are in the memory of all ranks at a time: a million
-/// numbers, or where trajectories are long, a block for each thread. With more ranks a rank has fewer, and
-/// each of its threads equally many.
-inline std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, int threads, int ranks) {
-  const std::int64_t workers = std::int64_t{threads} * ranks;
+/// numbers, or where trajectories are long, a block for each thread of a rank. With more ranks a rank has
+/// fewer, and each of its threads equally many.
+inline std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_t workers) {
   const std::int64_t blocks = 1'000'000 / numbers / lanes;
   return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;
 }
@@ -47,7 +46,7 @@ void run_in_waves(const S& system, const Starts& starts, const tabulated& method
   const stretches its(all.steps, plan.stretch);
   const std::int64_t numbers =
       (its.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system);
-  const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, all.threads, ranks.size());
+  const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(plan.from.wave.diverged_at);
   broadcast(ranks, first);

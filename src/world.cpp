@@ -7,10 +7,14 @@
 #include <cstdlib>
 #include <thread>
 
+#include <fcntl.h>
 #include <sched.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
+
+#include "nysalt/together.hpp"
+#include "refusal.hpp"
 
 #if defined NYSALT_HAS_MPI
 #include "nysalt/communicators/mpi.hpp"
@@ -26,6 +30,29 @@ std::string unsaid;
 const communicator& world() { return *joined; }
 
 void keep_unsaid(const std::string& text) { unsaid = text; }
+
+void require_agreement(const std::string& what, const std::string& text) {
+  if (world().is_alone()) return;
+  std::string of_first = text;
+  broadcast(world(), of_first);
+  together(world(), [&] {
+    if (text == of_first) return;
+    refuse("rank {} has other {} than rank 0: start all with one command line, where all see the same files",
+           world().rank(), what);
+  });
+}
+
+/// Ranks have pipes to mpirun, which passes on what they say.
+bool has_terminal() {
+  if (isatty(STDERR_FILENO) != 0) return true;
+  if (world().is_alone()) return false;
+  const std::string of_parent = fmt::format("/proc/{}/fd/{}", getppid(), STDERR_FILENO);
+  const int descriptor = open(of_parent.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool result = isatty(descriptor) != 0;
+  close(descriptor);
+  return result;
+}
 
 #if defined NYSALT_HAS_MPI
 
@@ -63,7 +90,7 @@ class joined_world::session {
   struct initialised {
     initialised(int argc, char** argv) {
       int granted = 0;
-      MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &granted);
+      MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &granted);
     }
     ~initialised() { MPI_Finalize(); }
   };

@@ -23,6 +23,13 @@ int usual_threads();
 /// otherwise; empty if all is well.
 std::string advice_on_threads(int threads);
 
+/// Throws at all ranks unless all have the same text: options, or what they have read. Ranks that differ
+/// would mix results, or wait for each other for ever.
+void require_agreement(const std::string& what, const std::string& text);
+
+/// Whether a line of progress would be seen: standard error is a terminal, or that of mpirun beside us is.
+bool has_terminal();
+
 /// Joins the other ranks, if the process was started as one of several and the program is built with MPI; to
 /// be made once, in main(). To call MPI takes a tenth of a second, so that a process by itself does not.
 class joined_world {

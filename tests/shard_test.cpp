@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <mutex>
+#include <stdexcept>
 #include <vector>
 
 #include "support/ranks_as_threads.hpp"
@@ -121,6 +122,16 @@ BOOST_AUTO_TEST_CASE(what_ranks_gather_is_everywhere) {
       }
     });
   }
+}
+
+BOOST_AUTO_TEST_CASE(terms_that_are_not_those_of_the_rank_are_refused) {
+  const shard whole(100);
+  BOOST_CHECK_THROW(whole.sum(std::vector<double>(99)), std::invalid_argument);
+  const thread_communicator second = rank_alone(1, 2);
+  const shard half(100, second);
+  BOOST_CHECK_THROW(half.sum(std::vector<double>(100)), std::invalid_argument);
+  std::vector<int> some(static_cast<std::size_t>(half.count()));
+  BOOST_CHECK_THROW(half.gather(some), std::invalid_argument);
 }
 
 // Of P parameters a pass over the data passes on 1 + P + P (P + 1)/2 numbers: here those of P = 2.

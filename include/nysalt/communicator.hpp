@@ -14,7 +14,8 @@ namespace nysalt {
 
 /// One of several processes that run the same program, as it sees the others: rank r of size(). All that is
 /// not send() and receive() is collective: every rank calls it, in the same order. A message has the length
-/// that its receiver expects.
+/// that its receiver expects. A rank that leaves a collective function by an exception which the others do
+/// not throw, as when it alone is out of memory, leaves them waiting: it must end the job.
 class communicator {
  public:
   virtual ~communicator() = default;

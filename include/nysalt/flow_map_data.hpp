@@ -252,12 +252,12 @@ void add_up(flow_map_data<N>& data) {
 
 }  // namespace detail
 
-/// As many as fit into memory. Throws std::invalid_argument if one does not, or has no step.
+/// As many as fit into the memory of one rank, so that their number does not depend on that of ranks. Throws
+/// std::invalid_argument if one does not, or has no step.
 inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;
   const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
-  return options.ranks->size() *
-         static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
+  return static_cast<std::int64_t>(detail::numbers_in_memory / detail::numbers_in(options, steps, dimension));
 }
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as

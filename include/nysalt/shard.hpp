@@ -2,10 +2,13 @@
 // The trajectories that one rank has of an ensemble.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -51,10 +54,13 @@ class shard {
 
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
   /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
-  /// receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one term, and
-  /// rank 0 tells all the result.
+  /// receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one term,
+  /// and rank 0 tells all the result.
+  ///
+  /// Throws std::invalid_argument if the terms are not as many as the trajectories of this rank.
   template <class T>
   T sum(const std::vector<T>& terms, const T& zero) const {
+    require_length(std::ssize(terms), count());
     if (ranks_->is_alone()) return tree_sum(terms);
     std::vector<T> nodes = detail::sums_of_leaves(std::span<const T>(terms));
     for (int k = 0; k < level_; ++k) detail::add_neighbours(nodes);
@@ -65,10 +71,12 @@ class shard {
   double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }
 
   /// Of all trajectories each rank has filled in the items of its own: all get them all. Memory and messages
-  /// grow with the trajectories: for what is small, and once.
+  /// grow with the trajectories: for what is small, and once. Throws std::invalid_argument if there is not
+  /// an item for each of them.
   template <class Item>
     requires std::is_trivially_copyable_v<Item>
   void gather(std::vector<Item>& all) const {
+    require_length(std::ssize(all), total_);
     std::vector<std::size_t> first_bytes;
     for (int r = 0; r <= ranks_->size(); ++r) {
       first_bytes.push_back(static_cast<std::size_t>(first_of(r)) * sizeof(Item));
@@ -79,6 +87,11 @@ class shard {
  private:
   static constexpr std::int64_t blocks_of_rank = 32;
 
+  static void require_length(std::int64_t its, std::int64_t wanted) {
+    if (its == wanted) return;
+    throw std::invalid_argument(fmt::format(
+        "shard: {} items, where there are {} trajectories; each rank brings its own to a sum", its, wanted));
+  }
   int rank_of(std::int64_t block) const { return static_cast<int>(block * ranks_->size() / blocks_); }
 
   /// The nodes of the blocks of this rank become those of the next level, and so on; a node is where its left

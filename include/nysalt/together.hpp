@@ -34,10 +34,11 @@ inline failure describe_thrown(const std::exception_ptr& thrown, std::string& te
 
 }  // namespace detail
 
-/// Does the work of this rank, in which nothing is collective. If it throws on some ranks, it throws on all:
-/// what the lowest of them threw, there the very exception and elsewhere std::invalid_argument,
-/// std::bad_alloc or std::runtime_error with its words. Lower ranks have lower trajectories, so that it is
-/// the exception of the first that has one, as in for_each_block(). Cost: one number from and to all ranks.
+/// Does the work of this rank, in which nothing is collective. If it throws on some ranks, it throws on all
+/// what the lowest of them threw, as std::invalid_argument, std::bad_alloc or std::runtime_error with its
+/// words; alone, the very exception. So all ranks catch it, or none does. Lower ranks have lower
+/// trajectories, so that it is the exception of the first that has one, as in for_each_block(). Cost: one
+/// number from and to all ranks.
 template <class Work>
 void together(const communicator& ranks, const Work& work) {
   if (ranks.is_alone()) {
@@ -57,7 +58,6 @@ void together(const communicator& ranks, const Work& work) {
   if (ranks.rank() == lowest) kind = detail::describe_thrown(thrown, text);
   broadcast(ranks, kind, lowest);
   broadcast(ranks, text, lowest);
-  if (ranks.rank() == lowest) std::rethrow_exception(thrown);
   if (kind == detail::failure::bad_argument) throw std::invalid_argument(text);
   if (kind == detail::failure::no_memory) throw std::bad_alloc();
   throw std::runtime_error(text);

@@ -71,7 +71,10 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
 }  // namespace
 
 int compare(const compare_command& command, const common_settings& common) {
-  comparison all(command, common);
+  std::optional<comparison> planned;
+  together(world(), [&] { planned.emplace(command, common); });
+  comparison& all = *planned;
+  require_agreement("methods", all.question().dump(-1, ' ', false, json::error_handler_t::replace));
   const std::filesystem::path folder(command.output);
   if (command.output.empty()) {
     if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");

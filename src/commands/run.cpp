@@ -190,10 +190,12 @@ int run(const run_command& asked, const common_settings& common) {
                                            placement_asked(command.placement), warnings);
 
   const auto began = std::chrono::steady_clock::now();
+  const json question = question_of(command, *system, method, steps, common.seed);
+  require_agreement("methods", question.dump(-1, ' ', false, json::error_handler_t::replace));
   progress shown;
   std::optional<destination> output;  // at rank 0
   on_first(world(), [&] {             // from now on the run can be gone on with
-    output.emplace(command, steps, common.json, question_of(command, *system, method, steps, common.seed),
+    output.emplace(command, steps, common.json, question,
                    about_run(command, *system, method, steps, common.seed));
   });
   const bool was_finished = agreed(output && output->is_finished());

@@ -59,6 +59,22 @@ BOOST_AUTO_TEST_CASE(messages_arrive_in_order_and_do_not_mix_with_those_of_other
   }
 }
 
+BOOST_AUTO_TEST_CASE(long_messages_go_in_pieces) {
+  const mpi_communicator ranks(MPI_COMM_WORLD, 1000);  // bytes
+  std::vector<int> numbers(12'345);
+  if (ranks.rank() == 2) std::iota(numbers.begin(), numbers.end(), 0);
+  ranks.broadcast(bytes_of(numbers), 2);
+  BOOST_TEST(numbers.back() == 12'344);
+  if (ranks.rank() == 1) ranks.send(bytes_of(numbers), 0);
+  std::vector<int> again(numbers.size());
+  if (ranks.rank() == 0) ranks.receive(bytes_of(again), 1);
+  BOOST_TEST((ranks.rank() != 0 || again == numbers));
+  const std::vector<int> ours(500, ranks.rank());
+  const auto all = one_after_the_other(ranks, ours);
+  BOOST_TEST(std::accumulate(all.begin(), all.end(), 0) == 500 * 3);
+  BOOST_TEST(all[1000] == 2);
+}
+
 BOOST_AUTO_TEST_CASE(all_get_what_one_tells_and_what_each_has) {
   const mpi_communicator ranks;
   std::string text = ranks.rank() == 2 ? "from the last" : "";

@@ -42,6 +42,8 @@ void same_as_alone(const std::string& line, const std::string& kind, const std::
   const auto alone = run(folder, line + "--threads 1 --json --output a" + kind);
   BOOST_TEST_REQUIRE(alone.code == 0, alone.err);
   const std::string expected = contents(folder / ("a" + kind));
+  BOOST_TEST_REQUIRE(run(folder, line + "--seed 2 --output a" + kind).code == 0);
+  BOOST_TEST((contents(folder / ("a" + kind)) != expected));  // so that the test can tell
   for (const auto& by : all) {
     std::filesystem::remove(folder / ("a" + kind));
     const auto its = shell(folder, on(by) + line + threads(by) + "--json --output a" + kind);
@@ -89,6 +91,23 @@ BOOST_AUTO_TEST_CASE(ranks_without_a_trajectory_do_no_harm) {
   BOOST_TEST(shared.code == 0, shared.err);
   BOOST_TEST(alone.out.size() > 1000U);
   BOOST_TEST((shared.out == alone.out));
+}
+
+BOOST_AUTO_TEST_CASE(ranks_may_have_other_threads_and_nothing_else) {
+  const scratch folder("ranks_unlike");
+  const auto alone = run(folder, in_bath("20") + "--output a.csv");
+  BOOST_TEST_REQUIRE(alone.code == 0, alone.err);
+  const auto unlike = [&](const std::string& option, const std::string& output) {
+    return shell(folder, mpirun(2) + "sh -c 'exec \"$nysalt\" " + in_bath("20") + option +
+                             "$((3 - 2*OMPI_COMM_WORLD_RANK)) --output " + output + "'");
+  };
+  const auto threads = unlike("--threads ", "b.csv");
+  BOOST_TEST(threads.code == 0, threads.err);
+  BOOST_TEST((contents(folder / "b.csv") == contents(folder / "a.csv")));
+  const auto seeds = unlike("--seed ", "c.csv");
+  BOOST_TEST(seeds.code == 2);
+  BOOST_TEST(count(seeds.err, "rank 1 has other options than rank 0") == 1U, seeds.err);
+  BOOST_TEST(!std::filesystem::exists(folder / "c.csv"));
 }
 
 BOOST_AUTO_TEST_CASE(a_rank_that_dies_ends_the_job_and_others_go_on_with_it) {

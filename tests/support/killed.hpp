@@ -13,7 +13,7 @@ namespace nysalt::test {
 inline std::string wait_for(const std::string& checkpoint, int step) {
   std::string lines = "while kill -0 $pid 2>/dev/null; do n=\"$(head -n 1 " + checkpoint;
   lines += R"x( 2>/dev/null | sed -n 's/.*"first":[0-9]*,"step":\([0-9]*\).*/\1/p')"; [ "${n:-0}" -ge )x";
-  lines += std::to_string(step) + " ] && break; done\n";
+  lines += std::to_string(step) + " ] && break; sleep .01; done\n";
   return lines;
 }
 

@@ -19,8 +19,9 @@ namespace nysalt {
 /// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
 /// options cannot be, or lags need more samples.
 inline std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
-  if (options.trajectories < 1 || options.first < 0 || options.steps < 0 || options.every < 1 ||
-      wanted.from < 0 || wanted.from > options.steps) {
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  if (options.trajectories < 1 || options.trajectories > most || options.first < 0 || options.steps < 0 ||
+      options.every < 1 || wanted.from < 0 || wanted.from > options.steps) {
     throw std::invalid_argument(fmt::format(
         "ensemble_statistics: {} trajectories from {} on, of {} steps, sampled every {} from step "
         "{} on: cannot be",

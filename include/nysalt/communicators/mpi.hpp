@@ -18,11 +18,14 @@
 namespace nysalt {
 
 /// The ranks of an MPI communicator, by default of all processes that mpirun started. MPI must be initialised
-/// before, and finalised after; calls come from one thread at a time (MPI_THREAD_SERIALIZED). What MPI finds
-/// wrong ends all processes, as is its custom. Messages do not mix with those of others: it is a duplicate.
+/// before, and finalised after; calls come from the thread that did so (MPI_THREAD_FUNNELED). What MPI finds
+/// wrong ends all processes, as is its custom, and so does a message of another length than is expected.
+/// Messages do not mix with those of others: it is a duplicate. MPI counts in int, so that longer messages go
+/// in pieces of `longest` bytes.
 class mpi_communicator final : public communicator {
  public:
-  explicit mpi_communicator(MPI_Comm ranks = MPI_COMM_WORLD) {
+  explicit mpi_communicator(MPI_Comm ranks = MPI_COMM_WORLD, std::size_t longest = std::size_t{1} << 30U)
+      : longest_(longest) {
     MPI_Comm_dup(ranks, &ranks_);
     MPI_Comm_rank(ranks_, &rank_);
     MPI_Comm_size(ranks_, &size_);
@@ -39,7 +42,11 @@ class mpi_communicator final : public communicator {
   }
   void receive(std::span<std::byte> message, int from) const override {
     in_pieces(message, [&](auto piece, int length) {
-      MPI_Recv(piece, length, MPI_BYTE, from, 0, ranks_, MPI_STATUS_IGNORE);
+      MPI_Status seen;
+      MPI_Recv(piece, length, MPI_BYTE, from, 0, ranks_, &seen);
+      int arrived = 0;
+      MPI_Get_count(&seen, MPI_BYTE, &arrived);
+      if (arrived != length) MPI_Abort(ranks_, MPI_ERR_COUNT);
     });
   }
   void broadcast(std::span<std::byte> message, int from) const override {
@@ -47,7 +54,7 @@ class mpi_communicator final : public communicator {
   }
 
   void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
-    if (all.size() > longest) {
+    if (all.size() > longest_) {
       for (int r = 0; r < size_; ++r) {
         const auto at = static_cast<std::size_t>(r);
         broadcast(all.subspan(first_of[at], first_of[at + 1] - first_of[at]), r);
@@ -79,12 +86,10 @@ class mpi_communicator final : public communicator {
   }
 
  private:
-  static constexpr std::size_t longest = std::size_t{1} << 30U;  // bytes: MPI counts in int
-
   template <class Byte, class Pass>
-  static void in_pieces(std::span<Byte> message, const Pass& pass) {
-    for (std::size_t done = 0; done < message.size(); done += longest) {
-      pass(message.data() + done, static_cast<int>(std::min(longest, message.size() - done)));
+  void in_pieces(std::span<Byte> message, const Pass& pass) const {
+    for (std::size_t done = 0; done < message.size(); done += longest_) {
+      pass(message.data() + done, static_cast<int>(std::min(longest_, message.size() - done)));
     }
   }
 
@@ -96,6 +101,7 @@ class mpi_communicator final : public communicator {
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
+  std::size_t longest_;
 };
 
 }  // namespace nysalt

@@ -139,6 +139,9 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
     throw std::invalid_argument(
         fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
   }
+  if (&held_out.share().ranks() != &data.share().ranks()) {
+    throw std::invalid_argument("learn: the data and the held-out data must be shared by the same ranks");
+  }
   using loss_type = after_steps<S, R>;
   using metric_type = metric<S::dimension>;
   const bool has_data = options.loss.of != loss_choice::kind::covariance;
