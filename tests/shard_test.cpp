@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(terms_that_are_not_those_of_the_rank_are_refused) {
 BOOST_AUTO_TEST_CASE(messages_grow_with_the_logarithm_of_the_ranks_and_not_with_the_data) {
   constexpr Eigen::Index size = 6;
   for (const int ranks : {2, 4, 8, 16, 32}) {
-    const int log2 = std::bit_width(static_cast<unsigned>(ranks)) - 1;
+    const int log2 = static_cast<int>(std::bit_width(static_cast<unsigned>(ranks))) - 1;
     // From some 32 leaves a rank on, the tree above the blocks is the same whatever the data.
     const auto few = most_of_a_sum(ranks, 16 * 64 * ranks, size);
     const auto many = most_of_a_sum(ranks, 16 * 64 * ranks * 8, size);
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(messages_grow_with_the_logarithm_of_the_ranks_and_not_with_
     BOOST_TEST(many.bytes == 8 * size * (log2 + 1));
   }
   for (const int ranks : {3, 5, 11, 27}) {
-    const int log2 = std::bit_width(static_cast<unsigned>(ranks));
+    const int log2 = static_cast<int>(std::bit_width(static_cast<unsigned>(ranks)));
     const auto seen = most_of_a_sum(ranks, 16 * 1000 * ranks + 5, size);
     // A share of 32 to 64 blocks is up 7 levels at most before its last node leaves it.
     BOOST_TEST(seen.received <= log2 + 7);

@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_pass_over_the_data_is_one_sum_whatever_the_data) {
   };
   constexpr std::int64_t of_column = 8 * (1 + 2 + 3);  // r^T r, J^T r and half of J^T J for two parameters
   for (const int size : {2, 4, 8}) {
-    const int log2 = std::bit_width(static_cast<unsigned>(size)) - 1;
+    const int log2 = static_cast<int>(std::bit_width(static_cast<unsigned>(size))) - 1;
     for (const std::int64_t trajectories : {16 * 8, 16 * 64}) {
       const auto seen = traffic_of_pass(size, trajectories);
       BOOST_TEST(seen.received == log2);
