@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/tree_sum.hpp"
 
 namespace nysalt {
 
