@@ -57,15 +57,23 @@ void broadcast(const communicator& ranks, List& values, int from = 0) {
   ranks.broadcast(std::as_writable_bytes(std::span(values)), from);
 }
 
+/// Rank r has items first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
+template <class Item>
+  requires std::is_trivially_copyable_v<Item>
+void gather_items(const communicator& ranks, std::vector<Item>& all, std::vector<std::size_t> first_of) {
+  for (std::size_t& first : first_of) first *= sizeof(Item);  // now bytes
+  ranks.gather(std::as_writable_bytes(std::span(all)), first_of);
+}
+
 /// A value of each rank, at all of them.
 template <class T>
   requires std::is_trivially_copyable_v<T> std::vector<T> in_order_of_ranks(const communicator& ranks,
                                                                             const T& value) {
     std::vector<T> all(static_cast<std::size_t>(ranks.size()));
-    std::vector<std::size_t> first_bytes;
-    for (std::size_t r = 0; r <= all.size(); ++r) first_bytes.push_back(r * sizeof(T));
+    std::vector<std::size_t> first_of;
+    for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r);
     all[static_cast<std::size_t>(ranks.rank())] = value;
-    ranks.gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    gather_items(ranks, all, first_of);
     return all;
   }
 
@@ -73,14 +81,14 @@ template <class T>
 template <class T>
   requires std::is_trivially_copyable_v<T> std::vector<T> one_after_the_other(const communicator& ranks,
                                                                               const std::vector<T>& ours) {
-    std::vector<std::size_t> first_bytes{0};
+    std::vector<std::size_t> first_of{0};
     for (const std::size_t count : in_order_of_ranks(ranks, ours.size())) {
-      first_bytes.push_back(first_bytes.back() + count * sizeof(T));
+      first_of.push_back(first_of.back() + count);
     }
-    std::vector<T> all(first_bytes.back() / sizeof(T));
-    const std::size_t first = first_bytes[static_cast<std::size_t>(ranks.rank())] / sizeof(T);
+    std::vector<T> all(first_of.back());
+    const std::size_t first = first_of[static_cast<std::size_t>(ranks.rank())];
     std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
-    ranks.gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    gather_items(ranks, all, first_of);
     return all;
   }
 

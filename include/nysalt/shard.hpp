@@ -77,11 +77,9 @@ class shard {
     requires std::is_trivially_copyable_v<Item>
   void gather(std::vector<Item>& all) const {
     require_length(std::ssize(all), total_);
-    std::vector<std::size_t> first_bytes;
-    for (int r = 0; r <= ranks_->size(); ++r) {
-      first_bytes.push_back(static_cast<std::size_t>(first_of(r)) * sizeof(Item));
-    }
-    ranks_->gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    std::vector<std::size_t> first_of_rank;
+    for (int r = 0; r <= ranks_->size(); ++r) first_of_rank.push_back(static_cast<std::size_t>(first_of(r)));
+    gather_items(*ranks_, all, first_of_rank);
   }
 
  private:

@@ -125,12 +125,12 @@ class gathering {
   /// Of lists that hold so many items for each trajectory, or for each group.
   template <class Item>
   void gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item = 1) const {
-    std::vector<std::size_t> first_bytes;
+    std::vector<std::size_t> first_of_rank;
     for (int r = 0; r <= ranks_->size(); ++r) {
       const std::int64_t first = (first_of(r) + trajectories_of_item - 1) / trajectories_of_item;
-      first_bytes.push_back(static_cast<std::size_t>(first) * items * sizeof(Item));
+      first_of_rank.push_back(static_cast<std::size_t>(first) * items);
     }
-    ranks_->gather(std::as_writable_bytes(std::span(all)), first_bytes);
+    gather_items(*ranks_, all, first_of_rank);
   }
   void gather_histograms() {
     std::vector<std::int64_t> all;
