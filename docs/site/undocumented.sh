@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Which public names of include/ lack a comment, by file: undocumented.sh [ROOT].
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "${1:-$PWD}" && pwd)
+staged=$(mktemp -d)
+trap 'rm -rf "$staged"' EXIT
+/usr/bin/python3 "$here/stage.py" "$root" "$staged" --headers
+{ cat "$here/Doxyfile"
+  printf '%s\n' "INPUT = $staged" "STRIP_FROM_PATH = $staged" "OUTPUT_DIRECTORY = $staged/site" 'GENERATE_HTML = NO' \
+    'HAVE_DOT = NO' 'WARN_AS_ERROR = NO'
+} | doxygen - 2>&1 >/dev/null | grep -v 'No output formats' | sed "s|^$staged/||" | sort -t: -k1,1 -k2,2n
