@@ -9,4 +9,4 @@ trap 'rm -rf "$staged"' EXIT
 { cat "$here/Doxyfile"
   printf '%s\n' "INPUT = $staged" "STRIP_FROM_PATH = $staged" "OUTPUT_DIRECTORY = $staged/site" 'GENERATE_HTML = NO' \
     'HAVE_DOT = NO' 'WARN_AS_ERROR = NO'
-} | doxygen - 2>&1 >/dev/null | grep -v 'No output formats' | sed "s|^$staged/||" | sort -t: -k1,1 -k2,2n
+} | doxygen - 2>&1 >/dev/null | grep '^[^ ]*: warning: ' | grep -v 'No output formats' | sed "s|^$staged/||" | sort -t: -k1,1 -k2,2n

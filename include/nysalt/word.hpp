@@ -118,7 +118,7 @@ struct word {
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges =
-      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
+      length > 1 && letter<0>::additive&& std::is_same_v<letter<0>, letter<length - 1>>;
 
   /// How many letters of the bath there are, and which of them, from 0 on, letter i is.
   static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
