@@ -101,29 +101,44 @@ def statements(lines):
         i += 1
 
 
-def with_table_kept(block):
-    """The text lines of a comment; those of a table made of spaces between marks that keep them as they are."""
-    is_table = [bool(re.match(r" {2,}\S", line) or re.match(r" ?\S.*\S {2,}\S", line)) for line in block]
-    kept = list(block)
-    i = 0
-    while i < len(block):
-        if is_table[i]:
-            last = i
-            while last + 1 < len(block) and is_table[last + 1]:
-                last += 1
-            kept[i] = "@verbatim " + kept[i] if i == 0 else kept[i]
-            if i:
-                kept[i - 1] += " @verbatim"
-            if last + 1 < len(block):
-                kept[last + 1] = " @endverbatim" + kept[last + 1]
-            else:
-                kept[last] += " @endverbatim"
-            i = last
-        i += 1
-    return kept
+def is_table(line):
+    """Whether a line of a comment is one of a table made of spaces."""
+    return bool(re.match(r" {2,}\S", line) or re.match(r" ?\S.*\S {2,}\S", line))
 
 
-def staged(text, path, members, keys):
+def staged_comment(lines, indent, keys, pages):
+    """The lines of a `///` comment; tables in it stay as they are."""
+    if re.match(r" ?[a-z]", lines[0]):
+        lines = [" &zwj;" + lines[0].lstrip(), *lines[1:]]  # or Doxygen would begin a formula with a capital
+    tables = [is_table(line) for line in lines]
+    out = [line if table else with_links(line, keys, pages) for line, table in zip(lines, tables)]
+    if not any(tables):
+        return [f"{indent}///{line}" for line in out]
+    for i, table in enumerate(tables):
+        if table and (i == 0 or not tables[i - 1]):
+            out[max(i - 1, 0)] = f"{out[i - 1]} @verbatim" if i else f" @verbatim {out[0]}"
+        if table and (i + 1 == len(out) or not tables[i + 1]):
+            out[i] += "\n@endverbatim" if i + 1 == len(out) else ""
+            if i + 1 < len(out):
+                out[i + 1] = f"@endverbatim {out[i + 1]}"
+    out[0] = f"{indent}/**{out[0]}"
+    out[-1] = out[-1].replace("\n@endverbatim", " @endverbatim") + " */"
+    return out
+
+
+def with_links(line, keys, pages):
+    """A line of a comment; keys are those of the bibliography, pages {docs/NAME.md: address}."""
+    line = re.sub(r"\b[a-z]+(?:_[a-z]+)*_\d{4}\b", lambda m: link(m.group(), f"bibliography.html#bibliography--{m.group()}")
+                  if m.group() in keys else m.group(), line)
+    return re.sub(r"\bdocs/[\w/-]+\.md\b", lambda m: link(m.group(), pages[m.group()])
+                  if m.group() in pages else m.group(), line)
+
+
+def link(text, address):
+    return f'<a href="{address}">{text}</a>'
+
+
+def staged(text, path, members, keys=(), pages=()):
     """The header for Doxygen: as many lines, each where it was."""
     lines = text.split("\n")
     pragma = next((i for i, line in enumerate(lines) if line.startswith("#pragma once")), 0)
@@ -158,7 +173,22 @@ def staged(text, path, members, keys):
             last += 1
         if last > i:
             indent = lines[i][:len(lines[i]) - len(lines[i].lstrip())]
-            block = with_table_kept([line.lstrip()[3:] for line in lines[i:last]])
-            lines[i:last] = [f"{indent}///{line}" for line in block]
+            lines[i:last] = staged_comment([line.lstrip()[3:] for line in lines[i:last]], indent, keys, pages)
         i = last + 1
     return "\n".join(lines)
+
+
+def unexplained(text):
+    """(line, name) of each public concept whose comment does not begin with a sentence: Doxygen does not look for it."""
+    lines = text.split("\n")
+    for first, _, declaration in statements(lines):
+        found = re.match(r"concept\s+(\w+)", without_template(declaration))
+        spaces = [line for line in lines[:first] if re.match(r"(namespace detail|}  // namespace detail)", line)]
+        if not found or (spaces and spaces[-1].startswith("namespace")):
+            continue
+        above = first
+        while lines[above - 1].startswith("//"):
+            above -= 1
+        comment = [line for line in lines[above:first] if line.startswith("///")]
+        if not comment or is_table(comment[0][3:]):
+            yield first + 1, found.group(1)

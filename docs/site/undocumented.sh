@@ -5,8 +5,9 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "${1:-$PWD}" && pwd)
 staged=$(mktemp -d)
 trap 'rm -rf "$staged"' EXIT
-/usr/bin/python3 "$here/stage.py" "$root" "$staged" --headers
+concepts=$(/usr/bin/python3 "$here/stage.py" "$root" "$staged" --headers 2>&1)
 { cat "$here/Doxyfile"
   printf '%s\n' "INPUT = $staged" "STRIP_FROM_PATH = $staged" "OUTPUT_DIRECTORY = $staged/site" 'GENERATE_HTML = NO' \
     'HAVE_DOT = NO' 'WARN_AS_ERROR = NO'
-} | doxygen - 2>&1 >/dev/null | grep '^[^ ]*: warning: ' | grep -v 'No output formats' | sed "s|^$staged/||" | sort -t: -k1,1 -k2,2n
+} | doxygen - 2>&1 >/dev/null | { grep '^[^ ]*: warning: ' || true; } | sed "s|^$staged/||" |
+  cat - <(printf '%s' "${concepts:+$concepts$'\n'}") | sort -t: -k1,1 -k2,2n
