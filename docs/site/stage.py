@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Puts what Doxygen reads into a folder, in the form that it understands: stage.py ROOT FOLDER [--headers].
 
-FOLDER/input has the pages and headers, FOLDER/html what is copied beside the pages of the site (pictures, data), and
+FOLDER/pages and FOLDER/include have what it reads, FOLDER/html what is copied beside the pages of the site (pictures, data), and
 FOLDER/layout.xml its sidebar: the sections of docs/README.md with their links. With --headers only headers are staged.
 """
 import re
@@ -79,13 +79,13 @@ class Site:
             text = markdown.staged(text, label, lambda address: self.target(page, address), self.keys)
             if label == "index":
                 text = text.replace("{#index}", "{#mainpage}", 1)
-            write(self.folder / "input" / f"{label}.md", text)
+            write(self.folder / "pages" / f"{label}.md", text)
         self.folder_page(self.root / "examples")
         done = set()
         while left := sorted(set(self.shown) - done):
             for path in left:
                 done.add(path)
-                write(self.folder / "input" / f"{self.shown[path]}.md", self.source(path))
+                write(self.folder / "pages" / f"{self.shown[path]}.md", self.source(path))
         for path in self.copied:
             target = self.folder / "html" / path.relative_to(self.root)
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -136,12 +136,12 @@ def stage_headers(root, folder, keys=(), pages=()):
             print(f"{path}:{line}: warning: Concept {concept} has no comment that begins with a sentence.", file=sys.stderr)
             unexplained += 1
         write(folder / path, headers.staged(text, inside, members, keys, pages))
-    write(folder / "namespaces.hpp", "/** @namespace nysalt Learned symplectic integrators. */\n")
+    write(folder / "pages/namespace.dox", "/** @namespace nysalt Learned symplectic integrators. */\n")
     return unexplained
 
 
 def layout(site):
-    """The sidebar: each section of docs/README.md with its links, then the C++ interface."""
+    """The sidebar: each section of docs/README.md with its links, the sources that they show, and the C++ interface."""
     groups = []
     index = site.root / "docs/README.md"
     for line, is_code in markdown.lines_with_code(index.read_text()):
@@ -152,14 +152,15 @@ def layout(site):
         if entry and groups and not is_code:
             found = markdown.link.match(entry.group(1))
             groups[-1][1].append((markdown.plain(found.group(2)), site.target(index, found.group(3))))
+    shown = sorted((str(path.relative_to(site.root)), f"{label}.html") for path, label in site.shown.items() if path.is_file())
+    groups.append(("Sources", shown))
     tabs = []
     for title, entries in groups:
         if entries:
             tabs.append(f'<tab type="usergroup" visible="yes" title="{xml(title)}">')
             tabs += [f'  <tab type="user" visible="yes" url="{xml(url)}" title="{xml(name)}"/>' for name, url in entries]
             tabs.append("</tab>")
-    text = (here / "layout.xml").read_text()
-    return text.replace("<!-- pages -->", "\n      ".join(tabs))
+    return (here / "layout.xml").read_text().replace("<!-- pages -->", "\n      ".join(tabs))
 
 
 def xml(text):
@@ -174,10 +175,10 @@ def main():
         return
     shutil.rmtree(folder, ignore_errors=True)
     site = Site(root, folder)
-    write(folder / "layout.xml", layout(site))
     site.write_pages()
+    write(folder / "layout.xml", layout(site))
     pages = {str(page.relative_to(root)): f"{label}.html" for page, label in site.pages.items()}
-    stage_headers(root, folder / "input", site.keys, pages)
+    sys.exit(1 if stage_headers(root, folder, site.keys, pages) else 0)
 
 
 if __name__ == "__main__":
