@@ -30,8 +30,9 @@ class bath {
     return {friction, std::sqrt(2.0 * friction * temperature), temperature};
   }
 
-  double friction() const { return friction_; }
-  double sigma() const { return sigma_; }
+  double friction() const { return friction_; }  ///< gamma, one over time
+  double sigma() const { return sigma_; }        ///< of the noise, for unit mass
+  /// Whether kT is known: not without friction, unless it was given.
   bool has_temperature() const { return temperature_.has_value(); }
   /// kT. Throws std::domain_error where there is noise, or might be, but no friction.
   double temperature() const {

@@ -14,6 +14,7 @@ class counter_noise {
  public:
   static constexpr bool draws_freely = true;
 
+  /// Of a run, or of what else the purpose says.
   explicit counter_noise(std::uint64_t seed, noise_purpose purpose = noise_purpose::bath)
       : seed_(seed), purpose_(purpose) {}
 
@@ -22,6 +23,7 @@ class counter_noise {
   void normals(const noise_place& at, vector<T, N>& xi) const {
     draw(purpose_, at, xi);
   }
+  /// Further numbers of a place, independent of the first. Throws as normals does.
   template <class T, int N>
   void halving(const noise_place& at, vector<T, N>& zeta) const {
     const bool is_burn_in = purpose_ == noise_purpose::burn_in;

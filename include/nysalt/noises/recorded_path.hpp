@@ -32,10 +32,12 @@ class coarse_graining {
   static void first(vector<T, N>& sum) {
     for (T& x : sum) x = T(0.0);
   }
+  /// sum <- a sum + xi.
   template <class T, int N>
   void next(vector<T, N>& sum, const vector<T, N>& xi) const {
     for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] = sum[i] * decay_ + xi[i];
   }
+  /// Scales the sum of n intervals; one or none is left as it is.
   template <class T, int N>
   void last(vector<T, N>& sum, std::int64_t n) const {
     if (n <= 1) return;  // of none, for a letter O that does nothing, there is no noise
@@ -46,6 +48,7 @@ class coarse_graining {
     for (T& x : sum) x = x * scale;
   }
 
+  /// All intervals in one, in their order; 0 if there are none.
   template <class T, int N>
   void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
     first(xi);
@@ -71,13 +74,13 @@ class recorded_path {
         "recorded_path: needs a positive interval and a friction >= 0, got {} and {}", interval, friction));
   }
 
-  double interval() const { return interval_; }
-  std::uint64_t trajectory() const { return trajectory_; }
+  double interval() const { return interval_; }             ///< length of each in time
+  std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
   /// Number of the first interval that is held, and of the one after the last.
   std::int64_t begin() const { return begin_; }
-  std::int64_t end() const { return begin_ + std::ssize(normals_); }
+  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< after the last that is held
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }
+  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of the next interval
   /// Whoever goes along the path in stretches keeps little of it.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());

@@ -35,9 +35,9 @@ class fpu_chain {
     }
   }
 
-  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }
+  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }  ///< m, stiff springs
   Eigen::Index size() const { return 2 * pairs(); }
-  double omega() const { return omega_; }
+  double omega() const { return omega_; }  ///< of the stiff springs
 
   template <class T>
   T potential(const vector<T, dimension>& q) const {

@@ -23,9 +23,9 @@ class long_fpu_chain {
   /// Throws std::invalid_argument unless pairs >= 1, omega positive and finite.
   long_fpu_chain(Eigen::Index pairs, double omega) : in_turn_(pairs, omega) {}
 
-  Eigen::Index pairs() const { return in_turn_.pairs(); }
+  Eigen::Index pairs() const { return in_turn_.pairs(); }  ///< m, stiff springs
   Eigen::Index size() const { return in_turn_.size(); }
-  double omega() const { return in_turn_.omega(); }
+  double omega() const { return in_turn_.omega(); }  ///< of the stiff springs
 
   /// Positions or momenta from the order of fpu_chain, mass after mass, to that of this chain; and back.
   /// Throw std::invalid_argument if there are not 2 m of them.
@@ -39,6 +39,7 @@ class long_fpu_chain {
     }
     return apart;
   }
+  /// From the order of this chain to that of fpu_chain. Throws likewise.
   template <class T>
   vector<T, dimension> ends_in_turn(const vector<T, dimension>& apart) const {
     require_size(apart.size());

@@ -26,7 +26,7 @@ class with_quadratic_part : public S {
     modes_ = stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
   }
 
-  const S& alone() const { return *this; }
+  const S& alone() const { return *this; }  ///< as it was given
   normal_modes modes() const { return modes_; }
 
   /// f + K q. Cost: a force and N^2 products.
