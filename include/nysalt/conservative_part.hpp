@@ -37,9 +37,11 @@ struct conservative_of<run_time_word> {
 
 }  // namespace detail
 
+/// The type of a word without its letters O; run_time_word is its own.
 template <Word W>
 using conservative_word = typename detail::conservative_of<W>::type;
 
+/// The word without its letters O.
 template <TypeLevelWord W>
 conservative_word<W> conservative_part(const W&) {
   return {};
@@ -61,6 +63,7 @@ inline void keep_conservative(const run_time_word& w, const auto& all, auto take
 }
 }  // namespace detail
 
+/// The coefficients of the letters that are left, one for each of their slots.
 template <TypeLevelWord W, class C>
 typename conservative_word<W>::template coefficients<C> conservative_part(
     const W& w, const std::array<C, W::slots>& all) {

@@ -26,8 +26,10 @@ namespace nysalt {
 ///   middle     S with its central letter X split: ... X/2 O X/2 ...
 enum class placement { end, symmetric, middle };
 
+/// All of them, in that order.
 inline constexpr std::array placements{placement::end, placement::symmetric, placement::middle};
 
+/// end, symmetric or middle, as programs and files write it.
 constexpr std::string_view to_string(placement p) {
   constexpr std::array<std::string_view, 3> names{"end", "symmetric", "middle"};
   return names[static_cast<std::size_t>(p)];

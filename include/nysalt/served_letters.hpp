@@ -27,6 +27,7 @@ consteval bool serves_all(std::index_sequence<I...>) {
 }
 }  // namespace detail
 
+/// Whether a letter R is among them, so that modes are needed.
 template <Word W>
 bool has_rotation(const W& word) {
   return word.letters().find(rotation::letter) != std::string::npos;

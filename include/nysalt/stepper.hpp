@@ -25,9 +25,9 @@ namespace nysalt {
 /// the bit.
 template <Scalar T, int N>
 struct open_run {
-  flow_state<T, N> state;
-  std::int64_t step = 0;
-  std::uint64_t trajectory = 0;  // whose noise it sees; that of lane 0
+  flow_state<T, N> state;        ///< ahead or behind, as said above
+  std::int64_t step = 0;         ///< how many are done
+  std::uint64_t trajectory = 0;  ///< whose noise it sees; that of lane 0
 };
 
 /// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
@@ -44,10 +44,11 @@ class stepper {
   }();
 
  public:
-  using system_type = S;
-  using noise_type = Noise;
-  static constexpr int dimension = S::dimension;
+  using system_type = S;                          ///< what it steps
+  using noise_type = Noise;                       ///< where its noise comes from
+  static constexpr int dimension = S::dimension;  ///< that of the system
 
+  /// One for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
 
   /// Throws std::invalid_argument if the step is zero or not finite; if a run-time word has another number
@@ -68,15 +69,16 @@ class stepper {
     }
     if (acts_) require_thermostat(word.letters());
   }
+  /// The same for a word that is known by its type.
   stepper(const S& system, const coefficients_type& coefficients, double step,
           const Noise& noise = {}) requires TypeLevelWord<W>
       : stepper(system, W{}, coefficients, step, noise) {}
   stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
-  double step_size() const { return step_; }
-  const S& system() const { return *system_; }
-  const Noise& noise() const { return noise_; }
+  double step_size() const { return step_; }     ///< h, negative back in time
+  const S& system() const { return *system_; }   ///< referred to
+  const Noise& noise() const { return noise_; }  ///< its own copy
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
   /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.
