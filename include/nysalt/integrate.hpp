@@ -15,9 +15,9 @@ namespace nysalt {
 /// How a trajectory ended. Where it diverged, `finish` is the state at that step.
 template <int N>
 struct outcome {
-  phase_point<double, N> finish;
-  std::int64_t steps = 0;
-  std::optional<std::int64_t> diverged_at;
+  phase_point<double, N> finish;            ///< the last state
+  std::int64_t steps = 0;                   ///< how many were taken
+  std::optional<std::int64_t> diverged_at;  ///< the first bad step; nothing where all went well
 };
 
 /// Takes `steps` steps of a stepper from start, with the noise of that trajectory. The observer is called as

@@ -19,6 +19,7 @@
 
 namespace nysalt {
 
+/// A word with its coefficients, and what it promises:
 ///   word, coefficients(), name()      and letters() where the word is a run_time_word
 ///   order, symmetric                  as declared; measured in the tests
 ///   requires_quadratic_kinetic        the order holds for K = p M^-1 p / 2 only
@@ -37,7 +38,7 @@ concept Method = Word<typename M::word> && requires(const M& method) {
 template <Family F>
 class member {
  public:
-  using family = F;
+  using family = F;  ///< whose member it is
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
@@ -64,12 +65,13 @@ class member {
 template <Family F>
 class tuned_method {
  public:
-  using family = F;
+  using family = F;  ///< whose member it is
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
+  /// `system` is what describe() says of it. Without energies, has_seen is true everywhere.
   tuned_method(const member<F>& plain, double step, std::string system,
                std::optional<energy_range> energies = {})
       : member_(plain), step_(step), system_(std::move(system)), energies_(energies) {}
@@ -78,8 +80,8 @@ class tuned_method {
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
   word letters() const { return member_.letters(); }
   std::string name() const { return "learned:" + member_.name(); }
-  double step() const { return step_; }
-  const std::string& system() const { return system_; }
+  double step() const { return step_; }                  ///< at which it was learned
+  const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
   /// Of the trajectories that it was learned from; nothing where nobody told.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
@@ -88,7 +90,7 @@ class tuned_method {
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !energies_ || energies_->contains(energy<double>(system, state));
   }
-  const member<F>& anywhere() const { return member_; }
+  const member<F>& anywhere() const { return member_; }  ///< valid at any step, for any system
 
   /// Throws std::invalid_argument at a step other than the learned one (to 1e-9 relative, as steps are
   /// typed in decimals) or for another system.

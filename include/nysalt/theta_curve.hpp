@@ -33,8 +33,8 @@ class theta_curve {
     throw std::invalid_argument("a curve of parameters needs rising steps, and as many finite ones at each");
   }
 
-  const std::vector<double>& steps() const { return steps_; }
-  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }
+  const std::vector<double>& steps() const { return steps_; }             ///< of the points, rising
+  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }  ///< what was learned at each
 
   /// To 1e-9 relative, as steps are typed in decimals.
   bool covers(double step) const {

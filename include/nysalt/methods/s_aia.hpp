@@ -90,7 +90,7 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   }
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
-  double highest_z() const { return highest_z_; }
+  double highest_z() const { return highest_z_; }  ///< as it was given
 
  private:
   double highest_z_;

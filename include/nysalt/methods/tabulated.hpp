@@ -15,9 +15,9 @@ namespace nysalt {
 
 /// What a method promises beside its coefficients.
 struct method_properties {
-  int order;
-  bool symmetric;
-  bool requires_quadratic_kinetic;
+  int order;                        ///< in h, as declared
+  bool symmetric;                   ///< whether a step back undoes a step
+  bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
 
 /// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
