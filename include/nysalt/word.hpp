@@ -120,8 +120,8 @@ struct word {
       "rest: a word has those of one splitting");
 
   /// Last and first letter of successive steps are applied as one.
-  static constexpr bool merges = /** @cond Doxygen takes it for another member */
-      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive /** @endcond */;
+  static constexpr bool merges =
+      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
 
   /// How many letters of the bath there are, and which of them, from 0 on, letter i is.
   static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
