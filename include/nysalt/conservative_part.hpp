@@ -46,7 +46,7 @@ template <TypeLevelWord W>
 conservative_word<W> conservative_part(const W&) {
   return {};
 }
-/// Throws std::invalid_argument if nothing is left.
+/// The same as data. Throws std::invalid_argument if nothing is left.
 inline run_time_word conservative_part(const run_time_word& w) {
   std::string letters = w.letters();
   std::erase(letters, ornstein_uhlenbeck::letter);
@@ -76,7 +76,7 @@ typename conservative_word<W>::template coefficients<C> conservative_part(
     return result;
   }
 }
-/// Throws std::invalid_argument unless there is a coefficient for each slot.
+/// The same as data. Throws std::invalid_argument unless there is a coefficient for each slot.
 template <class C>
 std::vector<C> conservative_part(const run_time_word& w, const std::vector<C>& all) {
   w.require_one_for_each_slot(all);

@@ -15,7 +15,7 @@ namespace nysalt {
 template <System S>
   requires(!std::is_final_v<S>)
 struct counted : S {
-  explicit counted(const S& system) : S(system) {}  ///< begins at 0
+  explicit counted(const S& system) : S(system) {}  ///< counts from 0
 
   /// One evaluation; of a black box one more for each direction in which it is differentiated.
   template <class T>

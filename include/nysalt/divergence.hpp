@@ -29,7 +29,8 @@ class divergence {
  public:
   using state = phase_point<T, S::dimension>;  ///< over double, or over packs
 
-  /// Refers to the system. Cost: one energy, where there is one.
+  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: one energy,
+  /// where there is one.
   divergence(const S& system, const state& start) : system_(&system) {
     if constexpr (HasEnergy<S>) {
       initial_ = energy_in_lanes<T>(system, start);

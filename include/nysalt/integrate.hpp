@@ -89,6 +89,7 @@ outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
+/// The same for a method at a step, unobserved.
 template <System S, Method M>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {

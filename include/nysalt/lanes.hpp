@@ -84,7 +84,7 @@ lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
   return a & b;
 }
 
-/// That of the trajectory in lane k.
+/// The vector of the trajectory in lane k.
 template <class T, int N>
 vector<double, N> lane(const vector<T, N>& x, int k) {
   vector<double, N> result(x.size());
@@ -110,7 +110,7 @@ void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) 
   }
 }
 
-/// Lanes 0..count - 1.
+/// The lanes 0..count - 1.
 template <class T>
 condition_of<T> first_lanes(int count) {
   condition_of<T> result(false);

@@ -32,9 +32,9 @@ class lockstep {
   using state = phase_point<T, dimension>;              ///< of all lanes
   using condition = condition_of<T>;                    ///< a bool for one lane, else a mask
 
-  /// Refers to the stepper. Lanes from `count` on hold no trajectory; lane 0 holds number `first`, whose
-  /// noise it sees. Throws std::invalid_argument if the start does not fit; that it is finite is up to the
-  /// caller.
+  /// Trajectories that begin at `start`. Refers to the stepper. Lanes from `count` on hold no trajectory;
+  /// lane 0 holds number `first`, whose noise it sees. Throws std::invalid_argument if the start does not
+  /// fit; that it is finite is up to the caller.
   lockstep(const Stepper& stepper, const state& start, int count, std::int64_t first = 0)
       : stepper_(&stepper),
         run_(stepper.open(start, static_cast<std::uint64_t>(first))),
@@ -84,15 +84,15 @@ class lockstep {
       }
     }
   }
-  /// The same unobserved.
+  /// Goes on to step `end`, unobserved.
   void go_on(std::int64_t end) {
     go_on(
         end, std::max<std::int64_t>(end, 1), 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
   }
 
-  std::int64_t step() const { return run_.step; }              ///< the same for all
+  std::int64_t step() const { return run_.step; }              ///< at which all are
   const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
-  /// Of lanes that diverged nothing is known but when.
+  /// The states at that step. Of lanes that diverged nothing is known but when.
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }  ///< those that go on
   /// The step at which lane k diverged; nothing while it goes on.

@@ -44,7 +44,7 @@ class member {
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
-  /// Throws std::invalid_argument if a parameter is out of its range.
+  /// The member of a family at theta. Throws std::invalid_argument if a parameter is out of its range.
   explicit member(const parameters_of<F>& theta, const F& family = {}) : theta_(theta), family_(family) {
     require_in_range<F>(theta);
   }
@@ -82,7 +82,7 @@ class tuned_method {
   std::string name() const { return "learned:" + member_.name(); }
   double step() const { return step_; }                  ///< at which it was learned
   const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
-  /// Of the trajectories that it was learned from; nothing where nobody told.
+  /// The energies of the trajectories that it was learned from; nothing where nobody told.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
   /// of many starts learning/energies_outside.hpp tells whether that is chance.
@@ -92,8 +92,8 @@ class tuned_method {
   }
   const member<F>& anywhere() const { return member_; }  ///< valid at any step, for any system
 
-  /// Throws std::invalid_argument at a step other than the learned one (to 1e-9 relative, as steps are
-  /// typed in decimals) or for another system.
+  /// Refuses where it is not valid: throws std::invalid_argument at a step other than the learned one (to
+  /// 1e-9 relative, as steps are typed in decimals) or for another system.
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
       throw std::invalid_argument(

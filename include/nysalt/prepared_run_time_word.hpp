@@ -14,14 +14,16 @@
 
 namespace nysalt {
 
-/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined
-/// where it is used: each scalar is compiled once, and a call costs little beside the decisions.
+/// Of letters as data: one decision a letter, the same operations in the same order, hence the same bits.
+/// Nothing is inlined where it is used: each scalar is compiled once, and a call costs little beside the
+/// decisions.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
   static constexpr bool needs_room = true;  // perhaps
 
-  /// Throws std::invalid_argument unless there is a coefficient for each slot.
+  /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
+  /// coefficient for each slot.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& its)
       : merges_(w.merges),
         halves_meet_(w.halves_meet),

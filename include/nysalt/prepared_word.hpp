@@ -53,7 +53,7 @@ auto prepare_letter(const C* c, double h, const surroundings_of_word& its) {
 template <class W, Scalar C, int N>
 class prepared_word;
 
-/// Unrolled, nothing is decided while stepping.
+/// Of letters known at compile time: unrolled, nothing is decided while stepping.
 template <Scalar C, int N, Flow... L>
 class prepared_word<word<L...>, C, N> {
   using W = word<L...>;

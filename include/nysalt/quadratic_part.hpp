@@ -26,7 +26,8 @@ class quadratic_part {
     double light;             ///< U m^{-1/2}: p to y, and x to q
   };
 
-  /// Throws std::invalid_argument unless there is a finite column and a frequency >= 0 for each coordinate.
+  /// That of a system, by its modes(). Throws std::invalid_argument unless there is a finite column and a
+  /// frequency >= 0 for each coordinate.
   template <System S>
   static std::shared_ptr<const quadratic_part> of(const S& system) {
     const normal_modes modes = system.modes();

@@ -76,7 +76,7 @@ class run_time_family {
   /// d c_i / d theta_k in row i, column k.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& theta) const { return jacobian_(theta); }
 
-  /// Within the open ranges: beyond them the coefficients are not defined.
+  /// Whether theta is within the open ranges: beyond them the coefficients are not defined.
   bool is_defined(const Eigen::VectorXd& theta) const {
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
@@ -84,7 +84,7 @@ class run_time_family {
     return true;
   }
 
-  /// Within all ranges, open or closed.
+  /// Whether theta is within all ranges, open or closed.
   bool is_in_range(const Eigen::VectorXd& theta) const {
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       if (!ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
@@ -92,7 +92,7 @@ class run_time_family {
     return true;
   }
 
-  /// The same with letters O at a placement. Throws std::invalid_argument if it has some already, or no
+  /// A family with letters O at a placement. Throws std::invalid_argument if it has some already, or no
   /// central letter to split.
   friend run_time_family thermostatted(const run_time_family& plain, placement where) {
     run_time_family result = plain;

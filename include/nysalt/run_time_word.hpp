@@ -89,7 +89,7 @@ class run_time_word {
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
 
-  /// Throws std::invalid_argument otherwise.
+  /// Throws std::invalid_argument unless there are as many coefficients as slots.
   void require_one_for_each_slot(const auto& coefficients) const {
     if (coefficients.size() == slots) return;
     const std::string two = slots > length ? fmt::format(" and {} coefficients", slots) : "";
@@ -134,7 +134,7 @@ class run_time_word {
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 
-/// It reads the same from both ends, letters and coefficients.
+/// Whether a method reads the same from both ends, letters and coefficients.
 inline bool is_palindrome(const run_time_word& word, const std::vector<double>& coefficients) {
   for (std::size_t i = 0, j = word.length; i < j--; ++i) {
     if (word.letters()[i] != word.letters()[j]) return false;
@@ -145,7 +145,7 @@ inline bool is_palindrome(const run_time_word& word, const std::vector<double>& 
   return true;
 }
 
-/// What a stepper takes.
+/// A word as a type or as data: what a stepper takes.
 template <class W>
 concept Word = TypeLevelWord<W> || std::same_as<W, run_time_word>;
 

@@ -30,7 +30,7 @@ template <class C, class T>
 concept CoefficientOf = Scalar<C> && Scalar<T> && (std::same_as<C, double> || std::same_as<C, T>);
 // clang-format on
 
-/// The same, said of the state's scalar.
+/// States over T can be stepped with coefficients C: CoefficientOf, said of the state's scalar.
 template <class T, class C>
 concept SteppedBy = CoefficientOf<C, T>;
 

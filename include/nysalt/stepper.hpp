@@ -51,9 +51,10 @@ class stepper {
   /// One for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
 
-  /// Throws std::invalid_argument if the step is zero or not finite; if a run-time word has another number
-  /// of slots than of coefficients, or a letter that the system does not serve; if a bath acts and the word
-  /// has no letter O; or if it is noisy and there is no noise. A negative step goes back in time.
+  /// Prepares the letters for the step, once for all runs. Throws std::invalid_argument if the step is zero
+  /// or not finite; if a run-time word has another number of slots than of coefficients, or a letter that the
+  /// system does not serve; if a bath acts and the word has no letter O; or if it is noisy and there is no
+  /// noise. A negative step goes back in time.
   stepper(const S& system, const W& word, const coefficients_type& coefficients, double step,
           const Noise& noise = {})
       : system_(&system),
@@ -77,8 +78,8 @@ class stepper {
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
   double step_size() const { return step_; }     ///< h, negative back in time
-  const S& system() const { return *system_; }   ///< referred to
-  const Noise& noise() const { return noise_; }  ///< its own copy
+  const S& system() const { return *system_; }   ///< not a copy
+  const Noise& noise() const { return noise_; }  ///< a copy
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
   /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.
@@ -93,10 +94,10 @@ class stepper {
     return run;
   }
 
-  /// THE loop. Cost: steps times the word's evaluations_per_step, and a normal number for each momentum and
-  /// letter O. Allocates nothing that the force does not; of a dynamic size, one vector
-  /// with noise and a few for the letters G, R, H.
-  /// Throws std::invalid_argument if steps < 0. If the force throws, the run is lost: go on from a copy.
+  /// Takes so many steps: THE loop. Cost: steps times the word's evaluations_per_step, and a normal number
+  /// for each momentum and letter O. Allocates nothing that the force does not; of a dynamic size, one vector
+  /// with noise and a few for the letters G, R, H. Throws std::invalid_argument if steps < 0. If the force
+  /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
     if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));

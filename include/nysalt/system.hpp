@@ -172,7 +172,7 @@ concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, det
                                    (BlackBoxForce<S> && detail::is_dual_of_double<T>));
 // clang-format on
 
-/// H = K(p) + V(q): kicks and drifts are exact.
+/// H = K(p) + V(q), with a force over double and over dual numbers: kicks and drifts are exact.
 template <class S>
 concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>>;
 
@@ -180,8 +180,8 @@ concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>
 template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
-/// The same of systems that need not be separable over double; order_probe, whose K is decided while running,
-/// says so.
+/// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
+/// while running, says so itself.
 template <class S>
 concept HasQuadraticKinetic = System<S> &&((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                            requires { requires S::may_have_quadratic_kinetic; });
@@ -192,7 +192,7 @@ template <class S>
 concept HasQuadraticPart = NystromSystem<S> && HasModes<S> && HasSoftForce<S>;
 
 // clang-format off
-/// H can be evaluated.
+/// H = K + V can be evaluated over T.
 template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
@@ -207,7 +207,7 @@ Eigen::Index size(const S& system) {
   }
 }
 
-/// A vector of the system's dimension.
+/// A vector of the system's dimension, its entries not set.
 template <Scalar T, System S>
 vector<T, S::dimension> make_vector(const S& system) {
   return vector<T, S::dimension>(size(system));

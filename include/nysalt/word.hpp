@@ -84,7 +84,8 @@ constexpr bool mixes_splittings(std::string_view letters) {
 }
 }  // namespace detail
 
-/// Letters act from left to right: word<kick, drift, kick> is velocity Verlet.
+/// A method by its letters, as a type. They act from left to right: word<kick, drift, kick> is velocity
+/// Verlet.
 ///
 /// A run over many steps is held open: the first letter is already applied. Where the last letter is the
 /// first one again (and additive), the two become one; and a force is reused while q has not moved.
@@ -123,7 +124,7 @@ struct word {
   static constexpr bool merges =
       length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
 
-  /// How many letters of the bath there are, and which of them, from 0 on, letter i is.
+  /// How many letters of the bath there are.
   static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
   /// Which of the letters of the bath letter i is, from 0 on: how many come before it.
   static constexpr int stochastic_number(std::size_t i) {
@@ -145,10 +146,10 @@ struct word {
   /// How many f'(q) v a step evaluates, each of which counts as one force evaluation.
   static constexpr int force_derivatives =
       (0 + ... + L::force_derivatives);  // none is in a letter that merges
-  /// Force evaluations: of a step of an open run, to open one, and of a plain step from q and p alone.
+  /// Force evaluations of a step of an open run.
   static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives;
-  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< once a run
-  /// As much as a step costs that does not know what the one before evaluated.
+  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< those to open a run
+  /// Those of a plain step, which begins with q and p alone.
   static constexpr int evaluations_of_plain_step = plan.count(plan.in_step) + force_derivatives;
 };
 

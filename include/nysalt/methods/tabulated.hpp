@@ -27,7 +27,8 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// Throws std::invalid_argument unless there is a finite coefficient for each slot.
+  /// From letters, one coefficient for each of their slots, and promises. Throws std::invalid_argument unless
+  /// there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),

@@ -14,11 +14,12 @@ class counter_noise {
  public:
   static constexpr bool draws_freely = true;
 
-  /// Of a run, or of what else the purpose says.
+  /// `purpose` keeps it apart from all other noise of the same seed.
   explicit counter_noise(std::uint64_t seed, noise_purpose purpose = noise_purpose::bath)
       : seed_(seed), purpose_(purpose) {}
 
-  /// Throws std::invalid_argument if the place is beyond what can be counted (2^48 trajectories and steps).
+  /// The standard normal numbers of a place. Throws std::invalid_argument if the place is beyond what can be
+  /// counted (2^48 trajectories and steps).
   template <class T, int N>
   void normals(const noise_place& at, vector<T, N>& xi) const {
     draw(purpose_, at, xi);

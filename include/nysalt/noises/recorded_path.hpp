@@ -24,7 +24,7 @@ namespace nysalt {
 /// exponent that does not reverse time].
 class coarse_graining {
  public:
-  /// gamma tau of one interval.
+  /// `damping` is gamma tau of one interval.
   explicit coarse_graining(double damping) : damping_(damping), decay_(std::exp(-damping)) {}
 
   /// Interval by interval: first() clears the sum, next() adds, and last() brings that of n to unit variance.
@@ -66,7 +66,8 @@ class coarse_graining {
 template <class T, int N>
 class recorded_path {
  public:
-  /// Throws std::invalid_argument unless the interval is positive and the friction not negative, and finite.
+  /// An empty path, in a bath of that friction. Throws std::invalid_argument unless the interval is positive
+  /// and the friction not negative, and finite.
   recorded_path(double interval, double friction, std::uint64_t trajectory = 0)
       : interval_(interval), trajectory_(trajectory), coarse_(friction * interval) {
     if (interval > 0.0 && std::isfinite(interval) && friction >= 0.0 && std::isfinite(friction)) return;
@@ -76,19 +77,20 @@ class recorded_path {
 
   double interval() const { return interval_; }             ///< length of each in time
   std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
-  /// Number of the first interval that is held, and of the one after the last.
+  /// Number of the first interval that is held.
   std::int64_t begin() const { return begin_; }
-  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< after the last that is held
+  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< that of the next one
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of the next interval
-  /// Whoever goes along the path in stretches keeps little of it.
+  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< those of the next one
+  /// Forgets the intervals before that number: whoever goes along the path in stretches keeps little of it.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());
     normals_.erase(normals_.begin(), normals_.begin() + (known - begin_));
     begin_ = known;
   }
 
-  /// Those of intervals from .. to - 1 in one. Throws std::invalid_argument if they are not held.
+  /// The numbers of intervals from .. to - 1 made those of one. Throws std::invalid_argument if they are not
+  /// held.
   void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
     if (from < begin_ || to > end()) {
       throw std::invalid_argument(fmt::format(

@@ -128,7 +128,7 @@ compensated<T> abs(const compensated<T>& a) {
   using std::abs;
   return T(abs(a.value));
 }
-/// The exponent is a constant.
+/// Of the value; the exponent is a constant.
 template <class T>
 compensated<T> pow(const compensated<T>& a, double exponent) {
   using std::pow;

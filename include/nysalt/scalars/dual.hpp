@@ -16,7 +16,7 @@ namespace nysalt {
 /// Cost: an operation on dual<T, N> is N + 1 to 2 N + 1 operations on T.
 template <Scalar T, int N>
 struct dual {
-  using value_type = T;                  ///< may be a dual or a pack itself
+  using value_type = T;                  ///< which may be a dual or a pack itself
   static constexpr int derivatives = N;  ///< how many are carried
 
   T value{};                      ///< of the function
@@ -178,14 +178,14 @@ dual<T, N> tanh(const dual<T, N>& a) {
   const T value = tanh(a.value);
   return a.chain(value, T(1.0) - value * value);
 }
-/// The exponent is a constant.
+/// (a^c)' = c a^(c - 1) a'; the exponent is a constant.
 template <class T, int N>
 dual<T, N> pow(const dual<T, N>& a, double exponent) {
   using std::pow;
   const T slope = exponent == 0.0 ? T(0.0) : T(exponent * pow(a.value, exponent - 1.0));
   return a.chain(pow(a.value, exponent), slope);
 }
-/// The derivative at 0 is taken from the right.
+/// Absolute value. The derivative at 0 is taken from the right.
 template <class T, int N>
 dual<T, N> abs(const dual<T, N>& a) {
   return select(a.value < 0.0, -a, a);

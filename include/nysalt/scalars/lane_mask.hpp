@@ -14,7 +14,7 @@ namespace nysalt {
 template <int W>
 class lane_mask {
  public:
-  static constexpr int lanes = W;                              ///< of the packs that were compared
+  static constexpr int lanes = W;                              ///< W, of the packs that were compared
   static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
   using part = typename detail::native_vector<of_part>::mask;  ///< a register: of a lane all bits, or none
 

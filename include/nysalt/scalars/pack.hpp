@@ -129,7 +129,7 @@ inline constexpr bool is_pack = false;
 template <class T, int W>
 inline constexpr bool is_pack<pack<T, W>> = true;  ///< it is
 
-/// Rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
+/// Square root, rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
 template <int W>
 pack<double, W> sqrt(const pack<double, W>& a) {
   pack<double, W> result;
@@ -191,7 +191,7 @@ template <int W>
 pack<double, W> tanh(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::tanh(x); });
 }
-/// The exponent is a constant.
+/// libm's, lane by lane; the exponent is a constant.
 template <int W>
 pack<double, W> pow(const pack<double, W>& a, double exponent) {
   return detail::by_lane(a, [&](double x) { return std::pow(x, exponent); });

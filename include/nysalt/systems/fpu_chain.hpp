@@ -22,10 +22,11 @@ class fpu_chain {
  public:
   static constexpr int dimension = Pairs == Eigen::Dynamic ? Eigen::Dynamic : 2 * Pairs;
 
-  /// Throws std::invalid_argument unless omega is positive and finite.
+  /// Stiff springs of frequency omega. Throws std::invalid_argument unless omega is positive and finite.
   explicit fpu_chain(double omega) requires(Pairs != Eigen::Dynamic) : fpu_chain(Pairs, omega) {}
 
-  /// Throws std::invalid_argument unless pairs >= 1 (and fits Pairs), omega positive and finite.
+  /// `pairs` stiff springs of frequency omega. Throws std::invalid_argument unless pairs >= 1 (and fits
+  /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
       throw std::invalid_argument(fmt::format("fpu_chain: cannot have {} pairs of masses", pairs));
@@ -73,7 +74,7 @@ class fpu_chain {
     }
   }
 
-  /// That of the soft bonds alone.
+  /// The force of the soft bonds alone.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     T left = quartic_pull(q[0]);

@@ -21,7 +21,7 @@ class in_bath : public S {
   const nysalt::bath& bath() const { return bath_; }
   const S& alone() const { return *this; }  ///< without the bath
 
-  /// A bath that does not act goes without saying.
+  /// The system, and the bath that it is in; one that does not act goes without saying.
   std::string description() const {
     if (!bath_.acts()) return describe(alone());
     return fmt::format("{} in {}", describe(alone()), bath_.description());

@@ -52,7 +52,7 @@ class lennard_jones {
     return sum * 4.0;
   }
 
-  /// On the first of a pair at distance d: (48 r^-14 - 24 r^-8) d.
+  /// f = -grad V(q): (48 r^-14 - 24 r^-8) d on the first of a pair, d being the way to it from the second.
   template <class T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (auto& entry : f) entry = T(0.0);
