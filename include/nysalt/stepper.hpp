@@ -46,7 +46,7 @@ class stepper {
  public:
   using system_type = S;                          ///< what it steps
   using noise_type = Noise;                       ///< where its noise comes from
-  static constexpr int dimension = S::dimension;  ///< that of the system
+  static constexpr int dimension = S::dimension;  ///< degrees of freedom
 
   /// One for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
@@ -77,9 +77,9 @@ class stepper {
   stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
-  double step_size() const { return step_; }     ///< h, negative back in time
-  const S& system() const { return *system_; }   ///< not a copy
-  const Noise& noise() const { return noise_; }  ///< a copy
+  double step_size() const { return step_; }     ///< h; back in time it is negative
+  const S& system() const { return *system_; }   ///< that it steps, no copy
+  const Noise& noise() const { return noise_; }  ///< a copy of its source
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
   /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.

@@ -79,9 +79,9 @@ class recorded_path {
   std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
   /// Number of the first interval that is held.
   std::int64_t begin() const { return begin_; }
-  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< that of the next one
+  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< number of the one after the last
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< those of the next one
+  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of interval end()
   /// Forgets the intervals before that number: whoever goes along the path in stretches keeps little of it.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());
