@@ -15,8 +15,8 @@ namespace nysalt {
 
 /// x_0 and y_0 of every pair.
 struct soft_motion {
-  double displacement = 1.0;
-  double velocity = 1.0;
+  double displacement = 1.0;  ///< x_0 of every pair
+  double velocity = 1.0;      ///< y_0 of every pair
 };
 
 /// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given, and x_1 = 1/omega +
@@ -44,6 +44,7 @@ class fpu_law {
     return fpu_law(chain, 1.0, {std::sqrt(chain.omega()), chain.omega() / std::sqrt(m)});
   }
 
+  /// The start of trajectory n.
   phase_point<double, fpu_chain<Pairs>::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
     using state = vector<double, fpu_chain<Pairs>::dimension>;
     phase_point<double, fpu_chain<Pairs>::dimension> start{state(2 * pairs_), state(2 * pairs_)};
@@ -60,6 +61,7 @@ class fpu_law {
     }
     return start;
   }
+  /// Name and parameters, for provenance.
   std::string description() const {
     std::string text = fmt::format("fpu_law(omega={}", omega_);
     if (spread_ != 1.0) text += fmt::format(", spread={}", spread_);

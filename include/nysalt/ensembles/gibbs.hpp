@@ -38,8 +38,10 @@ class gibbs {
     report_ = burn_in_search<S, E>(alone_, temperature_, from_, options).find();
   }
 
+  /// How chains are burned in, and what was checked.
   const burn_in_report& report() const { return report_; }
 
+  /// The start of trajectory n. Throws std::runtime_error if its chain diverges.
   phase_point<double, S::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
     return block<double>(seed, static_cast<std::int64_t>(n), 1);
   }
@@ -62,6 +64,7 @@ class gibbs {
     return x;
   }
 
+  /// Name, parameters and burn-in, for provenance.
   std::string description() const {
     return fmt::format(
         "gibbs(temperature={:.6g}, from {}, burned in for {:.4g} with friction {:.4g} and step {:.4g})",

@@ -16,6 +16,7 @@ namespace nysalt {
 template <int N>
 class listed {
  public:
+  /// Trajectory n starts at states[n].
   explicit listed(std::vector<phase_point<double, N>> states) : states_(std::move(states)) {}
 
   /// Throws std::out_of_range beyond the last state.
@@ -26,6 +27,7 @@ class listed {
     }
     return states_[n];
   }
+  /// How many there are, for provenance.
   std::string description() const { return fmt::format("listed({} states)", states_.size()); }
 
  private:

@@ -55,8 +55,8 @@ class exact_linear {
     point.p = (modes_.basis * y).cwiseProduct(root_mass_);
   }
 
-  exact_linear finer() const { return *this; }
-  std::string description() const { return "the exact linear flow"; }
+  exact_linear finer() const { return *this; }                         ///< itself: nothing is finer
+  std::string description() const { return "the exact linear flow"; }  ///< for provenance
 
  private:
   static constexpr double eps = std::numeric_limits<double>::epsilon();
