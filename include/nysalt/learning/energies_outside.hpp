@@ -22,14 +22,14 @@ namespace nysalt {
 /// than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT log(M + 1) wide. Chance is
 /// left aside if it would do this once in a thousand times.
 struct energies_outside {
-  static constexpr double chance = 1e-3;
+  static constexpr double chance = 1e-3;  ///< a probability below which chance is left aside
 
-  energy_range seen;
-  std::size_t trajectories = 0;  // M
-  std::size_t looked_at = 0;     // n
-  std::size_t outside = 0;
-  double farthest = 0.0;
-  energy_range energies{};  // of these starts
+  energy_range seen;             ///< the energies of the data
+  std::size_t trajectories = 0;  ///< M, of the data
+  std::size_t looked_at = 0;     ///< n, starts
+  std::size_t outside = 0;       ///< how many of n are
+  double farthest = 0.0;         ///< distance of the farthest energy from the range, an energy
+  energy_range energies{};       ///< the energies of these starts
 
   /// There are too many, or one is too far.
   bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
@@ -57,6 +57,7 @@ struct energies_outside {
            std::max(0.0, std::log(static_cast<double>(looked_at) / (m * chance)) / std::log(m));
   }
 
+  /// A sentence with the numbers.
   std::string report() const {
     return fmt::format(
         "{} of {} starts have energies outside {:.6g} to {:.6g}, on which it was learned (they go from "

@@ -18,11 +18,12 @@ namespace nysalt {
 /// Of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J, which is
 /// half of Gauss-Newton's Hessian.
 struct squares {
-  double value = 0.0;
-  Eigen::VectorXd half_gradient;
-  Eigen::MatrixXd normal_matrix;
+  double value = 0.0;             ///< r^T r
+  Eigen::VectorXd half_gradient;  ///< J^T r
+  Eigen::MatrixXd normal_matrix;  ///< J^T J
 
-  Eigen::VectorXd gradient() const { return 2.0 * half_gradient; }
+  Eigen::VectorXd gradient() const { return 2.0 * half_gradient; }  ///< of the loss: 2 J^T r
+  /// Whether all numbers are.
   bool is_finite() const {
     return std::isfinite(value) && half_gradient.allFinite() && normal_matrix.allFinite();
   }
@@ -35,6 +36,7 @@ std::array<double, N> array_of(const Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < N; ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
   return result;
 }
+/// The reverse of array_of().
 template <std::size_t N>
 Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
@@ -96,6 +98,7 @@ std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& t
   for (const auto& sum : loss.sums(theta, false, zero, of_stretch)) result.push_back(sum[0]);
   return result;
 }
+/// The loss, of all ranks. Cost: one pass over the data.
 template <class Loss>
 double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
   return loss.share().sum(trajectory_losses(loss, theta));

@@ -11,13 +11,13 @@ namespace nysalt {
 /// (x, y) <- (xx x + xy y, yx x + yy y); the identity unless told.
 template <Scalar T>
 struct plane_map {
-  T xx{1.0};
-  T xy{0.0};
-  T yx{0.0};
-  T yy{1.0};
+  T xx{1.0};  ///< to x from x
+  T xy{0.0};  ///< to x from y
+  T yx{0.0};  ///< to y from x
+  T yy{1.0};  ///< to y from y
 
-  T trace() const { return xx + yy; }
-  T determinant() const { return xx * yy - xy * yx; }
+  T trace() const { return xx + yy; }                  ///< sum of the eigenvalues
+  T determinant() const { return xx * yy - xy * yx; }  ///< product of the eigenvalues
 };
 
 /// First a, then b: the matrix b a.
@@ -30,13 +30,15 @@ plane_map<T> then(const plane_map<T>& a, const plane_map<T>& b) {
 /// A symmetric matrix.
 template <Scalar T>
 struct plane_covariance {
-  T xx{0.0};
-  T xy{0.0};
-  T yy{0.0};
+  T xx{0.0};  ///< variance of x
+  T xy{0.0};  ///< covariance of x and y
+  T yy{0.0};  ///< variance of y
 
+  /// Entry by entry.
   friend plane_covariance operator+(const plane_covariance& a, const plane_covariance& b) {
     return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
   }
+  /// Every entry times c.
   friend plane_covariance operator*(const plane_covariance& a, const T& c) {
     return {a.xx * c, a.xy * c, a.yy * c};
   }

@@ -20,6 +20,7 @@ namespace nysalt {
 /// energy  omega_k x_k and y_k with one common weight: the energy norm of the quadratic part
 enum class coordinates { qp, modes, energy };
 
+/// The name of the enumerator.
 inline std::string to_string(coordinates c) {
   return c == coordinates::qp ? "qp" : c == coordinates::modes ? "modes" : "energy";
 }
