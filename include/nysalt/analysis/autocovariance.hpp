@@ -42,8 +42,8 @@ class autocovariance {
     }
   }
 
-  std::size_t lags() const { return total_.size() - 1; }
-  double interval() const { return interval_; }
+  std::size_t lags() const { return total_.size() - 1; }  ///< L, the largest lag
+  double interval() const { return interval_; }           ///< time between samples, that of one lag
   /// Those that count.
   std::size_t groups() const { return groups_.size(); }
   /// NaN if no trajectory counts.

@@ -18,17 +18,19 @@ namespace nysalt {
 /// Of some trajectories at one lag k, over all pairs of samples y_t, y_{t+k} of one trajectory: their number,
 /// and the sums of y_t y_{t+k}, of y_t and of y_{t+k}, where y is the observable less a centre.
 struct pair_sums {
-  double pairs = 0.0;
-  double products = 0.0;
-  double heads = 0.0;
-  double tails = 0.0;
+  double pairs = 0.0;     ///< number of pairs
+  double products = 0.0;  ///< sum of y_t y_{t+k}
+  double heads = 0.0;     ///< sum of y_t
+  double tails = 0.0;     ///< sum of y_{t+k}
 
   /// C = mean y_t y_{t+k} - mean y_t mean y_{t+k}; NaN if there is no pair.
   double covariance() const { return products / pairs - (heads / pairs) * (tails / pairs); }
 
+  /// Over the pairs of both.
   friend pair_sums operator+(const pair_sums& a, const pair_sums& b) {
     return {a.pairs + b.pairs, a.products + b.products, a.heads + b.heads, a.tails + b.tails};
   }
+  /// Over the pairs of a that are not those of b.
   friend pair_sums operator-(const pair_sums& a, const pair_sums& b) {
     return {a.pairs - b.pairs, a.products - b.products, a.heads - b.heads, a.tails - b.tails};
   }
@@ -61,6 +63,7 @@ class autocovariance_along {
     products_.assign(lags_ + 1, T(0.0));
   }
 
+  /// The next sample, one number a lane.
   void add(const T& x) {
     const T y = x - centre_;
     if (first_.size() < lags_) first_.push_back(y);

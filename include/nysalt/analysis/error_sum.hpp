@@ -15,16 +15,17 @@ namespace nysalt {
 
 /// What is left of a run: its score, or NaN and the step at which it diverged.
 struct run_score {
+  /// What the trajectory contributes, see error_measure::score(); NaN if it diverged.
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::int64_t> diverged_at = {};
+  std::optional<std::int64_t> diverged_at = {};  ///< the step, if it did
 };
 
 /// The errors of one trajectory in each lane, added up in the order of time. None is kept.
 template <int N, int W>
 class error_sum {
  public:
-  using T = scalar_of_lanes<W>;
-  using numbers = std::span<const T>;
+  using T = scalar_of_lanes<W>;        ///< double, or a pack of W
+  using numbers = std::span<const T>;  ///< those of one state
 
   /// Refers to the measure.
   explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}

@@ -21,12 +21,12 @@ namespace nysalt {
 /// `count` bins of equal width on [low, high]. A number on an edge belongs to the bin above it, to rounding;
 /// `high` itself to the last bin.
 struct equal_bins {
-  double low;
-  double high;
-  int count;
+  double low;   ///< where the first bin begins
+  double high;  ///< where the last bin ends
+  int count;    ///< number of bins
 
-  double width() const { return (high - low) / count; }
-  friend bool operator==(const equal_bins&, const equal_bins&) = default;
+  double width() const { return (high - low) / count; }                    ///< of a bin
+  friend bool operator==(const equal_bins&, const equal_bins&) = default;  ///< equal in all
 };
 
 /// Counts in equal bins, and in two further ones for what lies below and above. They are integers: the order
@@ -73,9 +73,10 @@ class histogram {
     return *this;
   }
 
-  const equal_bins& bins() const { return bins_; }
+  const equal_bins& bins() const { return bins_; }  ///< where numbers are counted
   /// Below, the bins from low to high, above.
   std::span<const std::int64_t> counts() const { return counts_; }
+  /// How many numbers were added.
   std::int64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
   /// Of all that was added, in the order of counts(). Throws std::invalid_argument if nothing was.
@@ -93,6 +94,7 @@ class histogram {
     for (double& fraction : result) fraction /= bins_.width();
     return result;
   }
+  /// Throws std::invalid_argument if the bins differ.
   void require_bins_of(const histogram& other) const {
     if (bins_ == other.bins_) return;
     throw std::invalid_argument(fmt::format(
@@ -123,8 +125,10 @@ class histogram {
 template <class T>
 class histogram_along {
  public:
+  /// Empty. Throws like histogram.
   explicit histogram_along(const equal_bins& bins) : in_lanes_(lanes_in<T>, histogram(bins)) {}
 
+  /// One number in each lane.
   void add(const T& x) {
     const T places = in_lanes_.front().place(x);
     for (int k = 0; k < lanes_in<T>; ++k) in_lanes_[static_cast<std::size_t>(k)].count(lane(places, k));

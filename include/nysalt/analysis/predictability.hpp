@@ -35,8 +35,9 @@ phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t 
 template <int W>
 class predictable_samples {
  public:
-  using T = scalar_of_lanes<W>;
+  using T = scalar_of_lanes<W>;  ///< double, or a pack of W
 
+  /// `how` tells whether sums of errors are of squares: all but averaging::mean.
   explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
 
   /// The sums over the samples up to i = 1, 2, ..., in this order.

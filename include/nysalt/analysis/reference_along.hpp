@@ -23,10 +23,10 @@ namespace nysalt {
 template <SeparableSystem S, Reference<S> R>
 class reference_along {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
-  using T = typename measures_type::T;
-  using state = phase_point<T, S::dimension>;
-  using path_type = recorded_path<T, S::dimension>;
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
+  using T = typename measures_type::T;         ///< double, or a pack of as many lanes as the system takes
+  using state = phase_point<T, S::dimension>;  ///< states of all lanes
+  using path_type = recorded_path<T, S::dimension>;  ///< noise, in parts of a step
 
   /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
   /// place's. The noise of each step is added to the path in so many parts.
