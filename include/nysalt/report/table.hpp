@@ -29,9 +29,11 @@ class table {
     rows_.push_back(std::move(cells));
   }
 
-  bool empty() const { return rows_.empty(); }
+  bool empty() const { return rows_.empty(); }  ///< whether there is no row
 
+  /// Columns aligned by blanks, with a rule below their names.
   std::string text() const { return lay_out("", "  ", "", '-'); }
+  /// GitHub's Markdown, aligned too; cells are escaped.
   std::string markdown() const {
     table safe(*this);
     for (auto& cell : safe.columns_) cell = markdown_escaped(cell);
