@@ -44,7 +44,6 @@ class fpu_law {
     return fpu_law(chain, 1.0, {std::sqrt(chain.omega()), chain.omega() / std::sqrt(m)});
   }
 
-  /// The start of trajectory n.
   phase_point<double, fpu_chain<Pairs>::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
     using state = vector<double, fpu_chain<Pairs>::dimension>;
     phase_point<double, fpu_chain<Pairs>::dimension> start{state(2 * pairs_), state(2 * pairs_)};
@@ -61,7 +60,6 @@ class fpu_law {
     }
     return start;
   }
-  /// Name and parameters, for provenance.
   std::string description() const {
     std::string text = fmt::format("fpu_law(omega={}", omega_);
     if (spread_ != 1.0) text += fmt::format(", spread={}", spread_);

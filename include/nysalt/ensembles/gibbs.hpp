@@ -64,7 +64,6 @@ class gibbs {
     return x;
   }
 
-  /// Name, parameters and burn-in, for provenance.
   std::string description() const {
     return fmt::format(
         "gibbs(temperature={:.6g}, from {}, burned in for {:.4g} with friction {:.4g} and step {:.4g})",

@@ -45,7 +45,6 @@ class gibbs_of_modes {
     }
   }
 
-  /// The start of trajectory n.
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     vector<double, N> x(to_q_.rows());
     vector<double, N> y(to_q_.rows());
@@ -55,7 +54,6 @@ class gibbs_of_modes {
     standard_normals(seed, at, y);
     return {to_q_ * x, to_p_ * y};
   }
-  /// Name and parameters, for provenance.
   std::string description() const { return fmt::format("gibbs_of_modes(temperature={:.6g})", temperature_); }
 
  private:

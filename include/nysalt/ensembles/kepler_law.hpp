@@ -26,7 +26,6 @@ class kepler_law {
         fmt::format("kepler_law: the eccentricity must be at least 0 and below 1, got {}", eccentricity));
   }
 
-  /// The start of trajectory n.
   phase_point<double, 2> operator()(std::uint64_t seed, std::uint64_t n) const {
     vector<double, 4> normals;  // two pairs, each of uniform direction
     standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normals);
@@ -41,7 +40,6 @@ class kepler_law {
     };
     return {turned(c - eccentricity_, b * s), turned(-s * rate, b * c * rate)};
   }
-  /// Name and parameters, for provenance.
   std::string description() const { return fmt::format("kepler_law(eccentricity={})", eccentricity_); }
 
  private:

@@ -32,7 +32,6 @@ class lennard_jones_law {
     find_rigid_motions(system.space());
   }
 
-  /// The start of trajectory n.
   phase_point<double, lennard_jones<Space, Atoms>::dimension> operator()(std::uint64_t seed,
                                                                          std::uint64_t n) const {
     state p(rest_.size());
@@ -41,7 +40,6 @@ class lennard_jones_law {
     for (const state& motion : rigid_motions_) remove(motion, p);
     return {rest_, p};
   }
-  /// Name and parameters, for provenance.
   std::string description() const {
     return fmt::format("lennard_jones_law(temperature={:.6g})", temperature_);
   }

@@ -27,7 +27,6 @@ class listed {
     }
     return states_[n];
   }
-  /// How many there are, for provenance.
   std::string description() const { return fmt::format("listed({} states)", states_.size()); }
 
  private:

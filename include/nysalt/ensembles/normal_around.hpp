@@ -27,7 +27,6 @@ class normal_around {
     }
   }
 
-  /// The start of trajectory n.
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     phase_point<double, N> start = centre_;
     phase_point<double, N> normals = centre_;
@@ -41,7 +40,6 @@ class normal_around {
     }
     return start;
   }
-  /// Name and deviations, for provenance.
   std::string description() const { return fmt::format("normal_around({}, {})", deviation_q_, deviation_p_); }
 
  private:

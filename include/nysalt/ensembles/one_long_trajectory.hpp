@@ -82,7 +82,6 @@ class one_long_trajectory {
     return (*states_)[std::min(index, states() - 1)];
   }
 
-  /// Name, options and where it started, for provenance.
   std::string description() const {
     return fmt::format("one_long_trajectory(length={}, burn_in={}, step={:.6g}, seed={}, from {})",
                        options_.length, options_.burn_in, step_, options_.seed, from_);

@@ -63,7 +63,6 @@ class fine_paths {
 
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }
-  /// The method and its step, for provenance.
   std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
  private:

@@ -42,7 +42,6 @@ class fine_steps {
   }
 
   fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
-  /// The method and its step, for provenance.
   std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
  private:

@@ -63,7 +63,6 @@ class odeint_reference {
   double tolerance() const { return tolerance_; }  ///< of a step's error, absolute and relative
   /// With a hundredth of the tolerance.
   odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
-  /// The method and its tolerance, for provenance.
   std::string description() const {
     return fmt::format("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);
   }
