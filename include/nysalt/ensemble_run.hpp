@@ -122,7 +122,7 @@ class ensemble_run {
   }
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
-  /// Of trajectory m, by its number.
+  /// The step at which trajectory m, by its number, diverged, if it did.
   std::optional<std::int64_t> diverged_at(std::int64_t m) const {
     const std::int64_t at = m - first_;
     return blocks_[static_cast<std::size_t>(at / width)]->diverged_at(static_cast<int>(at % width));

@@ -67,7 +67,7 @@ struct flow_map_data {
   std::size_t pairs() const { return start.size(); }  ///< number of pairs at this rank
   /// Number of trajectories at this rank.
   std::size_t trajectories() const { return first_of.empty() ? 0 : first_of.size() - 1; }
-  /// The one that a pair belongs to, from 0.
+  /// Number, from 0, of the trajectory at this rank that holds a pair.
   std::size_t trajectory_of(std::size_t pair) const {
     return static_cast<std::size_t>(std::upper_bound(first_of.begin(), first_of.end(), pair) -
                                     first_of.begin()) -
@@ -256,8 +256,8 @@ void add_up(flow_map_data<N>& data) {
 
 }  // namespace detail
 
-/// As many as fit into the memory of one rank, so that their number does not depend on that of ranks. Throws
-/// std::invalid_argument if one does not, or has no step.
+/// As many trajectories as fit into the memory of one rank, so that their number does not depend on that of
+/// ranks. Throws std::invalid_argument if one does not, or has no step.
 inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;
   const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));

@@ -39,7 +39,7 @@ struct pair_sums {
 /// The same at the lags 0..L.
 using autocovariance_sums = std::vector<pair_sums>;
 
-/// Throws std::invalid_argument unless there are 1 to 10^5: a sample costs a product a lag.
+/// The number of lags. Throws std::invalid_argument unless it is 1 to 10^5: a sample costs a product a lag.
 inline std::size_t checked_lags(int lags) {
   constexpr int most = 100'000;
   if (1 <= lags && lags <= most) return static_cast<std::size_t>(lags);
@@ -73,7 +73,7 @@ class autocovariance_along {
     if (++waiting_ == stretch) add_waiting(std::integral_constant<std::size_t, stretch>());
   }
 
-  /// Throws std::invalid_argument unless there are more samples than lags.
+  /// The sums of lane k. Throws std::invalid_argument unless there are more samples than lags.
   autocovariance_sums in_lane(int k) {
     if (!(samples_ > static_cast<double>(lags_))) {
       throw std::invalid_argument(fmt::format(

@@ -56,7 +56,7 @@ class compared_block {
   compared_block(const compared_block&) = delete;
   compared_block& operator=(const compared_block&) = delete;
 
-  /// All of them, a stretch after the other, so that no path is kept.
+  /// Follows the reference and all methods, a stretch after the other, so that no path is kept.
   void run(std::int64_t steps) {
     const auto read = [&](const state& x, std::span<T> numbers) { measures_.read(x, numbers); };
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
@@ -73,8 +73,8 @@ class compared_block {
     }
   }
 
-  const compared_reference<S, R>& reference() const { return reference_; }  ///< after run()
-  /// Of a method by a measure, in lane k; after run().
+  const compared_reference<S, R>& reference() const { return reference_; }  ///< with its checks, after run()
+  /// The score of a method by a measure, in lane k; after run().
   run_score score(std::size_t measure, std::size_t method, int k) const {
     return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
   }

@@ -68,7 +68,7 @@ class compared_reference {
   compared_reference(const compared_reference&) = delete;
   compared_reference& operator=(const compared_reference&) = delete;
 
-  /// The samples from + 1 .. to.
+  /// Goes on through the samples from + 1 .. to.
   void go_on(std::int64_t from, std::int64_t to) {
     from_ = from;
     if (reference_) reference_->go_on(step_, to - from);
@@ -89,7 +89,7 @@ class compared_reference {
     if (reference_) reference_->require_sound(first);
     if (finer_) finer_->require_sound(first);
   }
-  /// By measure i in lane k, of what was wanted.
+  /// The reference's own error, against its finer self, by measure i in lane k, if it was wanted.
   double finer_error(std::size_t i, int k) const { return errors_[i].finer.score(k).value; }
   /// The null model's error by measure i in lane k, if it was wanted.
   double null_error(std::size_t i, int k) const { return errors_[i].null_model.score(k).value; }

@@ -30,7 +30,7 @@ class error_sum {
   /// Refers to the measure.
   explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}
 
-  /// Sample i = 1, 2, ..., in this order, of the lanes that are live.
+  /// Adds the errors of sample i = 1, 2, ..., in this order, in the lanes that are live.
   void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live) {
     sum_ = select(live, sum_ + measure_->error(seen, reference), sum_);
     samples_ = i;
@@ -42,10 +42,10 @@ class error_sum {
     }
   }
 
-  /// Of the samples so far.
+  /// The sum of the errors so far, in each lane.
   const T& sum() const { return sum_; }
 
-  /// That of lane k, which diverged where its state did, or where the error was no longer finite.
+  /// The score of lane k, which diverged where its state did, or where the error was no longer finite.
   run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
     const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
     if (lost_at) return {.diverged_at = lost_at};

@@ -67,11 +67,11 @@ class gathering {
 
   /// Of how many consecutive trajectories one thread takes care.
   int trajectories_of_thread() const { return static_cast<int>(std::max<std::int64_t>(group_size_, 16)); }
-  /// Number of the first that this rank keeps, from 0.
+  /// Number of the first trajectory that this rank keeps, from 0.
   std::int64_t first() const { return first_of(ranks_->rank()); }
   std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }  ///< how many this rank keeps
 
-  /// Trajectory m, from 0 on, in lane k.
+  /// Keeps trajectory m, from 0 on, which is in lane k; of one that is lost, only where.
   template <class T>
   void keep(std::int64_t m, statistics_along<T>& along, int k, std::optional<std::int64_t> lost_at) {
     const auto slot = static_cast<std::size_t>(m);
@@ -87,7 +87,7 @@ class gathering {
     }
   }
 
-  /// Each rank has kept its own, and all get all.
+  /// Collective: each rank has kept its own trajectories, and all get all.
   void gather() {
     if (ranks_->is_alone()) return;
     gather(lost_at_, 1);
@@ -96,7 +96,7 @@ class gathering {
     if (wanted_->lags) gather_covariances();
   }
 
-  /// When all are kept and gathered; `first` is the number of trajectory 0.
+  /// The statistics, when all are kept and gathered; `first` is the number of trajectory 0.
   gathered_statistics result(std::int64_t first) {
     gathered_statistics all;
     all.samples = samples_;

@@ -30,9 +30,9 @@ class joined_measures {
 
   std::size_t size() const { return measures_.size(); }                         ///< number of measures
   const measure_type& operator[](std::size_t i) const { return measures_[i]; }  ///< measure i
-  /// Of all numbers.
+  /// How many numbers are read of a state.
   std::size_t width() const { return begins_.back(); }
-  /// Is anything read for measure i?
+  /// Whether anything is read for measure i.
   bool reads(std::size_t i) const { return begins_[i + 1] > begins_[i]; }
 
   /// Writes all width() numbers of a state.
@@ -41,7 +41,7 @@ class joined_measures {
       if (reads(i)) measures_[i].read(x, result.subspan(begins_[i], begins_[i + 1] - begins_[i]));
     }
   }
-  /// Those of measure i among all numbers.
+  /// The numbers of measure i among all of a state.
   std::span<const T> part(std::size_t i, std::span<const T> all) const {
     return all.subspan(begins_[i], begins_[i + 1] - begins_[i]);
   }

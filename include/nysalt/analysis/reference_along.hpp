@@ -41,7 +41,7 @@ class reference_along {
         path_(path),
         noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)) {}
 
-  /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
+  /// Reads the next `samples`, each a time `step` after the last. What is not sound is remembered.
   void go_on(double step, std::int64_t samples) {
     const std::size_t width = measures_->width();
     numbers_.resize(static_cast<std::size_t>(samples) * width);
@@ -57,7 +57,7 @@ class reference_along {
     }
   }
 
-  /// Sample i of the last stretch.
+  /// The numbers of sample i of the last stretch.
   std::span<const T> at(std::int64_t i) const {
     const std::size_t width = measures_->width();
     return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);

@@ -59,7 +59,7 @@ class statistics_along {
     if (wanted.lags) autocovariance_.emplace(*wanted.lags, centre);
   }
 
-  /// The sample at step n. A lane in which it is not finite is lost there.
+  /// Takes the sample at step n. A lane in which it is not finite is lost there.
   void add(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
@@ -77,11 +77,11 @@ class statistics_along {
 
   /// The first step at which lane k was not finite.
   std::optional<std::int64_t> lost_at(int k) const { return lost_at_[static_cast<std::size_t>(k)]; }
-  /// Of lane k; asked for where one is wanted.
+  /// The histogram of lane k, where one is wanted.
   const histogram& histogram_in_lane(int k) const { return histogram_->in_lane(k); }
-  /// Of lane k; asked for where lags are wanted.
+  /// The autocovariance of lane k, where one is wanted. Throws like autocovariance_along::in_lane().
   autocovariance_sums autocovariance_in_lane(int k) { return autocovariance_->in_lane(k); }
-  /// Of lane k; 0 for what is not wanted.
+  /// The means of lane k over its samples; 0 for what is not wanted.
   time_means means_in_lane(int k) const {
     return {lane(first_, k) / samples_, lane(second_, k) / samples_, lane(kinetic_, k) / samples_,
             lane(half_step_, k) / samples_};

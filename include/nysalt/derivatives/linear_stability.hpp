@@ -154,7 +154,7 @@ stability_chart chart_stability(const W& word,
   return chart;
 }
 
-/// The windows alone.
+/// The windows of chart_stability() alone.
 template <Word W>
 std::vector<stability_window> stability_windows(
     const W& word, const typename W::template coefficients<double>& coefficients) {

@@ -41,7 +41,7 @@ class burn_in_chains {
     return {stepper_, start, count, first};
   }
 
-  /// Afresh at a step.
+  /// Draws momenta from Maxwell's law, with the noise of a step; lane 0 is chain `first`.
   template <class T>
   void draw_momenta(phase_point<T, dimension>& x, std::int64_t first, std::int64_t step) const {
     constexpr int after_the_letter = 1;

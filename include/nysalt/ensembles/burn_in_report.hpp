@@ -37,7 +37,7 @@ using of_watched = std::array<T, watched_numbers>;
 struct discrepancy {
   double mean = 0.0;            ///< mean over chains
   double standard_error = 0.0;  ///< of that mean
-  /// By chance at one of 150'000.
+  /// Whether it is more than chance, which comes to as much once in 150'000 times.
   bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error); }
 };
 

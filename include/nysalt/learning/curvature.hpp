@@ -83,7 +83,7 @@ class curvature {
   /// Whether the loss falls along no direction, but for the error of the Hessian.
   bool is_minimum() const { return count() == 0 || solver_.eigenvalues()[0] > -flat_below * largest(); }
 
-  /// H^+ v: the inverse on what is free and not flat.
+  /// H^+ v, the inverse of the Hessian on what is free and not flat.
   Eigen::VectorXd solve(const Eigen::VectorXd& v) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index k = 0; k < count(); ++k) {

@@ -31,10 +31,10 @@ struct energies_outside {
   double farthest = 0.0;         ///< distance of the farthest energy from the range, an energy
   energy_range energies{};       ///< the energies of these starts
 
-  /// There are too many, or one is too far.
+  /// Whether there are too many, or one is too far.
   bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
 
-  /// That so many of n, or more, are outside by chance.
+  /// The probability that so many of n, or more, are outside by chance.
   double probability() const {
     const auto m = static_cast<double>(trajectories);
     const auto n = static_cast<double>(looked_at);
@@ -48,8 +48,8 @@ struct energies_outside {
     return rest;
   }
 
-  /// What none of n starts passes the range by, but by a chance of one in a thousand. Infinite from one
-  /// trajectory, which tells no range.
+  /// The distance that none of n starts is beyond the range, but by a chance of one in a thousand. Infinite
+  /// from one trajectory, which tells no range.
   double far() const {
     const double m = static_cast<double>(trajectories) + 1.0;
     if (trajectories < 2) return std::numeric_limits<double>::infinity();

@@ -127,7 +127,7 @@ int shortest_of(const flow_map_data<N>& data) {
 
 }  // namespace detail
 
-/// Throws what learn() does.
+/// The problem of fitting the family's word to the data. Refers to the system. Throws what learn() does.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 learning_problem make_learning_problem(const run_time_family& family, const S& system,
                                        const flow_map_data<S::dimension>& data,

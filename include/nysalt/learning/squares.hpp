@@ -29,14 +29,14 @@ struct squares {
   }
 };
 
-/// theta as families hold it, and as linear algebra does.
+/// theta as families hold it.
 template <std::size_t N>
 std::array<double, N> array_of(const Eigen::VectorXd& theta) {
   std::array<double, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
   return result;
 }
-/// The reverse of array_of().
+/// theta as linear algebra holds it.
 template <std::size_t N>
 Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
@@ -114,14 +114,15 @@ std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen:
   }
   return result;
 }
-/// Of all ranks. They pass on 1 + P + P (P + 1)/2 numbers for P parameters, however many the data.
+/// The loss and its derivatives, of all ranks. They pass on 1 + P + P (P + 1)/2 numbers for P parameters,
+/// however many the data.
 template <class Loss>
 squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
   const auto by_trajectory = detail::squares_by_trajectory(loss, theta);
   const auto sum = loss.share().sum(by_trajectory, detail::zero_column(loss.parameters()));
   return detail::from_column(sum, loss.parameters());
 }
-/// Refers to the loss.
+/// A loss over data as a function of theta alone. Refers to the loss.
 template <class Loss>
 objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };

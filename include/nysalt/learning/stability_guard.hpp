@@ -109,7 +109,7 @@ class stability_guard {
   const std::vector<frequency_band>& frequencies() const { return bands_; }  ///< with 2 % more on either side
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// Over which words with rotations are watched.
+  /// Number of steps over which words with rotations are watched.
   std::int64_t steps() const { return steps_; }
   const std::string& description() const { return description_; }  ///< what it knows, and where from
 

@@ -81,9 +81,9 @@ class after_steps {
   }
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
-  std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< how many this rank has
+  std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
   const shard& share() const { return share_; }  ///< which trajectories this rank has
-  /// Of each stretch.
+  /// Number of residuals of a stretch: those of the metric, or 1 for the energy.
   std::size_t residuals() const {
     return options_.energy ? 1 : static_cast<std::size_t>(metric_->residuals());
   }

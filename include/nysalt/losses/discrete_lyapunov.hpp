@@ -44,7 +44,7 @@ struct plane_covariance {
   }
 };
 
-/// M C M^T
+/// The covariance C after the map M: M C M^T.
 template <Scalar T>
 plane_covariance<T> carried(const plane_map<T>& M, const plane_covariance<T>& C) {
   const T to_x_x = M.xx * C.xx + M.xy * C.xy;
@@ -66,7 +66,7 @@ plane_covariance<T> excess_of_turn(const plane_map<T>& S) {
   return {(sum + difference) * 0.5, S.xx * S.yx + S.xy * S.yy, (sum - difference) * 0.5};
 }
 
-/// Both eigenvalues lie inside the unit circle (Schur, Cohn and Jury).
+/// Whether both eigenvalues lie inside the unit circle (Schur, Cohn and Jury).
 template <Scalar T>
 bool forgets(const plane_map<T>& M) {
   const T d = M.determinant();
@@ -74,7 +74,7 @@ bool forgets(const plane_map<T>& M) {
   return d < T(1.0) && d > T(-1.0) && t < d + 1.0 && -t < d + 1.0;
 }
 
-/// Where there is no such covariance.
+/// Infinite: what stands where there is no such covariance.
 template <Scalar T>
 plane_covariance<T> no_covariance() {
   const T infinity(std::numeric_limits<double>::infinity());

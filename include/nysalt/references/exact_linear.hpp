@@ -34,7 +34,8 @@ class exact_linear {
     require_linear(system);
   }
 
-  /// Throws std::invalid_argument if the system's description is not that of the constructor's.
+  /// The point becomes the state a time t later. Throws std::invalid_argument if the system's description is
+  /// not that of the constructor's. Cost: four products with the basis.
   template <System S>
   void advance(const S& system, phase_point<double, S::dimension>& point, double t) const {
     if (const std::string other = describe(system); other != system_) {

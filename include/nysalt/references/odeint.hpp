@@ -29,7 +29,7 @@ class odeint_reference {
     }
   }
 
-  /// Throws std::invalid_argument if the system is in a noisy bath.
+  /// x becomes the state a time t later. Throws std::invalid_argument if the system is in a noisy bath.
   template <SeparableSystem S>
   void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     namespace odeint = boost::numeric::odeint;

@@ -64,7 +64,7 @@ class page {
   std::string html(const std::filesystem::path& pictures) const {
     return page_html(title_, blocks_, pictures);
   }
-  /// In the order of the page.
+  /// The pictures, in the order of the page.
   const std::vector<figure>& figures() const { return figures_; }
 
  private:

@@ -20,7 +20,7 @@ class table {
   explicit table(std::vector<std::string> columns, std::size_t left = 1)
       : columns_(std::move(columns)), left_(left) {}
 
-  /// Throws std::invalid_argument unless there is a cell for each column.
+  /// Adds a row. Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells) {
     if (cells.size() != columns_.size()) {
       throw std::invalid_argument(
@@ -43,7 +43,7 @@ class table {
     return safe.lay_out("| ", " | ", " |", '-');
   }
 
-  /// Numbers are of class n.
+  /// An HTML table; cells of numbers are of class n.
   std::string html() const {
     std::string result = "<table>\n<thead>\n";
     const auto line = [&](const std::vector<std::string>& cells, const char* tag) {

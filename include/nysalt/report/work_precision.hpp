@@ -33,7 +33,8 @@ struct work_precision_row {
   bool counts = true;                ///< false where the error says nothing: beyond a limit; drawn hollow
 };
 
-/// `value` is what the errors are called, if they are others.
+/// A row each: evaluations and nanoseconds per unit time, error and its standard error, how many diverged,
+/// and the floor if there is one. `value` is what the errors are called, if they are others.
 inline table work_precision_table(const std::vector<work_precision_row>& rows,
                                   const std::string& value = "error") {
   std::vector<std::string> columns{"method", "step",           "evaluations/time", "ns/time",
