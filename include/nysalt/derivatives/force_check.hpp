@@ -25,7 +25,7 @@ struct force_check {
   Eigen::Index velocity_coordinate = 0;  ///< where that is worst
   double velocity_asymmetry = 0.0;       ///< of the Jacobian of a velocity without a kinetic energy
   double tolerance = 0.0;                ///< what the derivatives used can be off by: of the gradient
-  /// of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences
+  /// Of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences.
   double asymmetry_tolerance = 0.0;
   double kick_tolerance = 0.0;        ///< of the soft force too
   double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences

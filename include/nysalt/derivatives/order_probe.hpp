@@ -71,8 +71,8 @@ class generic_gradient {
 class order_probe {
  public:
   static constexpr int dimension = 3;  ///< degrees of freedom
-  static constexpr bool may_have_quadratic_kinetic =
-      true;  ///< decided while running, see HasQuadraticKinetic
+  /// Decided while running, see HasQuadraticKinetic.
+  static constexpr bool may_have_quadratic_kinetic = true;
 
   /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.
   explicit order_probe(bool quadratic_kinetic) : quadratic_kinetic_(quadratic_kinetic) {

@@ -21,7 +21,7 @@ namespace nysalt {
 /// rates at which neighbours part.
 struct stiffness_range {
   double lowest = std::numeric_limits<double>::infinity();  ///< least eigenvalue of all states
-  /// largest eigenvalue of all states
+  /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
   std::int64_t states = 0;       ///< how many were looked at
   std::int64_t evaluations = 0;  ///< of f'(q) v
