@@ -45,10 +45,11 @@ struct flow_map_data {
 
   double step = 0.0;  ///< h, of all pairs
 
-  /// In a bath: standard normal numbers of the noise over so many equal parts of the step. Those of pair n
-  /// are noise[n noise_parts + k], k = 0 .. noise_parts - 1.
+  /// In how many equal parts of a step noise is kept, for systems in a bath; 0: it is not.
   int noise_parts = 0;
-  std::vector<vector<double, N>> noise;  ///< see noise_parts
+  /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k], k = 0 ..
+  /// noise_parts - 1.
+  std::vector<vector<double, N>> noise;
 
   /// A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
@@ -86,14 +87,14 @@ struct flow_map_data {
 
 /// Which trajectories are followed, for how long, and by whom.
 struct data_options {
-  double step;                      ///< h, the step to learn for
-  double horizon = 0.5;             ///< length of each trajectory, a time: floor(horizon/step) steps
-  std::int64_t trajectories = 100;  ///< number of independent starts
-  std::uint64_t seed = 1;           ///< of starts and noise
-  std::int64_t first = 0;           ///< number of the first trajectory: which start and which noise it has
-  int noise_parts = 0;  ///< of a step whose noise is kept: what the letters O to be learned with need
-  int threads = 1;      ///< changes no bit of the data
-  const communicator* ranks = &alone;  ///< who share the trajectories; nor does it
+  double step;                         ///< h, the step to learn for
+  double horizon = 0.5;                ///< length of each trajectory, a time: floor(horizon/step) steps
+  std::int64_t trajectories = 100;     ///< number of independent starts
+  std::uint64_t seed = 1;              ///< of starts and noise
+  std::int64_t first = 0;              ///< number of the first trajectory: which start and which noise it has
+  int noise_parts = 0;                 ///< equal parts of a step in which noise is kept, for letters O
+  int threads = 1;                     ///< changes no bit of the data
+  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit either
   /// Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };

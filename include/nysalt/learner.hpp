@@ -24,7 +24,7 @@ struct learn_options {
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
   int max_iterations = 200;      ///< of the search from each start
   int threads = 1;               ///< changes no bit of what is learned
-  loss_choice loss{};            ///< what is minimised; the paper's one-step loss
+  loss_choice loss{};            ///< what is minimised; by default the paper's one-step loss
   bool classical_starts = true;  ///< begin at the family's classical members and further starts too
   int random_starts = 0;         ///< further ones, normal around the first with the deviation 0.3
   bool guarded = true;           ///< false: an unstable optimum is found, and said not to be usable

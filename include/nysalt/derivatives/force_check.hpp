@@ -24,15 +24,15 @@ struct force_check {
   double velocity_defect = 0.0;      ///< of velocity = grad K
   Eigen::Index velocity_coordinate = 0;  ///< where that is worst
   double velocity_asymmetry = 0.0;       ///< of the Jacobian of a velocity without a kinetic energy
-  double tolerance = 0.0;                ///< what the derivatives used can be off by: of the gradient
+  double tolerance = 0.0;                ///< of the gradient: what the derivatives used can be off by
   /// Of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences.
   double asymmetry_tolerance = 0.0;
-  double kick_tolerance = 0.0;        ///< of the soft force too
+  double kick_tolerance = 0.0;        ///< of the kick and of the soft force
   double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences
   double velocity_tolerance = 0.0;    ///< of the velocity and of its Jacobian's asymmetry
   bool has_potential = false;         ///< whether there was a V to compare with; else only the symmetry tells
-  bool finite = true;                 ///< all functions and their derivatives, at all points
-  bool passes_beside = false;         ///< if it fails at the points, but not a little beside them
+  bool finite = true;                 ///< whether all functions and their derivatives are, at all points
+  bool passes_beside = false;         ///< whether it fails at the points, but not a little beside them
 
   /// Whether everything is finite and every defect within its tolerance.
   bool passed() const {

@@ -49,8 +49,8 @@ struct burn_in_report {
   double length = 0.0;     ///< steps * step
   /// Longest integrated autocorrelation time, 2 int_0^inf rho(t) dt, of what is watched.
   double tau = 0.0;
-  bool confined = false;                   ///< whether the motion is; else the virial means nothing
-  int halvings = 0;                        ///< of the first step, until no bias showed
+  bool confined = false;                   ///< whether the motion is confined; else the virial means nothing
+  int halvings = 0;                        ///< how often the first step was halved, until no bias showed
   of_watched<discrepancy> bias = {};       ///< means with this step, less those with half of it
   of_watched<discrepancy> excess = {};     ///< at the end of the burn-in, over what equipartition demands
   of_watched<discrepancy> to_forget = {};  ///< at the end, less in as long a time after it

@@ -27,7 +27,7 @@ struct fit_summary {
   std::string ensemble;             ///< description of the ensemble that the data start from
   std::string coordinates;          ///< qp, modes or energy: those of the metric
   std::string derivatives;          ///< where the force's derivatives come from
-  double step = 0.0;                ///< h, learned for
+  double step = 0.0;                ///< h that it was learned for
   std::uint64_t seed = 0;           ///< of the data
   std::uint64_t held_out_seed = 0;  ///< of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
@@ -38,20 +38,20 @@ struct fit_summary {
   /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
   double loss = 0.0;                 // one-step: mean over pairs of the sum over coordinates of r^2/Sigma
   double held_out_loss = 0.0;        ///< the same on data that was not learned from
-  double held_out_start_loss = 0.0;  ///< and with the parameters that the search began with
+  double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
   double held_out_noise = 0.0;       ///< standard error of the difference of these two; 0 from one trajectory
-  std::size_t samples = 0;           ///< pairs of the data
-  std::size_t trajectories = 0;      ///< of the data
-  std::size_t held_out_samples = 0;  ///< pairs of the held-out data
+  std::size_t samples = 0;           ///< number of pairs of the data
+  std::size_t trajectories = 0;      ///< number of trajectories of the data
+  std::size_t held_out_samples = 0;  ///< number of pairs of the held-out data
 
   /// What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single
   /// trajectory, and where the guard holds them.
   double expected_excess = 0.0;
   double deciding_trajectories = 0.0;  ///< on how many that and the standard errors rest
 
-  double condition = 1.0;                            ///< of the Hessian, flat directions apart
-  std::vector<std::vector<double>> flat_directions;  ///< along which the data say nothing
-  std::int64_t coordinates_used = 0;                 ///< that the loss sums over
+  double condition = 1.0;  ///< of the Hessian: largest over smallest curvature, flat directions apart
+  std::vector<std::vector<double>> flat_directions;  ///< of theta, along which the data say nothing
+  std::int64_t coordinates_used = 0;                 ///< number of coordinates that the loss sums over
   std::vector<std::string> dropped;                  ///< coordinates that never move
   int starts_tried = 1;                              ///< number of searches
   std::string from;                                  ///< name of the start that led here
@@ -69,7 +69,7 @@ struct fit_summary {
   std::vector<gap> gaps;           ///< of z, between the bands, where it is unstable
   double one_step_error = 0.0;     ///< root of the one-step loss on held-out data
   double trajectory_error = 0.0;   ///< the same at the end of the held-out trajectories
-  double reference_error = 0.0;    ///< the reference's own, in the same measure
+  double reference_error = 0.0;    ///< of the reference itself, in the measure of one_step_error
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
   double data_seconds = 0.0;              ///< wall time that the data took
