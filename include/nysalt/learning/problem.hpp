@@ -2,6 +2,8 @@
 // All that a search must know of a system, its data and a family; no type of any of them is left.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -2,6 +2,8 @@
 // From a problem of learning to a fit, judged.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>

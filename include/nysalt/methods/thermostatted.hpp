@@ -8,6 +8,7 @@
 
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -26,7 +27,7 @@ class thermostatted_method {
   typename word::template coefficients<double> coefficients() const {
     return thermostatted_coefficients<word>(P, plain_.coefficients());
   }
-  std::string name() const { return fmt::format("{}_{}", plain_.name(), to_string(P)); }
+  std::string name() const { return sentence("{}_{}", plain_.name(), to_string(P)); }
 
  private:
   M plain_;
