@@ -2,8 +2,6 @@
 // What a system is coupled to: friction, and the noise that goes with it.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -11,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -40,7 +39,7 @@ class bath {
   /// kT. Throws std::domain_error where there is noise, or might be, but no friction.
   double temperature() const {
     if (temperature_) return *temperature_;
-    throw std::domain_error(fmt::format(
+    throw std::domain_error(sentence(
         "a bath with sigma = {} and no friction has no temperature: kT = sigma^2/(2 friction)", sigma_));
   }
 
@@ -65,7 +64,7 @@ class bath {
     return sqrt(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
   }
 
-  std::string description() const { return fmt::format("bath(friction={}, sigma={})", friction_, sigma_); }
+  std::string description() const { return sentence("bath(friction={}, sigma={})", friction_, sigma_); }
 
  private:
   bath(double friction, double sigma, std::optional<double> temperature)
@@ -76,7 +75,7 @@ class bath {
   static void require(const char* what, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
     throw std::invalid_argument(
-        fmt::format("bath: the {} must be finite and not negative, got {}", what, value));
+        sentence("bath: the {} must be finite and not negative, got {}", what, value));
   }
 
   double friction_;

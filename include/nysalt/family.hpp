@@ -2,8 +2,6 @@
 // A family of methods: one word, whose coefficients are functions of a few parameters.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <concepts>
 #include <stdexcept>
@@ -13,6 +11,7 @@
 
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -88,8 +87,8 @@ inline void require_in_range(std::string_view family, std::string_view parameter
                              const parameter_range& range, double theta) {
   if (range.contains(theta)) return;
   const auto [low, high, open] = range;
-  throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", family,
-                                          parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
+  throw std::invalid_argument(sentence("{}: the parameter {} must lie in {}{}, {}{}, got {}", family,
+                                       parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
 }
 }  // namespace detail
 

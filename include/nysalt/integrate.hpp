@@ -9,6 +9,7 @@
 
 #include "nysalt/divergence.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -38,8 +39,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       std::uint64_t trajectory = 0) {
   constexpr std::int64_t stretch = steps_between_checks;
   if (steps < 0 || every < 1) {
-    throw std::invalid_argument(
-        fmt::format("integrate: {} steps, observed every {}: cannot be", steps, every));
+    throw std::invalid_argument(sentence("integrate: {} steps, observed every {}: cannot be", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");

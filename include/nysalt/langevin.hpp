@@ -2,8 +2,6 @@
 // Where the letters O go in a word that has none.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,6 +15,7 @@
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -136,14 +135,14 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();
   if (w.stochastic_letters > 0) {
-    throw std::invalid_argument(fmt::format("the word {} has its letters O already", letters));
+    throw std::invalid_argument(sentence("the word {} has its letters O already", letters));
   }
   const std::string o(1, ornstein_uhlenbeck::letter);
   if (where == placement::end) return run_time_word(letters + o);
   if (where == placement::symmetric) return run_time_word(o + letters + o);
   if (letters.size() % 2 == 0) {
     throw std::invalid_argument(
-        fmt::format("the word {} has no central letter to split: place O at the end, or symmetric", letters));
+        sentence("the word {} has no central letter to split: place O at the end, or symmetric", letters));
   }
   const std::size_t central = letters.size() / 2;
   return run_time_word(letters.substr(0, central + 1) + o + letters.substr(central));

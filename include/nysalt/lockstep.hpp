@@ -2,8 +2,6 @@
 // Trajectories side by side, each watched over.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "nysalt/divergence.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -65,7 +64,7 @@ class lockstep {
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, const Take& take) {
     if (every < 1)
-      throw std::invalid_argument(fmt::format("lockstep: observed every {} steps: cannot be", every));
+      throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     while (run_.step < end && any(live_)) {
       good_ = run_;

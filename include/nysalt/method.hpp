@@ -2,8 +2,6 @@
 // A method: a word with its coefficients, and what it promises.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -15,6 +13,7 @@
 #include "nysalt/energy_range.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/requirements.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -97,13 +96,13 @@ class tuned_method {
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
       throw std::invalid_argument(
-          fmt::format("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
-                      name(), step_, step));
+          sentence("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
+                   name(), step_, step));
     }
     if (system != system_) {
       throw std::invalid_argument(
-          fmt::format("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
-                      system_, system));
+          sentence("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
+                   system_, system));
     }
   }
 
@@ -125,8 +124,8 @@ stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const 
   }
   if (method.requires_quadratic_kinetic && !NystromSystem<S>) {  // known before only of a type-level method
     throw std::invalid_argument(
-        fmt::format("the order of {} needs a quadratic kinetic energy, but {} has one of its own",
-                    method.name(), describe(system)));
+        sentence("the order of {} needs a quadratic kinetic energy, but {} has one of its own", method.name(),
+                 describe(system)));
   }
   return {system, word_of(method), method.coefficients(), step, noise};
 }

@@ -2,13 +2,12 @@
 // The quadratic part of a Hamiltonian by its modes, laid out for rotations.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -36,8 +35,8 @@ class quadratic_part {
         !modes.basis.allFinite() || !modes.frequencies.allFinite() ||
         (modes.frequencies.array() < 0.0).any()) {
       throw std::invalid_argument(
-          fmt::format("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
-                      describe(system), n, n));
+          sentence("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
+                   describe(system), n, n));
     }
     auto result = std::make_shared<quadratic_part>();
     result->frequencies_.assign(modes.frequencies.begin(), modes.frequencies.end());

@@ -2,8 +2,6 @@
 // A method's letters as data: for coefficients that come from a file.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
@@ -18,6 +16,7 @@
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/flows/rotation.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
@@ -61,16 +60,16 @@ class run_time_word {
         if (i == 0) additive = flow.additive;
       });
       if (!is_known) {
-        throw std::invalid_argument(fmt::format("the word {} holds the letter {}; known letters are {}",
-                                                letters_, letters_[i], all_known()));
+        throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}",
+                                             letters_, letters_[i], all_known()));
       }
     }
     if (detail::mixes_splittings(letters_)) {
       throw std::invalid_argument(
-          fmt::format("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
-                      "quadratic part and the "
-                      "rest; take those of one splitting",
-                      letters_));
+          sentence("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
+                   "quadratic part and the "
+                   "rest; take those of one splitting",
+                   letters_));
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
     halves_meet = length > 1 && letters_.front() == ornstein_uhlenbeck::letter &&
@@ -78,8 +77,7 @@ class run_time_word {
     stochastic_letters =
         static_cast<int>(std::count(letters_.begin(), letters_.end(), ornstein_uhlenbeck::letter));
     if (stochastic_letters == static_cast<int>(length)) {
-      throw std::invalid_argument(
-          fmt::format("the word {} needs a letter beside those of the bath", letters_));
+      throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
     evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives;
@@ -92,9 +90,9 @@ class run_time_word {
   /// Throws std::invalid_argument unless there are as many coefficients as slots.
   void require_one_for_each_slot(const auto& coefficients) const {
     if (coefficients.size() == slots) return;
-    const std::string two = slots > length ? fmt::format(" and {} coefficients", slots) : "";
-    throw std::invalid_argument(fmt::format("the word {} has {} letters{}, but {} coefficients are given",
-                                            letters_, length, two, coefficients.size()));
+    const std::string two = slots > length ? sentence(" and {} coefficients", slots) : "";
+    throw std::invalid_argument(sentence("the word {} has {} letters{}, but {} coefficients are given",
+                                         letters_, length, two, coefficients.size()));
   }
 
   /// Where the coefficients of letter i begin.

@@ -2,13 +2,12 @@
 // Which letters of a word a system has.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
 
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -51,9 +50,9 @@ void require_served(const W& word, const S& system) {
         using L = decltype(flow);
         if constexpr (!L::template serves<S, T>) {
           throw std::invalid_argument(
-              fmt::format("the word {} cannot step {}: {}", word.letters(), describe(system),
-                          letter == gradient_kick::letter ? detail::needs_quadratic_kinetic
-                                                          : detail::needs_quadratic_part));
+              sentence("the word {} cannot step {}: {}", word.letters(), describe(system),
+                       letter == gradient_kick::letter ? detail::needs_quadratic_kinetic
+                                                       : detail::needs_quadratic_part));
         }
       });
     }

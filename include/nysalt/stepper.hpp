@@ -11,11 +11,10 @@
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
-
 #include "nysalt/conservative_part.hpp"
 #include "nysalt/noises/none.hpp"
 #include "nysalt/prepared_run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/served_letters.hpp"
 
 namespace nysalt {
@@ -66,7 +65,7 @@ class stepper {
         letters_(letters_of(system, word, coefficients, step)),
         quiet_(quiet_letters_of(system, word, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
-      throw std::invalid_argument(fmt::format("the step must be finite and not zero, got {}", step));
+      throw std::invalid_argument(sentence("the step must be finite and not zero, got {}", step));
     }
     if (acts_) require_thermostat(word.letters());
   }
@@ -100,7 +99,7 @@ class stepper {
   /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
-    if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));
+    if (steps < 0) throw std::invalid_argument(sentence("a run cannot advance by {} steps", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
@@ -117,7 +116,7 @@ class stepper {
   void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
     if (steps < 0 || every < 1) {
       throw std::invalid_argument(
-          fmt::format("a run cannot advance by {} steps, watched every {}", steps, every));
+          sentence("a run cannot advance by {} steps, watched every {}", steps, every));
     }
     flow_state<T, dimension> x = std::move(run.state);
     flow_state<T, dimension> y = x;
@@ -246,14 +245,14 @@ class stepper {
   void require_thermostat(const std::string& letters) const {
     if constexpr (HasBath<S>) {
       if (stochastic_letters_ == 0) {
-        throw std::invalid_argument(fmt::format(
+        throw std::invalid_argument(sentence(
             "the system is in a {}, but the word {} has no letter O: thermostat it, or step the system alone",
             system_->bath().description(), letters));
       }
       if (std::is_same_v<Noise, no_noise> && system_->bath().sigma() > 0.0) {
         throw std::invalid_argument(
-            fmt::format("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
-                        system_->bath().description()));
+            sentence("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
+                     system_->bath().description()));
       }
     }
   }
@@ -261,9 +260,8 @@ class stepper {
   template <Scalar T>
   void require_size(const phase_point<T, dimension>& x) const {
     if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
-    throw std::invalid_argument(
-        fmt::format("the state has {} positions and {} momenta, the system {} of each", x.q.size(),
-                    x.p.size(), size(*system_)));
+    throw std::invalid_argument(sentence("the state has {} positions and {} momenta, the system {} of each",
+                                         x.q.size(), x.p.size(), size(*system_)));
   }
 
   const S* system_;

@@ -2,14 +2,13 @@
 // The modes of a stiffness matrix.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -22,14 +21,13 @@ inline normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eige
   const Eigen::Index n = stiffness.rows();
   if (n == 0 || n != stiffness.cols() || n != inverse_masses.size()) {
     throw std::invalid_argument(
-        fmt::format("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
+        sentence("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
   }
   if (!stiffness.allFinite()) {
-    throw std::invalid_argument(fmt::format("{}: the stiffness matrix is not finite", who));
+    throw std::invalid_argument(sentence("{}: the stiffness matrix is not finite", who));
   }
   if (stiffness != stiffness.transpose()) {
-    throw std::invalid_argument(
-        fmt::format("{}: the stiffness matrix must be symmetric; use (K + K^T)/2", who));
+    throw std::invalid_argument(sentence("{}: the stiffness matrix must be symmetric; use (K + K^T)/2", who));
   }
   const Eigen::VectorXd root = inverse_masses.cwiseSqrt();
   const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness * root.asDiagonal();
@@ -40,8 +38,8 @@ inline normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eige
   Eigen::VectorXd squares = solver.eigenvalues();
   if (squares.minCoeff() < -rounding) {
     throw std::invalid_argument(
-        fmt::format("{}: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded", who,
-                    squares.minCoeff()));
+        sentence("{}: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded", who,
+                 squares.minCoeff()));
   }
   for (auto& square : squares) square = square <= rounding ? 0.0 : square;
   return {solver.eigenvectors(), squares.cwiseSqrt()};

@@ -2,8 +2,6 @@
 // Parameters that were learned at several steps, and between them.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +10,8 @@
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -50,7 +50,7 @@ class theta_curve {
   Eigen::VectorXd at(double step) const {
     if (!covers(step)) {
       throw std::invalid_argument(
-          fmt::format("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
+          sentence("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
     }
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       if (std::abs(step - steps_[k]) <= met * steps_[k]) return thetas_[k];

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "nysalt/methods/palindromic.hpp"
 #include "nysalt/requirements.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -78,10 +77,10 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   explicit s_aia2(double highest_z) : highest_z_(highest_z) {
     if (!(highest_z > 0.0) || !std::isfinite(highest_z)) {
       throw std::invalid_argument(
-          fmt::format("s_aia2: z = step * highest frequency must be positive and finite, got {}", highest_z));
+          sentence("s_aia2: z = step * highest frequency must be positive and finite, got {}", highest_z));
     }
     if (highest_z >= 4.0) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "s_aia2: no method of two stages is stable up to z = step * highest frequency = {}; take a smaller "
           "step, such that z < 4",
           highest_z));

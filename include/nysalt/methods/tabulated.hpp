@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "nysalt/method.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -36,14 +35,14 @@ class tabulated : public method_properties {
         letters_(std::move(letters)),
         coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != letters_.slots) {
-      throw std::invalid_argument(fmt::format("{}: {} coefficients for the {} letters {}{}", name_,
-                                              coefficients_.size(), letters_.length, letters_.letters(),
-                                              letters_.slots > letters_.length ? " (G and H take two)" : ""));
+      throw std::invalid_argument(sentence("{}: {} coefficients for the {} letters {}{}", name_,
+                                           coefficients_.size(), letters_.length, letters_.letters(),
+                                           letters_.slots > letters_.length ? " (G and H take two)" : ""));
     }
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;
       throw std::invalid_argument(
-          fmt::format("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
+          sentence("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
     }
   }
 

@@ -8,6 +8,7 @@
 
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -30,7 +31,7 @@ class thermostatted_method {
     return thermostatted_coefficients<word>(P, plain_.coefficients());
   }
   /// METHOD_PLACEMENT, as in verlet_end.
-  std::string name() const { return fmt::format("{}_{}", plain_.name(), to_string(P)); }
+  std::string name() const { return sentence("{}_{}", plain_.name(), to_string(P)); }
 
  private:
   M plain_;

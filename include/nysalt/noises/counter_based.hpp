@@ -2,8 +2,6 @@
 // Normal numbers without a state: each is a function of where it is used.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,6 +15,7 @@
 #include "nysalt/noises/box_muller.hpp"
 #include "nysalt/noises/philox.hpp"
 #include "nysalt/phase_point.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -51,15 +50,15 @@ inline void check_counter(const noise_counter& first, std::uint64_t trajectories
   constexpr std::uint64_t two_to_48 = std::uint64_t{1} << 48U;
   constexpr std::uint64_t two_to_24 = std::uint64_t{1} << 24U;
   if (first.trajectory > two_to_48 - trajectories) {
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "standard_normals: trajectory {} is too large, trajectories are below 2^48", first.trajectory));
   }
   if (first.step < 0 || first.step >= static_cast<std::int64_t>(two_to_48)) {
     throw std::invalid_argument(
-        fmt::format("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
+        sentence("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
   }
   if (slots > two_to_24 || first.slot > two_to_24 - slots) {
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "standard_normals: {} slots from slot {} are too many, slots of a step are below 2^24: use fewer "
         "numbers a step",
         slots, first.slot));

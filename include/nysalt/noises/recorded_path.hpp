@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -14,6 +12,7 @@
 
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -71,7 +70,7 @@ class recorded_path {
   recorded_path(double interval, double friction, std::uint64_t trajectory = 0)
       : interval_(interval), trajectory_(trajectory), coarse_(friction * interval) {
     if (interval > 0.0 && std::isfinite(interval) && friction >= 0.0 && std::isfinite(friction)) return;
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "recorded_path: needs a positive interval and a friction >= 0, got {} and {}", interval, friction));
   }
 
@@ -93,7 +92,7 @@ class recorded_path {
   /// held.
   void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
     if (from < begin_ || to > end()) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "the recorded path holds the intervals {} to {} of length {}, but the run needs {} to {}: record a "
           "longer one",
           begin_, end(), interval_, from, to));

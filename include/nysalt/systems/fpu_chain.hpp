@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -29,10 +28,10 @@ class fpu_chain {
   /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
-      throw std::invalid_argument(fmt::format("fpu_chain: cannot have {} pairs of masses", pairs));
+      throw std::invalid_argument(sentence("fpu_chain: cannot have {} pairs of masses", pairs));
     }
     if (!(omega > 0.0) || !std::isfinite(omega)) {
-      throw std::invalid_argument(fmt::format("fpu_chain: omega must be positive and finite, got {}", omega));
+      throw std::invalid_argument(sentence("fpu_chain: omega must be positive and finite, got {}", omega));
     }
   }
 
@@ -139,7 +138,7 @@ class fpu_chain {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
   }
-  std::string description() const { return fmt::format("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
+  std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
 
  private:
   template <class T>

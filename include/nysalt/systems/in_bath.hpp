@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -24,7 +25,7 @@ class in_bath : public S {
   /// The system, and the bath that it is in; one that does not act goes without saying.
   std::string description() const {
     if (!bath_.acts()) return describe(alone());
-    return fmt::format("{} in {}", describe(alone()), bath_.description());
+    return sentence("{} in {}", describe(alone()), bath_.description());
   }
 
  private:

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt {
@@ -94,9 +93,7 @@ class long_fpu_chain {
   std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
     return in_turn_.frequency_bands(soft_energy);
   }
-  std::string description() const {
-    return fmt::format("long_fpu_chain(pairs={}, omega={})", pairs(), omega());
-  }
+  std::string description() const { return sentence("long_fpu_chain(pairs={}, omega={})", pairs(), omega()); }
 
  private:
   /// use(i, stiff, left, right) for stiff springs i = 0..m-1: its own pull and those of the soft ones on
@@ -125,7 +122,7 @@ class long_fpu_chain {
 
   void require_size(Eigen::Index n) const {
     if (n == size()) return;
-    throw std::invalid_argument(fmt::format("long_fpu_chain: {} masses have no {} coordinates", size(), n));
+    throw std::invalid_argument(sentence("long_fpu_chain: {} masses have no {} coordinates", size(), n));
   }
 
   fpu_chain<> in_turn_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nysalt/force.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stiffness_modes.hpp"
 
 namespace nysalt {
@@ -42,8 +43,8 @@ class with_quadratic_part : public S {
   }
 
   std::string description() const {
-    return fmt::format("{} with a quadratic part of frequencies up to {}", describe(alone()),
-                       modes_.frequencies.maxCoeff());
+    return sentence("{} with a quadratic part of frequencies up to {}", describe(alone()),
+                    modes_.frequencies.maxCoeff());
   }
 
  private:
