@@ -209,6 +209,7 @@ struct system_entry {
   std::string name;
   std::string options;
   std::string hamiltonian;
+  std::string source = {};  // in docs/bibliography.bib
 };
 const std::vector<system_entry>& system_entries();
 

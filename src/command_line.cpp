@@ -57,6 +57,7 @@ struct typed {
   recommend_command recommend;
   stability_command stability;
   reproduce_command reproduce;
+  cite_command cite;
   system_settings stability_system;
   std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics,
       levels;
@@ -145,6 +146,20 @@ void add_learning(CLI::App& command, learn_settings& how, const std::string& pre
              "of the reference; must divide the step [omega h <= 5e-3]");
   add_number(command, prefix + "horizon", how.horizon, "length of each");
   add_search(command, how, prefix);
+}
+
+void add_cite(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("cite", "the works that a set-up rests on, as BibTeX");
+  command.add_option("files", to.cite.files, "schemes, or results whose manifests say how they were made");
+  command.add_option("--system", to.cite.system, "nysalt list shows all");
+  command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas");
+  command.add_option("--metric", to.metrics, "as compare takes it");
+  command.add_flag("--bath", to.cite.in_bath, "the system is in a bath");
+  add_common(command, to.common);
+  command.footer(
+      "Examples:\n"
+      "  nysalt cite --system fpu --methods srkn6b,learned:nystrom --metric path\n"
+      "  nysalt cite --system pendulum --bath --methods baoab");
 }
 
 void add_list(CLI::App& app, typed& to) {
@@ -319,6 +334,11 @@ int run_parsed(const CLI::App& command, typed& to) {
     refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
   }
   if (name == "list") return list(to.common);
+  if (name == "cite") {
+    to.cite.methods = split(to.methods, "--methods");
+    to.cite.metrics = split(to.metrics, "--metric");
+    return cite(to.cite, to.common);
+  }
   if (name == "learn") {
     to.learn.steps = numbers(to.learn_steps, "--steps");
     if (given(command, "--enough") && given(command, "--trajectories")) {
@@ -438,6 +458,7 @@ int run_command_line(int argc, char** argv) {
   add_recommend(app, to);
   add_stability(app, to);
   add_reproduce(app, to);
+  add_cite(app, to);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());

@@ -130,4 +130,12 @@ struct reproduce_command {
   bool quick = false;
 };
 
+struct cite_command {
+  std::vector<std::string> files;
+  std::string system;  // empty: not said
+  std::vector<std::string> methods;
+  std::vector<std::string> metrics;
+  bool in_bath = false;
+};
+
 }  // namespace nysalt::program

@@ -2,13 +2,13 @@
 // Which part of a step each letter O of a word covers.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -43,7 +43,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   for (const double c : coefficients) {
     if (c < 0.0) {
       throw std::invalid_argument(
-          fmt::format("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
+          sentence("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
     }
     ends.push_back(ends.back() + c);
   }
@@ -51,8 +51,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more
   if (!(std::abs(ends.back() - 1.0) <= rounding)) {
     throw std::invalid_argument(
-        fmt::format("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
-                    letters, ends.back()));
+        sentence("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
+                 letters, ends.back()));
   }
   for (int parts = 1; parts <= most_parts; ++parts) {
     noise_intervals result{parts, {}};
@@ -63,8 +63,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
     }
     if (result.of_letters.size() + 1 == ends.size()) return result;
   }
-  throw std::invalid_argument(fmt::format(
-      "the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
+  throw std::invalid_argument(
+      sentence("the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
 }
 
 }  // namespace nysalt

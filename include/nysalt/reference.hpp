@@ -29,9 +29,9 @@ concept ReferenceFlow = SeparableSystem<S> &&
 
 /// Whose noise a path sees, and how far it is: after `step` times of equal length.
 struct path_place {
-  std::uint64_t seed = 0;
-  std::uint64_t trajectory = 0;
-  std::int64_t step = 0;
+  std::uint64_t seed = 0;        ///< of the noise
+  std::uint64_t trajectory = 0;  ///< whose noise
+  std::int64_t step = 0;         ///< how many such times have passed before
 };
 
 /// The same for a system in a bath, path by path:

@@ -56,7 +56,7 @@ json methods_json() {
                  {"order", s_aia2::order},
                  {"evaluations_per_step", s_aia2::word::evaluations_per_step},
                  {"limit_per_evaluation", nullptr},
-                 {"source", "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024"}});
+                 {"source", adaptive_source}});
   return all;
 }
 
