@@ -8,6 +8,8 @@
 """
 import re
 
+import markdown
+
 literal = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'|//.*')
 
 
@@ -106,12 +108,21 @@ def is_table(line):
     return bool(re.match(r" {2,}\S", line) or re.match(r" ?\S.*\S {2,}\S", line))
 
 
+def staged_line(line, keys, pages):
+    """A line of a comment, which is text alone; keys are those of the bibliography, pages {docs/NAME.md: address}."""
+    if line == " @file":
+        return line
+    line = re.sub(r"\bdocs/[\w/-]+\.md\b", lambda m: f"[{m.group()}]({pages[m.group()]})" if m.group() in pages else m.group(), line)
+    return markdown.staged_line(line, lambda address: address, keys)
+
+
 def staged_comment(lines, indent, keys, pages):
     """The lines of a `///` comment; tables in it stay as they are."""
     if re.match(r" ?[a-z]", lines[0]):
-        lines = [" &zwj;" + lines[0].lstrip(), *lines[1:]]  # or Doxygen would begin a formula with a capital
+        lines = [" \x01" + lines[0].lstrip(), *lines[1:]]  # or Doxygen would begin a formula with a capital
     tables = [is_table(line) for line in lines]
-    out = [line if table else with_links(line, keys, pages) for line, table in zip(lines, tables)]
+    out = [line if table else staged_line(line, keys, pages) for line, table in zip(lines, tables)]
+    out[0] = out[0].replace("\x01", "&zwj;")
     if not any(tables):
         return [f"{indent}///{line}" for line in out]
     for i, table in enumerate(tables):
@@ -124,18 +135,6 @@ def staged_comment(lines, indent, keys, pages):
     out[0] = f"{indent}/**{out[0]}"
     out[-1] = out[-1].replace("\n@endverbatim", " @endverbatim") + " */"
     return out
-
-
-def with_links(line, keys, pages):
-    """A line of a comment; keys are those of the bibliography, pages {docs/NAME.md: address}."""
-    line = re.sub(r"\b[a-z]+(?:_[a-z]+)*_\d{4}\b", lambda m: link(m.group(), f"bibliography.html#bibliography--{m.group()}")
-                  if m.group() in keys else m.group(), line)
-    return re.sub(r"\bdocs/[\w/-]+\.md\b", lambda m: link(m.group(), pages[m.group()])
-                  if m.group() in pages else m.group(), line)
-
-
-def link(text, address):
-    return f'<a href="{address}">{text}</a>'
 
 
 def staged(text, path, members, keys=(), pages=()):
@@ -163,7 +162,8 @@ def staged(text, path, members, keys=(), pages=()):
                 comment = remark.group(2)[0].upper() + remark.group(2)[1:] + "."
             if comment:
                 indent = len(lines[first]) - len(lines[first].lstrip())
-                lines[first] = f"{' ' * indent}/** {comment} */ {lines[first].lstrip()}"
+                said = staged_line(comment, keys, pages)
+                lines[first] = f"{' ' * indent}/** {said} */ {lines[first].lstrip()}"
         shared = (last, name, comment) if comment else None
 
     i = 0

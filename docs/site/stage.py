@@ -54,7 +54,7 @@ class Site:
             return f"{label}.html" + (f"#{label}--{anchor}" if anchor else "")
         inside = path.relative_to(self.root)
         if not path.exists():
-            raise SystemExit(f"{page.relative_to(self.root)}: there is no {address}")
+            return address  # docs/site/links.py will say so
         if path.is_dir():
             return "files.html" if inside.parts[0] == "include" else f"{self.folder_page(path)}.html"
         if inside.parts[0] == "include" and path.suffix == ".hpp":
