@@ -47,7 +47,7 @@ struct flow_map_data {
 
   /// In how many equal parts of a step noise is kept, for systems in a bath; 0: it is not.
   int noise_parts = 0;
-  /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k], k = 0 ..
+  /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k] for k from 0 to
   /// noise_parts - 1.
   std::vector<vector<double, N>> noise;
 

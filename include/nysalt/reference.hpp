@@ -14,6 +14,7 @@
 
 namespace nysalt {
 
+/// A flow that is as good as exact, of a system that is in no bath:
 /// advance(system, x, t)  x becomes the state a time t later
 /// finer()                the same with a much smaller error: the difference measures the error of this one
 /// description()          what it is, with its step or tolerance

@@ -121,8 +121,9 @@ struct word {
       "rest: a word has those of one splitting");
 
   /// Last and first letter of successive steps are applied as one.
-  static constexpr bool merges =
-      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
+  static constexpr bool merges = [] {
+    return length > 1 && std::is_same_v<letter<0>, letter<length - 1>> && letter<0>::additive;
+  }();
 
   /// How many letters of the bath there are.
   static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));

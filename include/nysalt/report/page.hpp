@@ -55,7 +55,7 @@ class page {
     figures_.push_back(std::move(its));
   }
 
-  /// GitHub's Markdown; a picture is PICTURES/NAME.svg with its caption, which stands below again.
+  /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which stands below again.
   std::string markdown(const std::string& pictures = "") const {
     return page_markdown(title_, blocks_, pictures);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The little markup that the sentences of a report have: `code`, **bold** and [text](link).
+// The little markup that the sentences of a report have: `` `code` ``, `**bold**` and `[text](link)`.
 #pragma once
 
 #include <algorithm>
