@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -15,9 +16,9 @@
 
 namespace nysalt {
 
-/// What letters are prepared with, beside coefficients and step: where their word needs it, else null.
+/// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
-  const bath* its_bath = nullptr;              ///< for letters O
+  std::optional<bath> its_bath;                ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const quadratic_part> part;  ///< for letters R
 };
 

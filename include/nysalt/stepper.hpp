@@ -200,7 +200,7 @@ class stepper {
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
     surroundings_of_word result;
-    if constexpr (HasBath<S>) result.its_bath = &static_cast<const bath&>(system.bath());
+    if constexpr (HasBath<S>) result.its_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {
       if (has_rotation(word)) result.part = quadratic_part::of(system);
