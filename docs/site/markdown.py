@@ -107,12 +107,39 @@ def staged_line(line, target_of, keys):
     return line
 
 
+def cells(row):
+    """Of a line of a table. Doxygen would cut at an escaped | and at one in code."""
+    kept = code.sub(lambda m: m.group().replace("|", "\x01"), row.strip()).replace("\\|", "\x01").strip("|")
+    return [cell.strip().replace("\x01", "|") for cell in kept.split("|")]
+
+
+def staged_table(rows, target_of, keys):
+    """The lines of a table as HTML."""
+    sides = [{":-": "left", "-:": "right", "::": "center"}.get(rule[0] + rule[-1]) for rule in cells(rows[1])]
+    out = ['<table class="markdownTable">']
+    for i, row in enumerate([rows[0], *rows[2:]]):
+        out.append("<tr>")
+        for cell, side in zip(cells(row), sides):
+            kind = "td" if i else "th"
+            align = f' align="{side}"' if side and i else ""
+            out.append(f"<{kind}{align}>{staged_line(cell, target_of, keys)}</{kind}>")
+        out.append("</tr>")
+    return [*out, "</table>"]
+
+
 def staged(text, label, target_of, keys):
     """A page for Doxygen. Its headings have anchors LABEL--ANCHOR, as Doxygen wants them unique."""
     found = headings(text)
     anchors = iter(found)
     out = []
-    for line, is_code in lines_with_code(text):
+    table = []  # the lines of the table at hand
+    for line, is_code in [*lines_with_code(text), ("", False)]:
+        if not is_code and line.startswith("|"):
+            table.append(line)
+            continue
+        if table:
+            out += staged_table(table, target_of, keys)
+            table = []
         title = None if is_code else heading.match(line)
         if is_code:
             begin = fence.match(line)
@@ -131,7 +158,7 @@ def staged(text, label, target_of, keys):
                 out += [f'<h2 id="index--{anchor}">{name}</h2>', ""]
             else:
                 out.append(f"{'#' * level} {name} {{#{label}--{anchor}}}")
-        elif line.startswith("    ") or re.match(r"^\|?[\s:|-]+\|[\s:|-]*$", line):
+        elif line.startswith("    "):
             out.append(line)
         else:
             out.append(staged_line(line, target_of, keys))
