@@ -16,9 +16,9 @@ namespace nysalt {
 /// How a trajectory ended. Where it diverged, `finish` is the state at that step.
 template <int N>
 struct outcome {
-  phase_point<double, N> finish;
-  std::int64_t steps = 0;
-  std::optional<std::int64_t> diverged_at;
+  phase_point<double, N> finish;            ///< the last state
+  std::int64_t steps = 0;                   ///< how many were taken
+  std::optional<std::int64_t> diverged_at;  ///< the first bad step; nothing where all went well
 };
 
 /// Takes `steps` steps of a stepper from start, with the noise of that trajectory. The observer is called as
@@ -89,6 +89,7 @@ outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
+/// The same for a method at a step, unobserved.
 template <System S, Method M>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {

@@ -19,21 +19,23 @@
 
 namespace nysalt {
 
-/// Of a word S, over a whole step or two halves:
+/// Where letters O stand beside a word S, over a whole step or two halves:
 ///   end        S O              [li_lu_tao_ye_2023, equation (2.13)]
 ///   symmetric  O/2 S O/2        one draw a step
 ///   middle     S with its central letter X split: ... X/2 O X/2 ...
 enum class placement { end, symmetric, middle };
 
+/// All of them, in that order.
 inline constexpr std::array placements{placement::end, placement::symmetric, placement::middle};
 
+/// end, symmetric or middle, as programs and files write it.
 constexpr std::string_view to_string(placement p) {
   constexpr std::array<std::string_view, 3> names{"end", "symmetric", "middle"};
   return names[static_cast<std::size_t>(p)];
 }
 
-/// Of a word S of some order, where the bath damps alone: O commutes with S to first order only, and what is
-/// symmetric has no second one.
+/// The order of a word S with letters O where the bath damps alone (sigma = 0): O commutes with S to first
+/// order only, and what is symmetric has no second one.
 constexpr int thermostatted_order(placement p, int order, bool symmetric) {
   const bool is_first = p == placement::end || (p == placement::middle && !symmetric);
   return is_first ? 1 : std::min(order, 2);

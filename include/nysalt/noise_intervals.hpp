@@ -14,16 +14,17 @@ namespace nysalt {
 
 /// From begin to end, in equal parts of a step.
 struct noise_interval {
-  int begin;
-  int end;
+  int begin;  ///< the first part of it
+  int end;    ///< the first part behind it
+  /// Whether both ends are the same.
   friend bool operator==(const noise_interval&, const noise_interval&) = default;
 };
 
 /// The letters O share the step in their order: each covers as much as its coefficient says. `parts` is the
 /// least number of equal parts such that none is cut; 0 where there is no letter O.
 struct noise_intervals {
-  int parts = 0;
-  std::vector<noise_interval> of_letters;
+  int parts = 0;                           ///< of the step, all equal
+  std::vector<noise_interval> of_letters;  ///< one for each letter O, in their order
 
   /// The same in a multiple of the parts.
   noise_intervals in_parts(int more) const {

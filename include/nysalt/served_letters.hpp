@@ -26,13 +26,14 @@ consteval bool serves_all(std::index_sequence<I...>) {
 }
 }  // namespace detail
 
+/// Whether a letter R is among them, so that modes are needed.
 template <Word W>
 bool has_rotation(const W& word) {
   return word.letters().find(rotation::letter) != std::string::npos;
 }
 
-/// All letters of a word exist for a system over T: told when it is compiled where the word is a type.
-/// Throws std::invalid_argument, saying what is missing, where it is data.
+/// Refuses a word with a letter that a system does not have over T. Where the word is a type it does not
+/// compile. Throws std::invalid_argument, saying what is missing, where it is data.
 template <System S, Scalar T, Word W>
 void require_served(const W& word, const S& system) {
   if constexpr (TypeLevelWord<W>) {

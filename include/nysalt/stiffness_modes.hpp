@@ -13,9 +13,9 @@
 
 namespace nysalt {
 
-/// Those of q K q/2 with K symmetric, and masses: M^{-1/2} K M^{-1/2} = U diag(omega^2) U^T. Cost: O(N^3).
-/// Throws std::invalid_argument, in the name of who asks, unless K is square, finite and symmetric, and no
-/// eigenvalue is negative beyond rounding.
+/// Normal modes of q K q/2 with K symmetric, and masses: M^{-1/2} K M^{-1/2} = U diag(omega^2) U^T. Cost:
+/// O(N^3). Throws std::invalid_argument, in the name of who asks, unless K is square, finite and symmetric,
+/// and no eigenvalue is negative beyond rounding.
 inline normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
                                     std::string_view who) {
   const Eigen::Index n = stiffness.rows();

@@ -30,8 +30,8 @@ struct ornstein_uhlenbeck {
   /// e^{-gamma c h} and s. What damps alone (sigma = 0) may go back in time; noise cannot.
   template <Scalar C>
   struct prepared {
-    C decay{1.0};
-    C deviation{0.0};
+    C decay{1.0};      ///< e^{-gamma c h}
+    C deviation{0.0};  ///< s, for unit mass
   };
 
   /// Throws std::invalid_argument where noise would have to go back in time.

@@ -72,8 +72,8 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   static constexpr int order = 2;
   static std::string name() { return "s_aia2"; }
 
-  /// Throws std::invalid_argument unless 0 < highest_z < 4. Cost: some 30 microseconds; a is right to
-  /// rounding.
+  /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.
+  /// Cost: some 30 microseconds; a is right to rounding.
   explicit s_aia2(double highest_z) : highest_z_(highest_z) {
     if (!(highest_z > 0.0) || !std::isfinite(highest_z)) {
       throw std::invalid_argument(
@@ -89,7 +89,7 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   }
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
-  double highest_z() const { return highest_z_; }
+  double highest_z() const { return highest_z_; }  ///< as it was given
 
  private:
   double highest_z_;

@@ -14,9 +14,9 @@ namespace nysalt {
 
 /// What a method promises beside its coefficients.
 struct method_properties {
-  int order;
-  bool symmetric;
-  bool requires_quadratic_kinetic;
+  int order;                        ///< in h, as declared
+  bool symmetric;                   ///< whether a step back undoes a step
+  bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
 
 /// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
@@ -26,7 +26,8 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// Throws std::invalid_argument unless there is a finite coefficient for each slot.
+  /// From letters, one coefficient for each of their slots, and promises. Throws std::invalid_argument unless
+  /// there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),

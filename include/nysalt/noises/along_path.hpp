@@ -20,7 +20,8 @@ class along_path {
  public:
   static constexpr bool draws_freely = false;
 
-  /// Throws std::invalid_argument unless the parts of a step are whole intervals of the path.
+  /// For a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the parts of
+  /// a step are whole intervals of the path.
   along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
       : path_(&path), intervals_(std::move(intervals)) {
     if (intervals_.parts == 0) return;
@@ -33,7 +34,8 @@ class along_path {
         step, intervals_.parts, path.interval()));
   }
 
-  /// Throws std::invalid_argument where the path is too short, or is another trajectory's.
+  /// The noise of the path over one letter O of one step. Throws std::invalid_argument where the path is too
+  /// short, or is another trajectory's.
   template <class U>
   void normals(const noise_place& at, vector<U, N>& xi) const {
     const auto [begin, end] = intervals_.of_letters[static_cast<std::size_t>(at.flow)];

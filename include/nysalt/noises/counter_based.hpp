@@ -21,14 +21,14 @@ namespace nysalt {
 
 /// What a random number is for, so that no two uses share one.
 enum class noise_purpose : std::uint8_t {
-  initial_state = 1,
-  bath = 2,         // of a run
-  bath_halves = 3,  // which tell the two halves of a letter O apart
-  finer_path = 4,   // which tell the halves of a step of a path apart
-  burn_in = 5,      // of the run that makes an initial state
-  burn_in_halves = 6,
-  search = 7,       // from where one begins
-  perturbation = 8  // of a start
+  initial_state = 1,   ///< of a trajectory
+  bath = 2,            ///< of a run
+  bath_halves = 3,     ///< which tell the two halves of a letter O apart
+  finer_path = 4,      ///< which tell the halves of a step of a path apart
+  burn_in = 5,         ///< of the run that makes an initial state
+  burn_in_halves = 6,  ///< as bath_halves, of that run
+  search = 7,          ///< from where one begins
+  perturbation = 8     ///< of a start
 };
 
 /// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives
@@ -37,7 +37,7 @@ struct noise_counter {
   std::uint64_t trajectory = 0;  ///< below 2^48
   std::int64_t step = 0;         ///< from 0 to below 2^48
   std::uint64_t slot = 0;        ///< below 2^24
-  noise_purpose purpose{};
+  noise_purpose purpose{};       ///< what the numbers are for
 };
 
 /// How many slots hold so many numbers.

@@ -28,7 +28,7 @@ class odeint_reference {
     }
   }
 
-  /// Throws std::invalid_argument if the system is in a noisy bath.
+  /// x becomes the state a time t later. Throws std::invalid_argument if the system is in a noisy bath.
   template <SeparableSystem S>
   void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     namespace odeint = boost::numeric::odeint;
@@ -59,7 +59,8 @@ class odeint_reference {
     }
   }
 
-  double tolerance() const { return tolerance_; }
+  double tolerance() const { return tolerance_; }  ///< of a step's error, absolute and relative
+  /// With a hundredth of the tolerance.
   odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
   std::string description() const {
     return sentence("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);

@@ -21,10 +21,11 @@ class fpu_chain {
  public:
   static constexpr int dimension = Pairs == Eigen::Dynamic ? Eigen::Dynamic : 2 * Pairs;
 
-  /// Throws std::invalid_argument unless omega is positive and finite.
+  /// Stiff springs of frequency omega. Throws std::invalid_argument unless omega is positive and finite.
   explicit fpu_chain(double omega) requires(Pairs != Eigen::Dynamic) : fpu_chain(Pairs, omega) {}
 
-  /// Throws std::invalid_argument unless pairs >= 1 (and fits Pairs), omega positive and finite.
+  /// `pairs` stiff springs of frequency omega. Throws std::invalid_argument unless pairs >= 1 (and fits
+  /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
       throw std::invalid_argument(sentence("fpu_chain: cannot have {} pairs of masses", pairs));
@@ -34,9 +35,9 @@ class fpu_chain {
     }
   }
 
-  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }
+  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }  ///< m, stiff springs
   Eigen::Index size() const { return 2 * pairs(); }
-  double omega() const { return omega_; }
+  double omega() const { return omega_; }  ///< of the stiff springs
 
   template <class T>
   T potential(const vector<T, dimension>& q) const {
@@ -72,7 +73,7 @@ class fpu_chain {
     }
   }
 
-  /// That of the soft bonds alone.
+  /// The force of the soft bonds alone.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     T left = quartic_pull(q[0]);

@@ -33,7 +33,7 @@ class harmonic_oscillator {
     f[0] = q[0] * (-omega_ * omega_);
   }
 
-  double omega() const { return omega_; }
+  double omega() const { return omega_; }  ///< angular frequency
   normal_modes modes() const {
     return {Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Constant(1, omega_)};
   }

@@ -37,8 +37,8 @@ class lennard_jones {
     }
   }
 
-  Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }
-  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }
+  Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }  ///< 2 or 3 dimensions
+  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }  ///< at least 2
   Eigen::Index size() const { return space() * atoms(); }
 
   template <class T>
@@ -51,7 +51,7 @@ class lennard_jones {
     return sum * 4.0;
   }
 
-  /// On the first of a pair at distance d: (48 r^-14 - 24 r^-8) d.
+  /// f = -grad V(q): (48 r^-14 - 24 r^-8) d on the first of a pair, d being the way to it from the second.
   template <class T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (auto& entry : f) entry = T(0.0);

@@ -76,7 +76,7 @@ class linear_chain {
     }
   }
 
-  /// All of it is quadratic.
+  /// Zero: all of V is quadratic.
   template <class T>
   void soft_force(const vector<T, dimension>&, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = T(0.0);

@@ -54,14 +54,14 @@ class phi4_chain {
     }
   }
 
-  /// That of the wells alone, -q_i^3.
+  /// The force of the wells alone, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
   }
 
-  /// Of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of each
-  /// but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
+  /// Modes of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of
+  /// each but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
   normal_modes modes() const {
     const Eigen::Index n = size();
     normal_modes result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
