@@ -191,6 +191,11 @@ configure(subdirectory -D NYSALT=${nysalt})
 build_and_run(subdirectory)
 refuses("nysalt has more than headers here: ${nysalt}/examples" subdirectory
   -D NYSALT=${nysalt} -D NYSALT_BUILD_EXAMPLES=ON)
+
+# So it does from an archive, which needs no more than this.
+run(${CMAKE_COMMAND} -E chdir ${nysalt} ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include)
+configure(fetch -D NYSALT=${FOLDER}/nysalt.tar.gz)
+
 foreach(change
     "set(CMAKE_CXX_STANDARD 20 PARENT_SCOPE)"
     "set(CMAKE_POSITION_INDEPENDENT_CODE ON PARENT_SCOPE)"
