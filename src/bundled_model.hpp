@@ -40,8 +40,9 @@ namespace nysalt::program {
 
 struct model_facts {
   json parameters;   // as scheme files hold them
-  double frequency;  // the highest, of rare starts; times a fine step 5e-3 at most: srkn11b errs by rounding
+  double frequency;  // the highest, of rare starts
   std::string default_observable;
+  double fine_angle = 5e-3;  // of a fine step, times that frequency: there srkn11b errs by rounding
 };
 
 template <class Alone, Ensemble<Alone> E>
@@ -418,7 +419,7 @@ class bundled_model final : public bundled_system {
             .ranks = &world()};
   }
 
-  model_reference<Alone> reference() const { return {system_, facts_.frequency}; }
+  model_reference<Alone> reference() const { return {system_, facts_.frequency, facts_.fine_angle}; }
   tabulated method_of_reference() const {
     return system_.bath().acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
   }
