@@ -75,7 +75,7 @@ py::object energy(const held_system& system, const py::object& of_q, const py::o
     to[m] = system.its->energy(all_q.subspan(first, n), all_p.subspan(first, n));
   });
   if (q.ndim() == 1) return py::float_(result.at(0));
-  return std::move(result);
+  return result;
 }
 
 py::array force(const held_system& system, const py::object& of_q) {
@@ -89,7 +89,7 @@ py::array force(const held_system& system, const py::object& of_q) {
     const auto first = static_cast<std::size_t>(m) * n;
     system.its->force(all.subspan(first, n), to.subspan(first, n));
   });
-  return std::move(result);
+  return result;
 }
 
 program::role role_named(const std::string& name) {
@@ -120,7 +120,8 @@ py::tuple starts(const held_system& system, const py::dict& arguments) {
     for (std::int64_t m = 0; m < count; ++m) {
       const auto first = static_cast<std::size_t>(m * n);
       const auto width = static_cast<std::size_t>(n);
-      made->start(seed, static_cast<std::uint64_t>(m), to_q.subspan(first, width), to_p.subspan(first, width));
+      made->start_state(seed, static_cast<std::uint64_t>(m), to_q.subspan(first, width),
+                        to_p.subspan(first, width));
     }
   });
   return py::make_tuple(q, p);

@@ -113,7 +113,8 @@ class bundled_model final : public bundled_system {
       }
     }
   }
-  void start(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) const override {
+  void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
+                   std::span<double> p) const override {
     const auto its = (*starts_)(seed, n);
     std::copy_n(its.q.data(), its.q.size(), q.begin());
     std::copy_n(its.p.data(), its.p.size(), p.begin());
@@ -364,7 +365,7 @@ class bundled_model final : public bundled_system {
       std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
       std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
     };
-    run_from(starts_type(system_, listed(std::move(states))), method, sampled, take, progress);
+    run_from(starts_type(system_, nysalt::listed<S::dimension>(std::move(states))), method, sampled, take, progress);
   }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
