@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "../bibliography.hpp"
-#include "../build_info.hpp"
+#include "build_info.hpp"
 #include "../catalogue.hpp"
 #include "../citations.hpp"
 #include "../commands.hpp"
