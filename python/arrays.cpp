@@ -25,7 +25,8 @@ std::span<double> writable(const py::handle& given, const std::string& name,
   }
   auto array = py::reinterpret_borrow<py::array>(given);
   if (!py::isinstance<py::array_t<double>>(given)) {
-    refuse("{} must hold float64 to be filled, it holds {}", name, py::str(array.dtype()).cast<std::string>());
+    refuse("{} must hold float64 to be filled, it holds {}", name,
+           py::str(array.dtype()).cast<std::string>());
   }
   if (shape_of(array) != shape) {
     refuse("{} must have the shape {}, it has {}", name, shape_text(shape), shape_text(shape_of(array)));

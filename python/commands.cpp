@@ -22,7 +22,9 @@ using program::json;
 
 namespace {
 
-std::string dumped(const json& document) { return document.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string dumped(const json& document) {
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 py::tuple learn(const held_system& system, const py::dict& arguments) {
   const given its(arguments);

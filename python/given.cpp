@@ -85,7 +85,8 @@ void given::take(const char* name, std::vector<double>& to) const {
 }
 
 void given::take(const char* name, std::vector<std::string>& to) const {
-  if (has(name)) to = each<std::string>(arguments_[name], [&](const auto& one) { return text_in(name, one); });
+  if (has(name))
+    to = each<std::string>(arguments_[name], [&](const auto& one) { return text_in(name, one); });
 }
 
 void given::take(const char* name, program::held_methods& to) const {

@@ -13,7 +13,7 @@
 namespace nysalt::python {
 
 struct held_system {
-  program::system_settings settings;              // of which each command makes its own
+  program::system_settings settings;             // of which each command makes its own
   std::unique_ptr<program::bundled_system> its;  // for what is asked of it here; its starts are not prepared
 
   bool calls_python() const { return static_cast<bool>(settings.own); }

@@ -359,13 +359,15 @@ class bundled_model final : public bundled_system {
     std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
     std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
     const auto take = [&](std::int64_t m, const record& its) {
-      const auto sample = std::ssize(its.values) / std::ssize(sampled.observables) - 1;  // the last that is here
+      const auto sample =
+          std::ssize(its.values) / std::ssize(sampled.observables) - 1;  // the last that is here
       if (its.first + sample * plan.steps < plan.steps) return;
       const auto from = its.values.end() - std::ssize(sampled.observables);
       std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
       std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
     };
-    run_from(starts_type(system_, nysalt::listed<S::dimension>(std::move(states))), method, sampled, take, progress);
+    run_from(starts_type(system_, nysalt::listed<S::dimension>(std::move(states))), method, sampled, take,
+             progress);
   }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {

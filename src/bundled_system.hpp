@@ -138,7 +138,8 @@ class bundled_system {
   /// runs.
   virtual void prepare_starts(std::uint64_t seed) = 0;
   /// That of trajectory n, by the seed of a role.
-  virtual void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) const = 0;
+  virtual void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
+                           std::span<double> p) const = 0;
 
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;

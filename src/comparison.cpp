@@ -16,8 +16,7 @@ namespace nysalt::program {
 void require_fitting(const compare_command& command, const std::function<bool(const char*)>& is_given) {
   const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
     const auto is_of_these = [&](const std::string& text) {
-      const bool names_its_own =
-          std::string(option) == "--observable" && text.find(':') != std::string::npos;
+      const bool names_its_own = std::string(option) == "--observable" && text.find(':') != std::string::npos;
       return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
     };
     if (!is_given(option) || std::ranges::any_of(command.metrics, is_of_these)) return;

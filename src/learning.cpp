@@ -34,7 +34,8 @@ learned_scheme bundled_system::learn(const learn_plan& plan, const counter& prog
   auto [problem, energies] = make_learnable(plan, progress);
   const run_time_family& family = problem.family;
   if (progress) {  // told again at each pass that all data are there, whoever counts may end the search
-    problem.loss = [loss = std::move(problem.loss), progress, all = plan.how.trajectories](const auto& theta) {
+    problem.loss = [loss = std::move(problem.loss), progress,
+                    all = plan.how.trajectories](const auto& theta) {
       progress(all);
       return loss(theta);
     };

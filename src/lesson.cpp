@@ -33,7 +33,8 @@ std::vector<double> steps_of(const learn_command& command) {
   return steps;
 }
 
-json document_of(const learned_scheme& learned, const bundled_system& system, std::optional<placement> where) {
+json document_of(const learned_scheme& learned, const bundled_system& system,
+                 std::optional<placement> where) {
   const fit_summary& fit = learned.fit;
   json result = fit_json(fit);
   result["system"] = system.description();

@@ -24,8 +24,8 @@ constexpr std::string_view to_learn = "learned:";
 void take_file(method_source& source, method_file file) {
   source.learned = std::move(file.learned);
   source.fixed = std::move(file.table);
-  source.evaluations_per_step = source.learned ? source.learned->evaluations_per_step()
-                                               : source.fixed->letters().evaluations_per_step;
+  source.evaluations_per_step =
+      source.learned ? source.learned->evaluations_per_step() : source.fixed->letters().evaluations_per_step;
 }
 
 bool is_file_name(const std::string& text) {

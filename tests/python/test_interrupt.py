@@ -24,7 +24,7 @@ def long_integration():
 
 
 def long_learning():
-    nysalt.learn(CHAIN, "fg4", step=0.03, trajectories=20000, horizon=3)
+    nysalt.learn(CHAIN, "fg4", step=0.03, trajectories=50, random_starts=10000)  # few data, a long search
 
 
 def long_comparison():
