@@ -8,6 +8,12 @@ link = re.compile(r"(!?)\[((?:\\.|[^\[\]\\]|\[(?:\\.|[^\[\]\\])*\])*)\]\(([^()\s
 code = re.compile(r"(`+)(?!`)(.+?)(?<!`)\1(?!`)")
 
 
+def documents(root):
+    """The Markdown that is for readers."""
+    return sorted(page for folder in (".", "examples", "python") for page in (root / folder).glob("*.md")) + sorted(
+        (root / "docs").rglob("*.md"))
+
+
 def plain(text):
     """Markdown of one line without its marks."""
     text = link.sub(lambda m: m.group(2), text)

@@ -26,7 +26,7 @@ class Site:
         self.root = root
         self.folder = folder
         self.keys = bibliography.keys((root / "docs/bibliography.bib").read_text())
-        self.pages = {path: self.label(path) for path in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]}
+        self.pages = {path: self.label(path) for path in markdown.documents(root)}
         self.shown = {}  # sources that a page shows
         self.copied = set()
         self.titles = {}  # of pages without one: what the first page calls them
@@ -55,6 +55,8 @@ class Site:
         inside = path.relative_to(self.root)
         if not path.exists():
             return address  # docs/site/links.py will say so
+        if path / "README.md" in self.pages:
+            return f"{self.pages[path / 'README.md']}.html"
         if path.is_dir():
             return "files.html" if inside.parts[0] == "include" else f"{self.folder_page(path)}.html"
         if inside.parts[0] == "include" and path.suffix == ".hpp":
@@ -80,7 +82,6 @@ class Site:
             if label == "index":
                 text = text.replace("{#index}", "{#mainpage}", 1)
             write(self.folder / "pages" / f"{label}.md", text)
-        self.folder_page(self.root / "examples")
         done = set()
         while left := sorted(set(self.shown) - done):
             for path in left:

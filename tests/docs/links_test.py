@@ -13,7 +13,7 @@ import markdown
 
 class Documents(unittest.TestCase):
     def test_point_at_what_is_there(self):
-        self.assertGreater(sum(1 for page in links.documents(root) for _ in markdown.links(page.read_text())), 100)
+        self.assertGreater(sum(1 for page in markdown.documents(root) for _ in markdown.links(page.read_text())), 100)
         self.assertEqual(list(links.wrong_in_markdown(root)), [])
 
     def test_are_listed_on_the_first_page(self):
