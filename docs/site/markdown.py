@@ -28,8 +28,9 @@ def slug(title):
 
 
 def lines_with_code(text):
-    """(line, whether it is code) for each line; the lines of a fence are code."""
+    """(line, whether it is code) for each line; the lines of a fence are code. Lines that share a link are one."""
     end = None
+    text = re.sub(r"(\[[^\[\]\n|`]*)\n *([^\[\]\n|`]*\]\()", r"\1 \2", text)
     for line in text.splitlines():
         found = fence.match(line)
         if end is None and found:

@@ -158,9 +158,9 @@ def layout(site):
         inside = [tab for name, address in entries for tab in entry_tabs(site, index, name, address)]
         is_folder = len(entries) == 1 and inside[-1] == "</tab>"  # which is a group already
         tabs += inside if is_folder else ['<tab type="usergroup" visible="yes" title="%s">' % xml(title), *inside, "</tab>"]
-    tabs += ['<tab type="usergroup" visible="yes" title="Sources">']
-    for path, label in sorted(site.shown.items()):
-        tabs += [] if path.is_dir() else [user_tab(str(path.relative_to(site.root)), f"{label}.html")]
+    others = [(path, f"{label}.html") for path, label in sorted(site.shown.items()) if not path.is_dir()]
+    tabs += ['<tab type="usergroup" visible="yes" title="Other sources">']
+    tabs += [user_tab(str(path.relative_to(site.root)), url) for path, url in others if not any(xml(url) in tab for tab in tabs)]
     tabs += ["</tab>"]
     return (here / "layout.xml").read_text().replace("<!-- pages -->", "\n      ".join(tabs))
 
@@ -169,14 +169,14 @@ def entry_tabs(site, index, name, address):
     """One entry of the sidebar. That of a folder's README.md has the pages of its folder below it, as they come there."""
     path = (index.parent / address).resolve()
     url = site.target(index, address)
-    if path.name != "README.md" or path.parent == site.root:
+    if path.name != "README.md" or path.parent == site.root or path not in site.pages:
         return [user_tab(name, url)]
     below = {}
     for found in markdown.link.finditer(path.read_text()):
         target = (path.parent / found.group(3)).resolve()
-        if target.parent == path.parent and target in site.pages:
+        if target.is_relative_to(path.parent) and target in site.pages | site.shown:
             below.setdefault(target, markdown.plain(found.group(2)))
-    tabs = [user_tab(title, f"{site.pages[target]}.html") for target, title in below.items()]
+    tabs = [user_tab(title, f"{(site.pages | site.shown)[target]}.html") for target, title in below.items()]
     return ['<tab type="usergroup" visible="yes" url="%s" title="%s">' % (xml(url), xml(name)), *tabs, "</tab>"]
 
 

@@ -45,6 +45,7 @@ class Markdown(InAFolder):
         self.assertEqual(self.wrong_with("![a](picture.svg)\n"), ["two.md: there is no picture.svg"])
         self.assertEqual(self.wrong_with("[a](docs/one.md#two)\n"), ["two.md: docs/one.md has no heading #two"])
         self.assertEqual(self.wrong_with("[a](#a)\n"), ["two.md: two.md has no heading #a"])
+        self.assertEqual(self.wrong_with("[a\nb](c.md)\n"), ["two.md: there is no c.md"])
         self.assertEqual(self.wrong_with("see `examples/none.cpp`\n"), ["two.md: there is no examples/none.cpp"])
         self.assertEqual(self.wrong_with("[a](../outside.md)\n"), ["two.md: there is no ../outside.md"])
 
