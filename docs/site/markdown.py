@@ -28,20 +28,31 @@ def slug(title):
 
 
 def lines_with_code(text):
-    """(line, whether it is code) for each line; the lines of a fence are code. Lines that share a link are one."""
+    """(line, whether it is code) for each line; the lines of a fence are code. Lines that share a link or `code` are one."""
     end = None
-    text = re.sub(r"(\[[^\[\]\n|`]*)\n *([^\[\]\n|`]*\]\()", r"\1 \2", text)
+    unfinished = ""
     for line in text.splitlines():
         found = fence.match(line)
-        if end is None and found:
-            end = found.group(2)
-            yield line, True
-        elif end is not None:
+        if end is not None:
             if line.strip() == end:
                 end = None
             yield line, True
+            continue
+        goes_on = line.strip() and not found and not re.match(r" *([-*+>]|\d+\.) |#|\|", line)
+        if unfinished and goes_on:
+            line = f"{unfinished} {line.lstrip()}"
+        elif unfinished:
+            yield unfinished, False
+        unfinished = ""
+        if found:
+            end = found.group(2)
+            yield line, True
+        elif line.count("`") % 2 or re.search(r"\[[^\[\]|]*$", code.sub("", line)):
+            unfinished = line
         else:
             yield line, False
+    if unfinished:
+        yield unfinished, False
 
 
 def headings(text):

@@ -46,6 +46,7 @@ class Markdown(InAFolder):
         self.assertEqual(self.wrong_with("[a](docs/one.md#two)\n"), ["two.md: docs/one.md has no heading #two"])
         self.assertEqual(self.wrong_with("[a](#a)\n"), ["two.md: two.md has no heading #a"])
         self.assertEqual(self.wrong_with("[a\nb](c.md)\n"), ["two.md: there is no c.md"])
+        self.assertEqual(self.wrong_with("`a\nb` [c](d.md) `e`\n"), ["two.md: there is no d.md"])
         self.assertEqual(self.wrong_with("see `examples/none.cpp`\n"), ["two.md: there is no examples/none.cpp"])
         self.assertEqual(self.wrong_with("[a](../outside.md)\n"), ["two.md: there is no ../outside.md"])
 
