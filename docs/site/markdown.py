@@ -180,4 +180,4 @@ def staged(text, label, target_of, keys):
             out.append(line)
         else:
             out.append(staged_line(line, target_of, keys))
-    return "\n".join(out) + "\n"
+    return "\n".join(out).rstrip("\n") + "\n"
