@@ -121,6 +121,9 @@ def staged_line(line, target_of, keys):
     line = re.sub(r"<https?://[^>]*>", lambda m: keep(f'<a href="{m.group()[1:-1]}">{m.group()[1:-1]}</a>'), line)
     line = re.sub(r"https?://[^\s)>\]]*", lambda m: keep(m.group()), line)
     line = re.sub(r"\b[a-z]+(?:_[a-z]+)*_\d{4}\b", kept_key, line)
+    for marks, tag in (("\\*\\*", "b"), ("\\*", "em")):  # Doxygen sees none that begin or end with code
+        pair = rf"(?<![\w*\\]){marks}(?=[^\s*])(.*?)(?<=[^\s*\\]){marks}(?![\w*])"
+        line = re.sub(pair, lambda m: keep(f"<{tag}>") + m.group(1) + keep(f"</{tag}>"), line)
     line = escaped(line)
     while "\x00" in line:
         line = re.sub("\x00(\\d+)\x00", lambda m: kept[int(m.group(1))], line)

@@ -36,6 +36,10 @@ class Pages(unittest.TestCase):
         self.assertEqual(staged("<!-- quote a.cpp b -->\n```cpp\n#include <a> // @b\n```"),
                          ["", "```{.cpp}", "#include <a> // @b", "```"])
 
+    def test_stress_what_begins_with_code(self):
+        self.assertEqual(staged("**`a` b** and *c* but \\*d\\* and e * f * g"),
+                         ["<b>`a` b</b> and <em>c</em> but \\*d\\* and e * f * g"])
+
     def test_read_code_and_links_over_two_lines(self):
         self.assertEqual(staged("`a\nb` and `c`"), ["`a b` and `c`"])
         self.assertEqual(staged("[a\nb](c.md) on [0, 1)\n- d"), ['<a href="to/c.md">a b</a> on [0, 1)', "- d"])
