@@ -112,6 +112,12 @@ start start_of(const std::string& asked, const bath& its) {
   return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
 
+surroundings surroundings_of(const system_settings& settings) {
+  const bath its = bath_of(settings.bath);
+  const start where = start_of(settings.start, its);
+  return {its, where, spread_of(settings.spread, where)};
+}
+
 }  // namespace
 
 const std::vector<system_entry>& system_entries() {
@@ -124,6 +130,7 @@ const std::vector<system_entry>& system_entries() {
 }
 
 std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
+  if (settings.own) return settings.own(surroundings_of(settings));
   const auto found = std::find_if(makers().begin(), makers().end(),
                                   [&](const maker& known) { return known.entry.name == settings.name; });
   if (found == makers().end()) {
@@ -140,9 +147,7 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
     if (!given || std::find(found->takes.begin(), found->takes.end(), name) != found->takes.end()) continue;
     refuse("the system {} has no {}: it takes {}", settings.name, name, listed(found->takes));
   }
-  const bath its = bath_of(settings.bath);
-  const start where = start_of(settings.start, its);
-  return found->make(settings, {its, where, spread_of(settings.spread, where)});
+  return found->make(settings, surroundings_of(settings));
 }
 
 std::optional<double> highest_frequency(const bundled_system& system) {

@@ -7,13 +7,14 @@
 #include <sstream>
 
 #include "build_info.hpp"
+#include "checks.hpp"
 #include "commands.hpp"
+#include "comparison.hpp"
 #include "number.hpp"
 #include "nysalt/together.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
 #include "refusal.hpp"
-#include "seeds.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -326,13 +327,7 @@ bool given(const CLI::App& command, const std::string& option) { return command.
 
 int run_parsed(const CLI::App& command, typed& to) {
   const std::string name = command.get_name();
-  constexpr int most_threads = 1024;  // each takes memory, before it works
-  if (to.common.threads < 1 || to.common.threads > most_threads) {
-    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, to.common.threads);
-  }
-  if (to.common.seed >= seed_limit) {
-    refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
-  }
+  require_sound(to.common);
   if (name == "list") return list(to.common);
   if (name == "cite") {
     to.cite.methods = split(to.methods, "--methods");
@@ -356,20 +351,7 @@ int run_parsed(const CLI::App& command, typed& to) {
     to.compare.range = numbers(to.range, "--range");
     if (given(command, "--metric")) to.compare.metrics = split(to.metrics, "--metric");
     if (given(command, "--levels")) to.compare.levels = numbers(to.levels, "--levels");
-    const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
-      const auto is_of_these = [&](const std::string& text) {
-        const bool names_its_own =
-            std::string(option) == "--observable" && text.find(':') != std::string::npos;
-        return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
-      };
-      if (!given(command, option) || std::ranges::any_of(to.compare.metrics, is_of_these)) return;
-      refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(to.compare.metrics));
-    };
-    belongs("--observable", {"path", "distribution", "acf"});
-    belongs("--range", {"distribution"});
-    belongs("--bins", {"distribution"});
-    belongs("--longest-lag", {"acf"});
-    belongs("--hmc-temperature", {"acceptance"});
+    require_fitting(to.compare, [&](const char* option) { return given(command, option); });
     return compare(to.compare, to.common);
   }
   if (name == "reproduce") return reproduce(to.reproduce, to.common);

@@ -105,9 +105,9 @@ def readers():
 
 
 def cited(text, known):
-    """Keys that a text names: those that look like one, and others of the .bib behind a bracket."""
+    """Keys that a text names: those that look like one, and others of the .bib behind a bracket or in quotes."""
     by_year = set(re.findall(r"\b[a-z]+(?:_[a-z]+)*_(?:18|19|20)\d\d\b", text))
-    return by_year | {key for key in known if re.search(rf"\[{key}\b|\"{key}\"|`{key}`", text)}
+    return by_year | (known & set(re.findall(r"[\[\"`](\w+)\b", text)))
 
 
 def mistakes():

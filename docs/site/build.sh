@@ -9,6 +9,10 @@ export NYSALT_SITE
 cd "$here/../.."
 wrong=0
 
+if [[ -n $(ls "$NYSALT_SITE") && ! -d $NYSALT_SITE/staged ]]; then
+  echo "build.sh: $NYSALT_SITE is not empty, and no site was built there before" >&2
+  exit 2
+fi
 rm -rf "${NYSALT_SITE:?}"/*
 python3 -B docs/site/stage.py . "$NYSALT_SITE/staged" || wrong=1
 [[ -e $NYSALT_SITE/staged/layout.xml ]] || exit 1

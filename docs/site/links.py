@@ -3,7 +3,7 @@
 """Whether every link leads somewhere: links.py ROOT [SITE] [--external].
 
 In the Markdown of the project, as a forge shows it, and in the pages of the built site: files and anchors. Every page is
-to be found from docs/README.md. Links to the world outside are not followed; --external lists them.
+listed on docs/README.md, or on a README.md that is. Links to the world outside are not followed; --external lists them.
 """
 import html
 import re
@@ -38,12 +38,17 @@ def wrong_in_markdown(root):
 
 
 def unlisted(root):
-    """Sentences on pages that docs/README.md does not list."""
+    """Sentences on pages that neither docs/README.md nor a README.md that it lists has."""
     index = root / "docs/README.md"
-    listed = {(index.parent / address.partition("#")[0]).resolve() for address in markdown.links(index.read_text())}
+    listed = {index, *linked(index)}
+    listed |= {page for folder in list(listed) if folder.name == "README.md" and folder.exists() for page in linked(folder)}
     for page in documents(root):
-        if page != index and page not in listed:
+        if page not in listed:
             yield f"docs/README.md does not list {page.relative_to(root)}"
+
+
+def linked(page):
+    return {(page.parent / address.partition("#")[0]).resolve() for address in markdown.links(page.read_text())}
 
 
 class Page:

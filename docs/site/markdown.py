@@ -117,7 +117,7 @@ def staged(text, label, target_of, keys):
         if is_code:
             begin = fence.match(line)
             if begin and begin.group(3):
-                language = {"cpp": ".cpp", "python": ".py", "json": ".json", "sh": ".sh"}.get(begin.group(3), ".txt")
+                language = {"cpp": ".cpp", "python": ".py"}.get(begin.group(3), ".unparsed")
                 line = f"{begin.group(1)}{begin.group(2)}{{{language}}}"
             out.append(line)
         elif title:

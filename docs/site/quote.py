@@ -67,7 +67,7 @@ def rewritten(text):
     i = 0
     while i < len(lines):
         quote = quote_line.match(lines[i])
-        if not quote and "<!-- quote" in lines[i]:
+        if not quote and lines[i].lstrip().startswith("<!-- quote"):
             mistakes.append((i + 1, "a quote is a line `<!-- quote PATH NAME -->`"))
         if quote:
             out.append(lines[i])

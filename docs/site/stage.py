@@ -101,7 +101,7 @@ class Site:
                     lines.append(f'- <a href="{self.target(path / "x.md", file.name)}">{file.name}</a>: {first_words(file)}')
             return "\n".join(lines) + "\n"
         ticks = "~~~~~~~~"
-        language = {"cpp": "{.cpp}", "python": "{.py}"}.get(sources[path.suffix], "{.txt}")
+        language = {"cpp": "{.cpp}", "python": "{.py}"}.get(sources[path.suffix], "{.unparsed}")
         return f"# {inside} {{#{self.shown[path]}}}\n\n{ticks}{language}\n{path.read_text().rstrip()}\n{ticks}\n"
 
 
@@ -151,16 +151,36 @@ def layout(site):
         entry = re.match(r"^ *- (\[.*)", line)
         if entry and groups and not is_code:
             found = markdown.link.match(entry.group(1))
-            groups[-1][1].append((markdown.plain(found.group(2)), site.target(index, found.group(3))))
-    shown = sorted((str(path.relative_to(site.root)), f"{label}.html") for path, label in site.shown.items() if path.is_file())
-    groups.append(("Sources", shown))
+            groups[-1][1].append((markdown.plain(found.group(2)), found.group(3)))
     tabs = []
     for title, entries in groups:
-        if entries:
-            tabs.append(f'<tab type="usergroup" visible="yes" title="{xml(title)}">')
-            tabs += [f'  <tab type="user" visible="yes" url="{xml(url)}" title="{xml(name)}"/>' for name, url in entries]
-            tabs.append("</tab>")
+        inside = [tab for name, address in entries for tab in entry_tabs(site, index, name, address)]
+        is_folder = len(entries) == 1 and inside[-1] == "</tab>"  # which is a group already
+        tabs += inside if is_folder else ['<tab type="usergroup" visible="yes" title="%s">' % xml(title), *inside, "</tab>"]
+    tabs += ['<tab type="usergroup" visible="yes" title="Sources">']
+    for path, label in sorted(site.shown.items()):
+        tabs += [] if path.is_dir() else [user_tab(str(path.relative_to(site.root)), f"{label}.html")]
+    tabs += ["</tab>"]
     return (here / "layout.xml").read_text().replace("<!-- pages -->", "\n      ".join(tabs))
+
+
+def entry_tabs(site, index, name, address):
+    """One entry of the sidebar. That of a folder's README.md has the pages of its folder below it, as they come there."""
+    path = (index.parent / address).resolve()
+    url = site.target(index, address)
+    if path.name != "README.md" or path.parent == site.root:
+        return [user_tab(name, url)]
+    below = {}
+    for found in markdown.link.finditer(path.read_text()):
+        target = (path.parent / found.group(3)).resolve()
+        if target.parent == path.parent and target in site.pages:
+            below.setdefault(target, markdown.plain(found.group(2)))
+    tabs = [user_tab(title, f"{site.pages[target]}.html") for target, title in below.items()]
+    return ['<tab type="usergroup" visible="yes" url="%s" title="%s">' % (xml(url), xml(name)), *tabs, "</tab>"]
+
+
+def user_tab(name, url):
+    return '<tab type="user" visible="yes" url="%s" title="%s"/>' % (xml(url), xml(name))
 
 
 def xml(text):

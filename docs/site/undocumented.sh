@@ -5,9 +5,10 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "${1:-$PWD}" && pwd)
 staged=$(mktemp -d)
 trap 'rm -rf "$staged"' EXIT
-concepts=$(/usr/bin/python3 "$here/stage.py" "$root" "$staged" --headers 2>&1)
-{ cat "$here/Doxyfile"
-  printf '%s\n' "INPUT = $staged" 'FILTER_PATTERNS =' "STRIP_FROM_PATH = $staged" "OUTPUT_DIRECTORY = $staged/site" 'GENERATE_HTML = NO' \
-    'HAVE_DOT = NO' 'WARN_AS_ERROR = NO'
-} | doxygen - 2>&1 >/dev/null | { grep '^[^ ]*: warning: ' || true; } | sed "s|^$staged/||" |
-  cat - <(printf '%s' "${concepts:+$concepts$'\n'}") | sort -t: -k1,1 -k2,2n
+python3 -B "$here/stage.py" "$root" "$staged" --headers 2>"$staged/concepts"
+{ cat "$here/comments.doxyfile"
+  printf '%s\n' "INPUT = $staged/include $staged/pages" "STRIP_FROM_PATH = $staged" "OUTPUT_DIRECTORY = $staged" \
+    'GENERATE_HTML = NO' "WARN_LOGFILE = $staged/warnings"
+} | doxygen - 2> >(grep -v 'No output formats selected' >&2)
+sed "s|^$staged/||" "$staged/concepts" "$staged/warnings" | { grep -v 'No output formats selected' || true; } |
+  sort -t: -k1,1 -k2,2n

@@ -19,7 +19,7 @@ namespace detail {
 template <System S>
 constexpr int most_lanes() {
   if constexpr (requires { S::lanes; }) {
-    static_assert(S::lanes >= 1 && S::lanes <= 16, "lanes of a system must lie in 1..16");
+    static_assert(S::lanes >= 1 && S::lanes <= 16, "nysalt: lanes of a system must lie in 1..16");
     return S::lanes;
   } else {
     return default_lanes;

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "../bibliography.hpp"
-#include "../build_info.hpp"
 #include "../catalogue.hpp"
 #include "../citations.hpp"
 #include "../commands.hpp"
@@ -13,6 +12,7 @@
 #include "../method_file.hpp"
 #include "../output.hpp"
 #include "../refusal.hpp"
+#include "build_info.hpp"
 
 namespace nysalt::program {
 

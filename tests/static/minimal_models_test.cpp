@@ -23,6 +23,7 @@
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/requirements.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -61,6 +62,11 @@ struct quartic_well {
 };
 static_assert(nysalt::NystromSystem<quartic_well>);
 // [/system]
+
+// [ask]
+constexpr bool verlet_suits_it = (nysalt::require_suited<nysalt::verlet, quartic_well>(), true);
+// [/ask]
+static_assert(verlet_suits_it);
 
 // [kinetic_energy]
 struct relativistic_well : quartic_well {

@@ -64,7 +64,7 @@ class lane_mask {
   template <class T = bool>
   operator bool() const {
     static_assert(!std::same_as<T, bool>,
-                  "lanes may differ in a comparison, so it cannot choose a branch: write "
+                  "nysalt: lanes may differ in a comparison, so it cannot choose a branch: write "
                   "nysalt::select(condition, a, b), or let the system say `static constexpr int lanes = 1;`");
     return false;
   }
