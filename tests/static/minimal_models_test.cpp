@@ -63,11 +63,6 @@ struct quartic_well {
 static_assert(nysalt::NystromSystem<quartic_well>);
 // [/system]
 
-// [ask]
-constexpr bool verlet_suits_it = (nysalt::require_suited<nysalt::verlet, quartic_well>(), true);
-// [/ask]
-static_assert(verlet_suits_it);
-
 // [kinetic_energy]
 struct relativistic_well : quartic_well {
   template <class T>
@@ -306,6 +301,10 @@ BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
 }
 
 BOOST_AUTO_TEST_CASE(systems_and_their_optional_members_step) {
+  // [ask]
+  nysalt::require_suited<nysalt::verlet, quartic_well>();
+  // [/ask]
+
   // B(h/2) A(h) B(h/2) of the quartic well from (1, 0), by hand.
   const quartic_well system;
   const double p = -0.05;
