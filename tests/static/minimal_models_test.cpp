@@ -27,7 +27,7 @@
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
-namespace {
+namespace minimal {
 
 // [scalar]
 /// What does a step do where every operation rounds to 24 bits?
@@ -286,7 +286,9 @@ using point = nysalt::phase_point<double, 1>;
 point at(double q, double p) { return {nysalt::vector<double, 1>(q), nysalt::vector<double, 1>(p)}; }
 constexpr double eps = 0x1p-52;
 
-}  // namespace
+}  // namespace minimal
+
+using namespace minimal;
 
 BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
   const quartic_well system;
