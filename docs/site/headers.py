@@ -156,6 +156,9 @@ def staged(text, path, members, keys=(), pages=()):
         remark = re.search(r"([;}])\s+// (.*)$", lines[last]) if first == last else None
         if not comment and "///<" not in lines[last] and not lines[first].lstrip().startswith("/**"):
             comment = sentence_for(members, path, name)
+            if not comment and declaration.endswith("= delete;"):
+                reason = re.search(r";\s+// (.*)$", lines[last])
+                comment = f"Refused: {reason.group(1)}." if reason else "Refused."
             if not comment and shared and shared[:2] == (first - 1, name):
                 comment = shared[2]
             if not comment and remark and not lines[last].lstrip().startswith("friend"):

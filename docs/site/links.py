@@ -14,14 +14,10 @@ from urllib.parse import unquote
 import markdown
 
 
-def documents(root):
-    return sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")])
-
-
 def wrong_in_markdown(root):
     """Sentences on the links of the documents, and on paths that they name as `docs/...` or `examples/...`."""
-    anchors = {page: {anchor for _, _, anchor in markdown.headings(page.read_text())} for page in documents(root)}
-    for page in documents(root):
+    anchors = {page: {anchor for _, _, anchor in markdown.headings(page.read_text())} for page in markdown.documents(root)}
+    for page in markdown.documents(root):
         text = page.read_text()
         for address in markdown.links(text):
             if re.match(r"\w+:", address):
@@ -42,7 +38,7 @@ def unlisted(root):
     index = root / "docs/README.md"
     listed = {index, *linked(index)}
     listed |= {page for folder in list(listed) if folder.name == "README.md" and folder.exists() for page in linked(folder)}
-    for page in documents(root):
+    for page in markdown.documents(root):
         if page not in listed:
             yield f"docs/README.md does not list {page.relative_to(root)}"
 

@@ -8,6 +8,12 @@ link = re.compile(r"(!?)\[((?:\\.|[^\[\]\\]|\[(?:\\.|[^\[\]\\])*\])*)\]\(([^()\s
 code = re.compile(r"(`+)(?!`)(.+?)(?<!`)\1(?!`)")
 
 
+def documents(root):
+    """The Markdown that is for readers."""
+    return sorted(page for folder in (".", "examples", "python") for page in (root / folder).glob("*.md")) + sorted(
+        (root / "docs").rglob("*.md"))
+
+
 def plain(text):
     """Markdown of one line without its marks."""
     text = link.sub(lambda m: m.group(2), text)
@@ -22,19 +28,31 @@ def slug(title):
 
 
 def lines_with_code(text):
-    """(line, whether it is code) for each line; the lines of a fence are code."""
+    """(line, whether it is code) for each line; the lines of a fence are code. Lines that share a link or `code` are one."""
     end = None
+    unfinished = ""
     for line in text.splitlines():
         found = fence.match(line)
-        if end is None and found:
-            end = found.group(2)
-            yield line, True
-        elif end is not None:
+        if end is not None:
             if line.strip() == end:
                 end = None
             yield line, True
+            continue
+        goes_on = line.strip() and not found and not re.match(r" *([-*+>]|\d+\.) |#|\|", line)
+        if unfinished and goes_on:
+            line = f"{unfinished} {line.lstrip()}"
+        elif unfinished:
+            yield unfinished, False
+        unfinished = ""
+        if found:
+            end = found.group(2)
+            yield line, True
+        elif line.count("`") % 2 or re.search(r"\[[^\[\]|]*$", code.sub("", line)):
+            unfinished = line
         else:
             yield line, False
+    if unfinished:
+        yield unfinished, False
 
 
 def headings(text):
@@ -107,12 +125,39 @@ def staged_line(line, target_of, keys):
     return line
 
 
+def cells(row):
+    """Of a line of a table. Doxygen would cut at an escaped | and at one in code."""
+    kept = code.sub(lambda m: m.group().replace("|", "\x01"), row.strip()).replace("\\|", "\x01").strip("|")
+    return [cell.strip().replace("\x01", "|") for cell in kept.split("|")]
+
+
+def staged_table(rows, target_of, keys):
+    """The lines of a table as HTML."""
+    sides = [{":-": "left", "-:": "right", "::": "center"}.get(rule[0] + rule[-1]) for rule in cells(rows[1])]
+    out = ['<table class="markdownTable">']
+    for i, row in enumerate([rows[0], *rows[2:]]):
+        out.append("<tr>")
+        for cell, side in zip(cells(row), sides):
+            kind = "td" if i else "th"
+            align = f' align="{side}"' if side and i else ""
+            out.append(f"<{kind}{align}>{staged_line(cell, target_of, keys)}</{kind}>")
+        out.append("</tr>")
+    return [*out, "</table>"]
+
+
 def staged(text, label, target_of, keys):
     """A page for Doxygen. Its headings have anchors LABEL--ANCHOR, as Doxygen wants them unique."""
     found = headings(text)
     anchors = iter(found)
     out = []
-    for line, is_code in lines_with_code(text):
+    table = []  # the lines of the table at hand
+    for line, is_code in [*lines_with_code(text), ("", False)]:
+        if not is_code and line.startswith("|"):
+            table.append(line)
+            continue
+        if table:
+            out += staged_table(table, target_of, keys)
+            table = []
         title = None if is_code else heading.match(line)
         if is_code:
             begin = fence.match(line)
@@ -131,7 +176,7 @@ def staged(text, label, target_of, keys):
                 out += [f'<h2 id="index--{anchor}">{name}</h2>', ""]
             else:
                 out.append(f"{'#' * level} {name} {{#{label}--{anchor}}}")
-        elif line.startswith("    ") or re.match(r"^\|?[\s:|-]+\|[\s:|-]*$", line):
+        elif line.startswith("    "):
             out.append(line)
         else:
             out.append(staged_line(line, target_of, keys))

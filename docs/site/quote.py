@@ -16,6 +16,8 @@ import re
 import sys
 from pathlib import Path
 
+import markdown
+
 root = Path(__file__).resolve().parents[2]
 
 quote_line = re.compile(r"^( *)<!-- quote (\S+)(?: (\S+))? -->$")
@@ -28,10 +30,6 @@ languages = {".cpp": "cpp", ".hpp": "cpp", ".c": "c", ".h": "c", ".py": "python"
 
 class Mistake(Exception):
     """Says what is wrong with a quotation."""
-
-
-def documents():
-    return sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")])
 
 
 def quoted(path, name):
@@ -115,7 +113,7 @@ def main():
     parser.add_argument("files", nargs="*", type=Path, help="Markdown files (default: all of ours)")
     arguments = parser.parse_args()
     wrong = 0
-    for document in arguments.files or documents():
+    for document in arguments.files or markdown.documents(root):
         text = document.read_text()
         after, mistakes = rewritten(text)
         if arguments.update and after != text:

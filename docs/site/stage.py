@@ -26,7 +26,7 @@ class Site:
         self.root = root
         self.folder = folder
         self.keys = bibliography.keys((root / "docs/bibliography.bib").read_text())
-        self.pages = {path: self.label(path) for path in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]}
+        self.pages = {path: self.label(path) for path in markdown.documents(root)}
         self.shown = {}  # sources that a page shows
         self.copied = set()
         self.titles = {}  # of pages without one: what the first page calls them
@@ -55,6 +55,8 @@ class Site:
         inside = path.relative_to(self.root)
         if not path.exists():
             return address  # docs/site/links.py will say so
+        if path / "README.md" in self.pages:
+            return f"{self.pages[path / 'README.md']}.html"
         if path.is_dir():
             return "files.html" if inside.parts[0] == "include" else f"{self.folder_page(path)}.html"
         if inside.parts[0] == "include" and path.suffix == ".hpp":
@@ -80,7 +82,6 @@ class Site:
             if label == "index":
                 text = text.replace("{#index}", "{#mainpage}", 1)
             write(self.folder / "pages" / f"{label}.md", text)
-        self.folder_page(self.root / "examples")
         done = set()
         while left := sorted(set(self.shown) - done):
             for path in left:
@@ -157,9 +158,9 @@ def layout(site):
         inside = [tab for name, address in entries for tab in entry_tabs(site, index, name, address)]
         is_folder = len(entries) == 1 and inside[-1] == "</tab>"  # which is a group already
         tabs += inside if is_folder else ['<tab type="usergroup" visible="yes" title="%s">' % xml(title), *inside, "</tab>"]
-    tabs += ['<tab type="usergroup" visible="yes" title="Sources">']
-    for path, label in sorted(site.shown.items()):
-        tabs += [] if path.is_dir() else [user_tab(str(path.relative_to(site.root)), f"{label}.html")]
+    others = [(path, f"{label}.html") for path, label in sorted(site.shown.items()) if not path.is_dir()]
+    tabs += ['<tab type="usergroup" visible="yes" title="Other sources">']
+    tabs += [user_tab(str(path.relative_to(site.root)), url) for path, url in others if not any(xml(url) in tab for tab in tabs)]
     tabs += ["</tab>"]
     return (here / "layout.xml").read_text().replace("<!-- pages -->", "\n      ".join(tabs))
 
@@ -168,14 +169,14 @@ def entry_tabs(site, index, name, address):
     """One entry of the sidebar. That of a folder's README.md has the pages of its folder below it, as they come there."""
     path = (index.parent / address).resolve()
     url = site.target(index, address)
-    if path.name != "README.md" or path.parent == site.root:
+    if path.name != "README.md" or path.parent == site.root or path not in site.pages:
         return [user_tab(name, url)]
     below = {}
     for found in markdown.link.finditer(path.read_text()):
         target = (path.parent / found.group(3)).resolve()
-        if target.parent == path.parent and target in site.pages:
+        if target.is_relative_to(path.parent) and target in site.pages | site.shown:
             below.setdefault(target, markdown.plain(found.group(2)))
-    tabs = [user_tab(title, f"{site.pages[target]}.html") for target, title in below.items()]
+    tabs = [user_tab(title, f"{(site.pages | site.shown)[target]}.html") for target, title in below.items()]
     return ['<tab type="usergroup" visible="yes" url="%s" title="%s">' % (xml(url), xml(name)), *tabs, "</tab>"]
 
 

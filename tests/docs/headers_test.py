@@ -35,6 +35,19 @@ class Comments(unittest.TestCase):
         self.assertEqual(staged(text, "bath.hpp")[1][:8], "  /** As")
         self.assertEqual(staged(text, "flows/a.hpp"), text.split("\n"))
 
+    def test_of_the_list_are_all_needed(self):
+        project = headers.read_members((root / "docs/site/members.txt").read_text())
+        left = {(places, name) for places, sentences in project for name in sentences}
+        self.assertGreater(len(left), 50)
+        for header in (root / "include").rglob("*.hpp"):
+            inside = str(header.relative_to(root / "include/nysalt"))
+            text = headers.staged(header.read_text(), inside, project)
+            for places, name in list(left):
+                sentence = headers.sentence_for(project, inside, name)
+                if sentence and f"/** {sentence} */" in text:
+                    left.discard((places, name))
+        self.assertEqual(left, set())
+
     def test_of_their_own_come_first(self):
         text = "struct a {\n  /// Two.\n  static constexpr int order = 2;\n};"
         self.assertEqual(staged(text), text.split("\n"))
@@ -44,6 +57,10 @@ class Comments(unittest.TestCase):
         lines = staged(text)
         self.assertEqual(lines[4], "/** Adds. */ double add(double a);")
         self.assertEqual(lines[6:], ["float add(float a);", "int other(int a);"])
+
+    def test_of_deleted_overloads_say_why(self):
+        lines = staged("/// Refers to x.\nvoid of(const int& x);\nvoid of(int&& x) = delete;  // it would be gone")
+        self.assertEqual(lines[2], "/** Refused: it would be gone. */ void of(int&& x) = delete;  // it would be gone")
 
     def test_may_stand_behind_a_declaration(self):
         self.assertEqual(staged("struct a {\n  int b = 0;  // of all\n};")[1], "  /** Of all. */ int b = 0;  // of all")

@@ -13,7 +13,7 @@ import markdown
 
 class Documents(unittest.TestCase):
     def test_point_at_what_is_there(self):
-        self.assertGreater(sum(1 for page in links.documents(root) for _ in markdown.links(page.read_text())), 100)
+        self.assertGreater(sum(1 for page in markdown.documents(root) for _ in markdown.links(page.read_text())), 100)
         self.assertEqual(list(links.wrong_in_markdown(root)), [])
 
     def test_are_listed_on_the_first_page(self):
@@ -45,6 +45,8 @@ class Markdown(InAFolder):
         self.assertEqual(self.wrong_with("![a](picture.svg)\n"), ["two.md: there is no picture.svg"])
         self.assertEqual(self.wrong_with("[a](docs/one.md#two)\n"), ["two.md: docs/one.md has no heading #two"])
         self.assertEqual(self.wrong_with("[a](#a)\n"), ["two.md: two.md has no heading #a"])
+        self.assertEqual(self.wrong_with("[a\nb](c.md)\n"), ["two.md: there is no c.md"])
+        self.assertEqual(self.wrong_with("`a\nb` [c](d.md) `e`\n"), ["two.md: there is no d.md"])
         self.assertEqual(self.wrong_with("see `examples/none.cpp`\n"), ["two.md: there is no examples/none.cpp"])
         self.assertEqual(self.wrong_with("[a](../outside.md)\n"), ["two.md: there is no ../outside.md"])
 

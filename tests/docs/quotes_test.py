@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs" / "site"))
+import markdown
 import quote
 
 source = """int main() {
@@ -27,7 +28,7 @@ def mistakes(document):
 
 class Documents(unittest.TestCase):
     def test_show_what_is_compiled_and_run(self):
-        documents = quote.documents()
+        documents = markdown.documents(quote.root)
         self.assertGreater(len(documents), 10)
         quotations = 0
         for document in documents:
