@@ -2,7 +2,7 @@
 # Writes the manual page of PROGRAM to standard output: TEMPLATE, with what the program's own --help tells of its
 # commands and options in place of the lines @commands@ and @examples@.
 #
-#   manual.sh PROGRAM TEMPLATE
+# usage: manual.sh PROGRAM TEMPLATE
 set -eu
 program=$1
 template=$2

@@ -1,7 +1,8 @@
 # SOURCE must fail to compile, and the compiler must print the sentences in the source's first lines,
 #   // expect: a sentence, which may
 #   //   go on in further lines
-# With "expect GNU:" or "expect Clang:" it is that compiler's alone. docs/messages.md shows them.
+# With "expect GNU:" or "expect Clang:" it is that compiler's alone. docs/messages.md shows them, which
+# tests/docs/messages_test.py looks after.
 # With -DNYSALT_CONTROL it must compile, which shows that it fails for the named cause only.
 
 cmake_minimum_required(VERSION 3.25)

@@ -9,15 +9,14 @@ struct not_differentiable {
 #ifdef NYSALT_CONTROL
   template <class T>
   T potential(const nysalt::vector<T, 1>& q) const {
+    return q[0] * q[0];
+  }
 #else
   // [mistake]
-  double potential(const nysalt::vector<double, 1>& q) const {
-    // [/mistake]
+  double potential(const nysalt::vector<double, 1>& q) const { return q[0] * q[0]; }
+  // [/mistake]
 #endif
-      return q[0] * q[0];
-}
-}
-;
+};
 
 int main() {
   const not_differentiable system;

@@ -11,14 +11,14 @@ struct half_differentiable {
   }
 #ifdef NYSALT_CONTROL
   template <class T>
-#else
-  // [mistake]
-  template <std::same_as<double> T>
-  // [/mistake]
-#endif
   void velocity(const nysalt::vector<T, 1>& p, nysalt::vector<T, 1>& v) const {
     v[0] = p[0] * 2.0;
   }
+#else
+  // [mistake]
+  void velocity(const nysalt::vector<double, 1>& p, nysalt::vector<double, 1>& v) const { v[0] = p[0] * 2.0; }
+  // [/mistake]
+#endif
 };
 
 int main() {

@@ -27,7 +27,7 @@
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
-namespace {
+namespace minimal {
 
 // [scalar]
 /// What does a step do where every operation rounds to 24 bits?
@@ -62,11 +62,6 @@ struct quartic_well {
 };
 static_assert(nysalt::NystromSystem<quartic_well>);
 // [/system]
-
-// [ask]
-constexpr bool verlet_suits_it = (nysalt::require_suited<nysalt::verlet, quartic_well>(), true);
-// [/ask]
-static_assert(verlet_suits_it);
 
 // [kinetic_energy]
 struct relativistic_well : quartic_well {
@@ -291,7 +286,9 @@ using point = nysalt::phase_point<double, 1>;
 point at(double q, double p) { return {nysalt::vector<double, 1>(q), nysalt::vector<double, 1>(p)}; }
 constexpr double eps = 0x1p-52;
 
-}  // namespace
+}  // namespace minimal
+
+using namespace minimal;
 
 BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
   const quartic_well system;
@@ -306,6 +303,10 @@ BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
 }
 
 BOOST_AUTO_TEST_CASE(systems_and_their_optional_members_step) {
+  // [ask]
+  nysalt::require_suited<nysalt::verlet, quartic_well>();
+  // [/ask]
+
   // B(h/2) A(h) B(h/2) of the quartic well from (1, 0), by hand.
   const quartic_well system;
   const double p = -0.05;
