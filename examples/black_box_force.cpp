@@ -37,7 +37,7 @@ static_assert(BlackBoxForce<chain_in_c>);
 
 int main() {
   const chain_in_c chain;
-  const normal_around<3> starts({vector<double, 3>::Zero(), vector<double, 3>::Zero()}, 0.0, 1.0);
+  const normal_around<3> starts({vector<double, 3>::Zero(), vector<double, 3>::Zero()}, 0.0, 0.25);
   const fine_steps<> reference(0.01);
   constexpr double step = 0.2;
 
@@ -54,8 +54,8 @@ int main() {
     const auto result =
         trajectory_errors(chain, reference, starts, one, state_measure(chain),
                           {.step = its_step, .steps = 80 / evaluations, .trajectories = 50, .seed = 3});
-    fmt::print("{:<8} error of the state after {:.0f} evaluations: {:.1e}\n", other.name(), 80.0,
-               result.methods[0].error.mean);
+    fmt::print("{:<8} error of the state after 80 evaluations: {:.1e} +- {:.0e}\n", other.name(),
+               result.methods[0].error.mean, result.methods[0].error.standard_error);
   };
   report(tabulated(method.anywhere()), step, 4);
   report(tabulated(pefrl{}), step, 4);
@@ -73,3 +73,8 @@ int main() {
 }
 
 // Expected output:
+// usable: yes; derivatives by central differences of the force
+// aba4     error of the state after 80 evaluations: 8.3e-04 +- 1e-04
+// pefrl    error of the state after 80 evaluations: 1.5e-03 +- 1e-04
+// verlet   error of the state after 80 evaluations: 2.2e-02 +- 1e-03
+// learn: the force is not -grad V: coordinate 1 is off by 2.00e+00 of the largest force; check its sign and formula (system morse_chain(10, 1)); mend it, or learn with check_force = false

@@ -25,7 +25,7 @@ const auto distance = over_lanes([](const auto& x) {  // many trajectories at a 
 /// Notes the direction of the planet each time that it is nearest: where q . p turns from minus to plus.
 struct pericentres {
   std::vector<double> angles;
-  phase_point<double, 2> last;
+  phase_point<double, 2> last{{0.0, 0.0}, {0.0, 0.0}};
 
   void operator()(std::int64_t n, double, const phase_point<double, 2>& x) {
     const double before = last.q.dot(last.p);
@@ -58,7 +58,7 @@ int main() {
              1.0 + 0.5 * eccentricity * eccentricity);
 
   // [along]
-  const phase_point<double, 2> farthest{{1.5, 0.0}, {0.0, std::sqrt(1.0 / 3.0)}};
+  const phase_point<double, 2> farthest{{-1.5, 0.0}, {0.0, -std::sqrt(1.0 / 3.0)}};
   const auto report = [&](const auto& method, double step) {
     pericentres seen;
     integrate(system, method, step, farthest, std::llround(200.0 / step), seen);
@@ -72,3 +72,6 @@ int main() {
 }
 
 // Expected output:
+// mean distance 1.1251 +- 0.0001, and 1 + e^2/2 = 1.1250
+// verlet     32 times near, and each time turned by -0.000395
+// pefrl      32 times near, and each time turned by -0.000005

@@ -6,10 +6,10 @@
 // where it is used and has no state, so the file holds q, p, the force and the step, and nothing else.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "nysalt/nysalt.hpp"
@@ -65,8 +65,9 @@ int main() {
   const std::filesystem::path path = "restart.saved";
 
   // [restart]
-  using side_by_side = ensemble_run<pack<double>, decltype(stepper)>;
-  using one_by_one = ensemble_run<double, decltype(stepper)>;
+  using stepper_type = std::remove_const_t<decltype(stepper)>;
+  using side_by_side = ensemble_run<pack<double>, stepper_type>;
+  using one_by_one = ensemble_run<double, stepper_type>;
   side_by_side uncut(stepper, starts, 1, 0, trajectories);
   uncut.go_on(end, end, 0, nothing, nothing);
 

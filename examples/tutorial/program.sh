@@ -74,7 +74,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 # learned:fg_chin  0.015              66.8~%  6.55e-03        2.72e-04      0/48
 # srkn6b           0.015              66.8~%  4.25e+00        1.29e-01      0/48
 # chin4a           0.015              66.8~%  4.60e+00        1.65e-01      0/48
-# pefrl            0.015              66.7~%  -               -     48/48
+# pefrl            0.015              66.7~%         -               -     48/48
 # verlet           0.015              66.8~%  4.16e+00        1.43e-01      0/48
 # null model           -               0.0        0         -  5.17e+00               -         -
 # pefrl at step 0.015: every trajectory diverged, the first of them at step 41
