@@ -58,7 +58,7 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
         or_none(plain)
     }' >>"$summary"
   say "Best at its cost:"
-  section "$report" "### Best at its cost" >>"$chapters"
+  section "$report" "### Best at its cost" | sed '/^!/,$d' >>"$chapters"  # pictures of steps are in the report
 }
 
 compare fpu_50_state "FPU chain, omega = 50, on [0, 10]: the state" state 0.01 --system fpu --omega 50 \

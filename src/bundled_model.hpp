@@ -28,6 +28,7 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/learning/extend_data.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
@@ -39,8 +40,9 @@ namespace nysalt::program {
 
 struct model_facts {
   json parameters;   // as scheme files hold them
-  double frequency;  // the highest, of rare starts; times a fine step 5e-3 at most: srkn11b errs by rounding
+  double frequency;  // the highest, of rare starts
   std::string default_observable;
+  double fine_angle = 5e-3;  // of a fine step, times that frequency: there srkn11b errs by rounding
 };
 
 template <class Alone, Ensemble<Alone> E>
@@ -66,6 +68,15 @@ class bundled_model final : public bundled_system {
   }
 
   std::string description() const override { return describe(system_); }
+  std::int64_t dimension() const override { return size(system_); }
+  double energy(std::span<const double> q, std::span<const double> p) const override {
+    return nysalt::energy<double>(system_, state_of(q, p));
+  }
+  void force(std::span<const double> q, std::span<double> f) const override {
+    auto its = make_vector<double>(system_);
+    nysalt::force<double>(system_, vector_of(q), its);
+    std::copy_n(its.data(), its.size(), f.begin());
+  }
   nlohmann::ordered_json parameters() const override {
     json all = facts_.parameters;
     if (!system_.bath().acts()) return all;
@@ -101,6 +112,12 @@ class bundled_model final : public bundled_system {
         refuse("{}; take another temperature, or --start law", problem.what());
       }
     }
+  }
+  void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
+                   std::span<double> p) const override {
+    const auto its = (*starts_)(seed, n);
+    std::copy_n(its.q.data(), its.q.size(), q.begin());
+    std::copy_n(its.p.data(), its.p.size(), p.begin());
   }
   int lanes() const override { return width; }
 
@@ -320,12 +337,37 @@ class bundled_model final : public bundled_system {
   void run(const tabulated& method, const sampled_plan& plan,
            const std::function<void(std::int64_t, const record&)>& take,
            const counter& progress) const override {
-    // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    if (plan.trajectories.count < width / 4 || size(system_) > 20'000) {
-      run_in_waves<double>(system_, *starts_, method, plan, take, progress, world());
-    } else {
-      run_in_waves<T>(system_, *starts_, method, plan, take, progress, world());
+    run_from(*starts_, method, plan, take, progress);
+  }
+
+  void integrate(const tabulated& method, const trajectories_plan& plan, std::span<double> q,
+                 std::span<double> p, const counter& progress) const override {
+    const auto n = static_cast<std::size_t>(size(system_));
+    const auto count = static_cast<std::size_t>(plan.count);
+    states_in_double states;
+    for (std::size_t m = 0; m < count; ++m) {
+      states.push_back(state_of(q.subspan(m * n, n), p.subspan(m * n, n)));
+      if (!is_finite(states.back())) {
+        refuse("the state of trajectory {} is not finite: {}", m, detail::not_finite_in(states.back()));
+      }
     }
+    sampled_plan sampled{.trajectories = plan, .observables = {}, .every = plan.steps};
+    for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
+    for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
+    sampled.stretch = short_stretch(size(system_));
+    sampled.reached = [](const standing&) {};
+    std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
+    std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
+    const auto take = [&](std::int64_t m, const record& its) {
+      const auto sample =
+          std::ssize(its.values) / std::ssize(sampled.observables) - 1;  // the last that is here
+      if (its.first + sample * plan.steps < plan.steps) return;
+      const auto from = its.values.end() - std::ssize(sampled.observables);
+      std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
+      std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
+    };
+    run_from(starts_type(system_, nysalt::listed<S::dimension>(std::move(states))), method, sampled, take,
+             progress);
   }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
@@ -349,6 +391,25 @@ class bundled_model final : public bundled_system {
   }
 
  private:
+  vector<double, S::dimension> vector_of(std::span<const double> numbers) const {
+    auto its = make_vector<double>(system_);
+    std::copy_n(numbers.begin(), its.size(), its.data());
+    return its;
+  }
+  phase_point<double, S::dimension> state_of(std::span<const double> q, std::span<const double> p) const {
+    return {vector_of(q), vector_of(p)};
+  }
+
+  void run_from(const starts_type& starts, const tabulated& method, const sampled_plan& plan,
+                const std::function<void(std::int64_t, const record&)>& take, const counter& progress) const {
+    // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
+    if (plan.trajectories.count < width / 4 || size(system_) > 20'000) {
+      run_in_waves<double>(system_, starts, method, plan, take, progress, world());
+    } else {
+      run_in_waves<T>(system_, starts, method, plan, take, progress, world());
+    }
+  }
+
   inline static volatile double end_of_run = 0.0;  // so that no run can be left out as useless
 
   static trajectory_options options_of(const trajectories_plan& plan, const counter& progress = {}) {
@@ -361,7 +422,7 @@ class bundled_model final : public bundled_system {
             .ranks = &world()};
   }
 
-  model_reference<Alone> reference() const { return {system_, facts_.frequency}; }
+  model_reference<Alone> reference() const { return {system_, facts_.frequency, facts_.fine_angle}; }
   tabulated method_of_reference() const {
     return system_.bath().acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ class stability_guard;
 
 namespace nysalt::program {
 
+/// Told how much is done; what it throws ends the work.
 using counter = std::function<void(std::int64_t)>;
 
 /// Trajectories from the system's starts: `count` of them, `steps` steps each.
@@ -115,6 +117,11 @@ class bundled_system {
   virtual ~bundled_system() = default;
 
   virtual std::string description() const = 0;
+  /// Degrees of freedom.
+  virtual std::int64_t dimension() const = 0;
+  /// H, and -grad V, at a state of so many numbers each. Cost: one evaluation.
+  virtual double energy(std::span<const double> q, std::span<const double> p) const = 0;
+  virtual void force(std::span<const double> q, std::span<double> f) const = 0;
   /// Name and parameters, as scheme files hold them.
   virtual nlohmann::ordered_json parameters() const = 0;
   /// Empty if there is no bound.
@@ -130,6 +137,9 @@ class bundled_system {
   /// Finds the burn-in, or runs the one long trajectory, whose seed it is. To be called before anything below
   /// runs.
   virtual void prepare_starts(std::uint64_t seed) = 0;
+  /// That of trajectory n, by the seed of a role.
+  virtual void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
+                           std::span<double> p) const = 0;
 
   /// Trajectories that are stepped at a time.
   virtual int lanes() const = 0;
@@ -184,6 +194,12 @@ class bundled_system {
                    const std::function<void(std::int64_t, const record&)>& take,
                    const counter& progress) const = 0;
 
+  /// Takes given states, instead of starts, to the end of a plan: each of dimension() numbers, one trajectory
+  /// after the other. With the bits of run(); where that is lost all of q and p become NaN. Throws
+  /// refusal for a state that is not finite; then all are as they were.
+  virtual void integrate(const tabulated& method, const trajectories_plan& plan, std::span<double> q,
+                         std::span<double> p, const counter& progress) const = 0;
+
   /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
   /// step after them costs the same.
   virtual std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const = 0;
@@ -209,6 +225,7 @@ struct system_entry {
   std::string name;
   std::string options;
   std::string hamiltonian;
+  std::string source = {};  // in docs/bibliography.bib
 };
 const std::vector<system_entry>& system_entries();
 

@@ -26,7 +26,7 @@ struct maker {
 const std::vector<maker>& makers() {
   static const std::vector<maker> all{
       {{"fpu", "--pairs 3 --omega 50 --spread 1",
-        "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"},
+        "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn", "hairer_lubich_wanner_2006"},
        {"--pairs", "--omega", "--spread"},
        [](const auto& s, const auto& in) {
          return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0), in);
@@ -43,19 +43,22 @@ const std::vector<maker>& makers() {
       {{"pendulum", "--spread 1", "p^2/2 - cos q"},
        {"--spread"},
        [](const auto&, const auto& in) { return make_pendulum(in); }},
-      {{"henon_heiles", "--spread 1",
-        "two degrees of freedom in a cubic potential, bounded below energy 1/6"},
+      {{"henon_heiles", "--spread 1", "two degrees of freedom in a cubic potential, bounded below energy 1/6",
+        "henon_heiles_1964"},
        {"--spread"},
        [](const auto&, const auto& in) { return make_henon_heiles(in); }},
-      {{"kepler", "--eccentricity 0.6", "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1"},
+      {{"kepler", "--eccentricity 0.6", "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1",
+        "hairer_lubich_wanner_2006"},
        {"--eccentricity"},
        [](const auto& s, const auto& in) { return make_kepler(s.eccentricity.value_or(0.6), in); }},
-      {{"lennard_jones", "--atoms 7 --space 2 --spread 1", "a cluster of atoms, 4 (r^-12 - r^-6) each pair"},
+      {{"lennard_jones", "--atoms 7 --space 2 --spread 1", "a cluster of atoms, 4 (r^-12 - r^-6) each pair",
+        "verlet_1967"},
        {"--atoms", "--space", "--spread"},
        [](const auto& s, const auto& in) {
          return make_lennard_jones(s.space.value_or(2), s.atoms.value_or(7), in);
        }},
-      {{"phi4", "--masses 16 --spread 1", "masses in wells q^4/4, a ring joined by linear springs"},
+      {{"phi4", "--masses 16 --spread 1", "masses in wells q^4/4, a ring joined by linear springs",
+        "aoki_kusnezov_2002"},
        {"--masses", "--spread"},
        [](const auto& s, const auto& in) { return make_phi4(s.masses.value_or(16), in); }},
   };
@@ -109,6 +112,12 @@ start start_of(const std::string& asked, const bath& its) {
   return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
 
+surroundings surroundings_of(const system_settings& settings) {
+  const bath its = bath_of(settings.bath);
+  const start where = start_of(settings.start, its);
+  return {its, where, spread_of(settings.spread, where)};
+}
+
 }  // namespace
 
 const std::vector<system_entry>& system_entries() {
@@ -121,6 +130,7 @@ const std::vector<system_entry>& system_entries() {
 }
 
 std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
+  if (settings.own) return settings.own(surroundings_of(settings));
   const auto found = std::find_if(makers().begin(), makers().end(),
                                   [&](const maker& known) { return known.entry.name == settings.name; });
   if (found == makers().end()) {
@@ -137,9 +147,7 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
     if (!given || std::find(found->takes.begin(), found->takes.end(), name) != found->takes.end()) continue;
     refuse("the system {} has no {}: it takes {}", settings.name, name, listed(found->takes));
   }
-  const bath its = bath_of(settings.bath);
-  const start where = start_of(settings.start, its);
-  return found->make(settings, {its, where, spread_of(settings.spread, where)});
+  return found->make(settings, surroundings_of(settings));
 }
 
 std::optional<double> highest_frequency(const bundled_system& system) {

@@ -55,6 +55,15 @@ run_time_family placed(std::string_view name, std::optional<placement> where) {
   return where ? thermostatted(plain, *where) : plain;
 }
 
+std::string_view source_of_family(std::string_view name) {
+  family_named(name);
+  if (name == "nystrom") return "okunbor_skeel_1992";
+  if (name == "fg_chin") return "chin_1997";
+  if (name == "fg4" || name == "r_fg4") return "takahashi_imada_1984";  // the gradient kick
+  if (name.starts_with("r_")) return "tuckerman_berne_martyna_1992";
+  return {};
+}
+
 tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
   const auto& family = family_named(name);
   if (std::ssize(parameters) != family.parameters()) {

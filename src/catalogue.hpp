@@ -22,6 +22,9 @@ const run_time_family& family_named(std::string_view name);
 /// With its letters O, where there is a bath.
 run_time_family placed(std::string_view name, std::optional<placement> where);
 
+/// Where a family comes from, in docs/bibliography.bib; empty if it is nobody's.
+std::string_view source_of_family(std::string_view name);
+
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
 tabulated family_member(const std::string& family, const std::vector<double>& parameters);
 
@@ -37,6 +40,7 @@ placement placement_named(const std::string& name);
 
 /// Methods whose coefficients depend on step times highest frequency.
 inline constexpr std::string_view adaptive_method = "s_aia2";
+inline constexpr std::string_view adaptive_source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
 
 /// All names that `--method` takes, beside files.
 std::vector<std::string> method_names();

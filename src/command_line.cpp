@@ -7,13 +7,14 @@
 #include <sstream>
 
 #include "build_info.hpp"
+#include "checks.hpp"
 #include "commands.hpp"
+#include "comparison.hpp"
 #include "number.hpp"
 #include "nysalt/together.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
 #include "refusal.hpp"
-#include "seeds.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -57,6 +58,7 @@ struct typed {
   recommend_command recommend;
   stability_command stability;
   reproduce_command reproduce;
+  cite_command cite;
   system_settings stability_system;
   std::vector<std::string> methods, steps, learn_steps, observables, parameters, range, families, metrics,
       levels;
@@ -145,6 +147,20 @@ void add_learning(CLI::App& command, learn_settings& how, const std::string& pre
              "of the reference; must divide the step [omega h <= 5e-3]");
   add_number(command, prefix + "horizon", how.horizon, "length of each");
   add_search(command, how, prefix);
+}
+
+void add_cite(CLI::App& app, typed& to) {
+  auto& command = *app.add_subcommand("cite", "the works that a set-up rests on, as BibTeX");
+  command.add_option("files", to.cite.files, "schemes, or results whose manifests say how they were made");
+  command.add_option("--system", to.cite.system, "nysalt list shows all");
+  command.add_option("--methods", to.methods, "names, learned:FAMILY, files; joined by commas");
+  command.add_option("--metric", to.metrics, "as compare takes it");
+  command.add_flag("--bath", to.cite.in_bath, "the system is in a bath");
+  add_common(command, to.common);
+  command.footer(
+      "Examples:\n"
+      "  nysalt cite --system fpu --methods srkn6b,learned:nystrom --metric path\n"
+      "  nysalt cite --system pendulum --bath --methods baoab");
 }
 
 void add_list(CLI::App& app, typed& to) {
@@ -311,14 +327,13 @@ bool given(const CLI::App& command, const std::string& option) { return command.
 
 int run_parsed(const CLI::App& command, typed& to) {
   const std::string name = command.get_name();
-  constexpr int most_threads = 1024;  // each takes memory, before it works
-  if (to.common.threads < 1 || to.common.threads > most_threads) {
-    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, to.common.threads);
-  }
-  if (to.common.seed >= seed_limit) {
-    refuse("--seed must be below 2^51 = {}, got {}", seed_limit, to.common.seed);
-  }
+  require_sound(to.common);
   if (name == "list") return list(to.common);
+  if (name == "cite") {
+    to.cite.methods = split(to.methods, "--methods");
+    to.cite.metrics = split(to.metrics, "--metric");
+    return cite(to.cite, to.common);
+  }
   if (name == "learn") {
     to.learn.steps = numbers(to.learn_steps, "--steps");
     if (given(command, "--enough") && given(command, "--trajectories")) {
@@ -336,20 +351,7 @@ int run_parsed(const CLI::App& command, typed& to) {
     to.compare.range = numbers(to.range, "--range");
     if (given(command, "--metric")) to.compare.metrics = split(to.metrics, "--metric");
     if (given(command, "--levels")) to.compare.levels = numbers(to.levels, "--levels");
-    const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
-      const auto is_of_these = [&](const std::string& text) {
-        const bool names_its_own =
-            std::string(option) == "--observable" && text.find(':') != std::string::npos;
-        return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
-      };
-      if (!given(command, option) || std::ranges::any_of(to.compare.metrics, is_of_these)) return;
-      refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(to.compare.metrics));
-    };
-    belongs("--observable", {"path", "distribution", "acf"});
-    belongs("--range", {"distribution"});
-    belongs("--bins", {"distribution"});
-    belongs("--longest-lag", {"acf"});
-    belongs("--hmc-temperature", {"acceptance"});
+    require_fitting(to.compare, [&](const char* option) { return given(command, option); });
     return compare(to.compare, to.common);
   }
   if (name == "reproduce") return reproduce(to.reproduce, to.common);
@@ -438,6 +440,7 @@ int run_command_line(int argc, char** argv) {
   add_recommend(app, to);
   add_stability(app, to);
   add_reproduce(app, to);
+  add_cite(app, to);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());

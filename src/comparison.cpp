@@ -13,6 +13,22 @@
 
 namespace nysalt::program {
 
+void require_fitting(const compare_command& command, const std::function<bool(const char*)>& is_given) {
+  const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
+    const auto is_of_these = [&](const std::string& text) {
+      const bool names_its_own = std::string(option) == "--observable" && text.find(':') != std::string::npos;
+      return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
+    };
+    if (!is_given(option) || std::ranges::any_of(command.metrics, is_of_these)) return;
+    refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(command.metrics));
+  };
+  belongs("--observable", {"path", "distribution", "acf"});
+  belongs("--range", {"distribution"});
+  belongs("--bins", {"distribution"});
+  belongs("--longest-lag", {"acf"});
+  belongs("--hmc-temperature", {"acceptance"});
+}
+
 comparison::comparison(const compare_command& command, const common_settings& common)
     : command_(command), common_(common), system_(make_system(command.system)) {
   name_metrics();
@@ -64,7 +80,7 @@ void comparison::require_sound_command() const {
 void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : command_.methods) {
-    sources.push_back(find_method(typed));
+    sources.push_back(find_method(typed, command_.held));
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
   }

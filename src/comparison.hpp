@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,6 +34,10 @@ struct row {
   timed_job seconds_per_time{};
   std::vector<finding> findings{};  // by each metric
 };
+
+/// Throws refusal for an option of a metric that is not asked for, where it is given: by `--observable` and
+/// its like.
+void require_fitting(const compare_command& command, const std::function<bool(const char*)>& is_given);
 
 /// Plans, learns and measures. Each part that is finished goes into a journal; what is there is not done
 /// again.

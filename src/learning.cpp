@@ -31,8 +31,15 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
 }
 
 learned_scheme bundled_system::learn(const learn_plan& plan, const counter& progress) const {
-  const auto [problem, energies] = make_learnable(plan, progress);
+  auto [problem, energies] = make_learnable(plan, progress);
   const run_time_family& family = problem.family;
+  if (progress) {  // told again at each pass that all data are there, whoever counts may end the search
+    problem.loss = [loss = std::move(problem.loss), progress,
+                    all = plan.how.trajectories](const auto& theta) {
+      progress(all);
+      return loss(theta);
+    };
+  }
   auto [theta, fit] = solve(problem);
   const tabulated method(family.name, family.letters, family.coefficients(theta),
                          {family.order, family.symmetric, family.requires_quadratic_kinetic});

@@ -335,8 +335,10 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const bundle
 }
 
 method_file read_method_file(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::string text = contents_of(path);
+  return method_file_in(contents_of(path), path.string());
+}
+
+method_file method_file_in(const std::string& text, const std::string& file) {
   json document;
   try {
     constexpr int deepest = 8;

@@ -21,6 +21,13 @@ namespace {
 
 constexpr std::string_view to_learn = "learned:";
 
+void take_file(method_source& source, method_file file) {
+  source.learned = std::move(file.learned);
+  source.fixed = std::move(file.table);
+  source.evaluations_per_step =
+      source.learned ? source.learned->evaluations_per_step() : source.fixed->letters().evaluations_per_step;
+}
+
 bool is_file_name(const std::string& text) {
   std::error_code ignored;
   return text.ends_with(".json") || text.find('/') != std::string::npos ||
@@ -29,12 +36,16 @@ bool is_file_name(const std::string& text) {
 
 }  // namespace
 
-method_source find_method(const std::string& typed) {
+method_source find_method(const std::string& typed, const held_methods& held) {
   if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
     refuse("a method's name holds a line break or the like: rename the file");
   }
   method_source source;
   source.typed = typed;
+  if (const auto its = held.find(typed); its != held.end()) {
+    take_file(source, method_file_in(its->second, typed));
+    return source;
+  }
   std::string text = typed;
   if (const auto at = typed.rfind('@'); at != std::string::npos && !is_file_name(typed)) {
     source.where = placement_named(typed.substr(at + 1));
@@ -57,11 +68,7 @@ method_source find_method(const std::string& typed) {
     source.family = text.substr(to_learn.size());
     source.evaluations_per_step = family_named(*source.family).letters.evaluations_per_step;
   } else if (is_file_name(text)) {
-    method_file file = read_method_file(text);
-    source.learned = std::move(file.learned);
-    source.fixed = std::move(file.table);
-    source.evaluations_per_step = source.learned ? source.learned->evaluations_per_step()
-                                                 : source.fixed->letters().evaluations_per_step;
+    take_file(source, read_method_file(text));
   } else {
     refuse("unknown method '{}': it is one of {}, learned:FAMILY with a family of {}, or a file NAME.json",
            text, listed(method_names()), listed(family_names()));

@@ -22,8 +22,8 @@ struct method_source {
   bool is_adaptive() const { return !fixed && !learned && !family; }
 };
 
-/// Throws refusal, listing what is known, if the text names nothing.
-method_source find_method(const std::string& text);
+/// What is held goes before all else. Throws refusal, listing what is known, if the text names nothing.
+method_source find_method(const std::string& text, const held_methods& held = {});
 
 /// Whether the step is the scheme's own, to 1e-9 relative, as steps are typed in decimals.
 bool is_at(const scheme& learned, double step);

@@ -43,20 +43,20 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
   return fine;
 }
 
-/// Of a system with frequencies up to `frequency`.
+/// Of a system with frequencies up to `frequency`; a fine step goes through `angle` of the fastest motion.
 template <class S>
 class model_reference {
  public:
-  model_reference(const in_bath<S>& system, double frequency) : system_(&system), frequency_(frequency) {}
+  model_reference(const in_bath<S>& system, double frequency, double angle)
+      : system_(&system), frequency_(frequency), angle_(angle) {}
 
   /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
   /// The error of srkn11b is rounding then. BAOAB errs along a noisy path to first order in the step: where
   /// nothing is stiff, a hundredth of what is learned (detail::objection) takes more than frequencies tell.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
-    constexpr double angle = 5e-3;
     constexpr double fine_steps_in_bath = 200.0;  // as in the paper, at its step .02
-    const double most = angle / fastest();
+    const double most = angle_ / fastest();
     const bool is_noisy = system_->bath().acts();
     return fine_step_within(step, asked, is_noisy ? std::min(most, step / fine_steps_in_bath) : most,
                             std::max(parts, 1));
@@ -94,6 +94,7 @@ class model_reference {
 
   const in_bath<S>* system_;
   double frequency_;
+  double angle_;
 };
 
 }  // namespace nysalt::program

@@ -12,7 +12,15 @@
 
 namespace nysalt::program {
 
-progress::progress() : visible_(speaks_for_all() && has_terminal()) {}
+namespace {
+thread_local quiet_caller* caller_here = nullptr;
+}  // namespace
+
+work_for::work_for(quiet_caller& caller) : before_(std::exchange(caller_here, &caller)) {}
+work_for::~work_for() { caller_here = before_; }
+
+progress::progress()
+    : caller_(caller_here), visible_(caller_ == nullptr && speaks_for_all() && has_terminal()) {}
 progress::~progress() { clear(); }
 
 void progress::expect(double work) {
@@ -29,6 +37,11 @@ void progress::part(std::string what, double work) {
 }
 
 std::function<void(std::int64_t)> progress::counter(std::int64_t total) {
+  if (caller_ != nullptr) {
+    return [caller = caller_](std::int64_t) {
+      if (caller->wants_an_end) throw ended_early();
+    };
+  }
   if (!visible_ || total < 1) return {};
   auto last = std::make_shared<std::atomic<std::int64_t>>(0);
   return [this, last, total](std::int64_t done) {

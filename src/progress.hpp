@@ -2,15 +2,38 @@
 // How far a long computation is: a line on a terminal, nothing in a pipe.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <string>
 
 namespace nysalt::program {
 
-/// A line on standard error that is overwritten as work is done, and gone at the end.
+/// Who computes with us as with a library: wants no line, and may want the work to end before it is done.
+struct quiet_caller {
+  std::atomic<bool> wants_an_end = false;
+};
+/// What a counter throws then.
+class ended_early : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the work was ended before it was done"; }
+};
+/// Whoever works on this thread does it for a caller, while this lives.
+class work_for {
+ public:
+  explicit work_for(quiet_caller& caller);
+  ~work_for();
+  work_for(const work_for&) = delete;
+  work_for& operator=(const work_for&) = delete;
+
+ private:
+  quiet_caller* before_;
+};
+
+/// A line on standard error that is overwritten as work is done, and gone at the end; or none, for a caller.
 class progress {
  public:
   progress();
@@ -24,7 +47,8 @@ class progress {
   void part(std::string what, double work = 0.0);
   /// Work that was expected and need not be done.
   void skip(double work) { expected_ -= work; }
-  /// To be called with the number of units of the part that are done, out of `total`; from any thread.
+  /// To be called with the number of units of the part that are done, out of `total`; from any thread. Throws
+  /// ended_early where a caller wants an end.
   std::function<void(std::int64_t)> counter(std::int64_t total);
   /// Takes the line away.
   void clear();
@@ -37,6 +61,7 @@ class progress {
   void show(const std::string& text);
 
   std::mutex showing_;
+  quiet_caller* caller_;  // null in the program
   bool visible_;
   bool shown_ = false;
   std::string what_;

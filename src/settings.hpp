@@ -3,11 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace nysalt::program {
+
+class bundled_system;
+struct surroundings;
 
 struct common_settings {
   std::uint64_t seed = 1;
@@ -27,6 +33,8 @@ struct bath_settings {
 
 struct system_settings {
   std::string name = "fpu";
+  /// A system of the caller's own, under that name; empty: one of ours.
+  std::function<std::unique_ptr<bundled_system>(const surroundings&)> own = {};
   std::optional<std::int64_t> pairs;
   std::optional<double> omega;
   std::optional<std::int64_t> masses;
@@ -50,6 +58,9 @@ struct learn_settings {
   std::int64_t random_starts = 0;
 };
 
+/// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
+using held_methods = std::map<std::string, std::string>;
+
 struct learn_command {
   system_settings system;
   learn_settings learning;
@@ -64,6 +75,7 @@ struct learn_command {
 struct run_command {
   system_settings system;
   std::string method;
+  held_methods held = {};
   std::string placement;
   double step = 0.0;
   double horizon = 0.0;
@@ -81,6 +93,7 @@ struct compare_command {
   system_settings system;
   learn_settings learning;
   std::vector<std::string> methods;
+  held_methods held = {};
   std::string placement;
   std::vector<double> steps;
   bool equal_cost = false;
@@ -128,6 +141,14 @@ struct reproduce_command {
   std::vector<std::string> parts;  // of the paper; empty: all
   std::string output;              // a folder
   bool quick = false;
+};
+
+struct cite_command {
+  std::vector<std::string> files;
+  std::string system;  // empty: not said
+  std::vector<std::string> methods;
+  std::vector<std::string> metrics;
+  bool in_bath = false;
 };
 
 }  // namespace nysalt::program

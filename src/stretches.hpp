@@ -10,6 +10,11 @@
 
 namespace nysalt::program {
 
+/// Steps that take some tenths of a second in all lanes: for who wants to look in now and then.
+constexpr std::int64_t short_stretch(std::int64_t dimension) {
+  return std::max<std::int64_t>(steps_between_checks, 20'000'000 / dimension);
+}
+
 /// A run of so many steps in stretches that end at the first multiple of 64 at or beyond each multiple of
 /// `length`: there divergence is looked for anyway, so that cutting the run changes nothing in it.
 class stretches {

@@ -3,6 +3,7 @@
 #include "nysalt/bath.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <limits>

@@ -18,7 +18,7 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 
 /// Names of files without .hpp, and of folders with a slash; from the lowest layer to the highest.
 const std::vector<std::vector<std::string>> layers{
-    {"scalar", "scalars/", "phase_point"},
+    {"sentence", "scalar", "scalars/", "phase_point"},
     {"system", "requirements", "force", "energy", "energy_range", "lanes", "bath", "noise", "noise_intervals",
      "quadratic_part", "stiffness_modes", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "conservative_part", "noise_seam", "prepared_word",
@@ -31,6 +31,7 @@ const std::vector<std::vector<std::string>> layers{
     {"losses/", "learning/", "learner"},
     {"analysis/"},
     {"report/"},
+    {"core"},
     {"nysalt"}};
 
 int layer_of(const std::string& path) {
@@ -43,13 +44,25 @@ int layer_of(const std::string& path) {
   return -1;
 }
 
-std::set<std::string> includes_of(const std::string& text) {
-  static const std::regex ours(R"re(#\s*include\s*["<]nysalt/([^">]+)[">])re");
+std::set<std::string> found_in(const std::string& text, const std::regex& names) {
   std::set<std::string> result;
-  for (std::sregex_iterator i(text.begin(), text.end(), ours); i != std::sregex_iterator(); ++i) {
+  for (std::sregex_iterator i(text.begin(), text.end(), names); i != std::sregex_iterator(); ++i) {
     result.insert((*i)[1]);
   }
   return result;
+}
+
+std::set<std::string> includes_of(const std::string& text) {
+  static const std::regex ours(R"re(#\s*include\s*["<]nysalt/([^">]+)[">])re");
+  return found_in(text, ours);
+}
+
+/// What it includes of others than us, the standard library and Eigen. The standard's names have no dot, and
+/// what the compiler brings along is its own.
+std::set<std::string> libraries_of(const std::string& text) {
+  static const std::regex theirs(
+      R"re(#\s*include\s*["<](?!nysalt/|Eigen/|immintrin\.h)([^">]*[./][^">]*)[">])re");
+  return found_in(text, theirs);
 }
 
 bool reaches(const texts& files, const std::string& from, const std::string& goal,
@@ -78,6 +91,19 @@ std::vector<std::string> breaches(const texts& files) {
     if (text.find("\n#pragma once\n") == std::string::npos) found.push_back(path + " has no #pragma once");
   }
   return found;
+}
+
+/// The libraries that it needs, by whatever includes them.
+std::set<std::string> needs_of(const texts& files, const std::string& path, std::set<std::string>& seen) {
+  if (!seen.insert(path).second || !files.contains(path)) return {};
+  auto result = libraries_of(files.at(path));
+  for (const auto& next : includes_of(files.at(path))) result.merge(needs_of(files, next, seen));
+  return result;
+}
+
+std::set<std::string> needs_of(const texts& files, const std::string& path) {
+  std::set<std::string> seen;
+  return needs_of(files, path, seen);
 }
 
 texts read_headers() {
@@ -121,4 +147,26 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
   BOOST_TEST(one_breach({{"scalar.hpp", head + "#include \"nysalt/gone.hpp\"\n"}}, "not there"));
   BOOST_TEST(one_breach({{"scalar.hpp", "#pragma once\n"}}, "licence"));
   BOOST_TEST(one_breach({{"scalar.hpp", "// SPDX-License-Identifier: BSL-1.0\n"}}, "pragma"));
+}
+
+BOOST_AUTO_TEST_CASE(what_steps_needs_eigen_alone) {
+  const auto files = read_headers();
+  const int integrate = layer_of("integrate.hpp");
+  const std::set<std::string> others{"methods/s_aia.hpp", "odeint_stepper.hpp"};  // of other components
+  for (const auto& [path, text] : files) {
+    if (layer_of(path) > integrate && path != "core.hpp") continue;
+    const auto needs = needs_of(files, path);
+    if (others.contains(path)) {
+      BOOST_TEST(!needs.empty(), path << " may be of core");
+      continue;
+    }
+    for (const auto& library : needs) BOOST_ERROR(path + " needs " + library);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_library_is_found_wherever_it_is_included) {
+  const texts files{{"a.hpp", "#include <vector>\n#include <Eigen/Core>\n#include \"nysalt/b.hpp\"\n"},
+                    {"b.hpp", "# include <fmt/format.h>\n#include \"nysalt/a.hpp\"\n#include <mpi.h>\n"}};
+  BOOST_TEST((needs_of(files, "a.hpp") == std::set<std::string>{"fmt/format.h", "mpi.h"}));
+  BOOST_TEST(needs_of({{"a.hpp", "#include <vector>\n#include <Eigen/Core>\n"}}, "a.hpp").empty());
 }

@@ -2,8 +2,6 @@
 // What a system is coupled to: friction, and the noise that goes with it.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -11,36 +9,41 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
 
-/// dp = force(q) dt - gamma p dt + sigma M^{1/2} dW, whose invariant law is exp(-H/kT) with
-/// kT = sigma^2/(2 gamma) for any masses. Noise without friction is allowed; then there is no temperature.
+/// Friction gamma and noise sigma: dp = force(q) dt - gamma p dt + sigma M^{1/2} dW, whose invariant law is
+/// exp(-H/kT) with kT = sigma^2/(2 gamma) for any masses. Noise without friction is allowed; then there is no
+/// temperature.
 class bath {
  public:
-  /// Throws std::invalid_argument unless friction and sigma are finite and not negative.
+  /// From friction and sigma; there is a kT where there is friction. Throws std::invalid_argument unless both
+  /// are finite and not negative.
   static bath of_sigma(double friction, double sigma) {
     require("sigma", sigma);
     return {friction, sigma, friction > 0.0 ? std::optional(sigma * sigma / (2.0 * friction)) : std::nullopt};
   }
-  /// The temperature is kT, an energy. Throws std::invalid_argument unless both are finite and not negative.
+  /// From friction and kT, an energy: sigma = sqrt(2 gamma kT). Throws std::invalid_argument unless both are
+  /// finite and not negative.
   static bath of_temperature(double friction, double temperature) {
     require("temperature", temperature);
     return {friction, std::sqrt(2.0 * friction * temperature), temperature};
   }
 
-  double friction() const { return friction_; }
-  double sigma() const { return sigma_; }
+  double friction() const { return friction_; }  ///< gamma, one over time
+  double sigma() const { return sigma_; }        ///< of the noise, for unit mass
+  /// Whether kT is known: not without friction, unless it was given.
   bool has_temperature() const { return temperature_.has_value(); }
   /// kT. Throws std::domain_error where there is noise, or might be, but no friction.
   double temperature() const {
     if (temperature_) return *temperature_;
-    throw std::domain_error(fmt::format(
+    throw std::domain_error(sentence(
         "a bath with sigma = {} and no friction has no temperature: kT = sigma^2/(2 friction)", sigma_));
   }
 
-  /// Otherwise a system in it moves as if it were alone.
+  /// Whether there is friction or noise; else a system in it moves as if it were alone.
   bool acts() const { return friction_ > 0.0 || sigma_ > 0.0; }
 
   /// What is left of a momentum after a time: e^{-gamma t}.
@@ -61,7 +64,7 @@ class bath {
     return sqrt(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
   }
 
-  std::string description() const { return fmt::format("bath(friction={}, sigma={})", friction_, sigma_); }
+  std::string description() const { return sentence("bath(friction={}, sigma={})", friction_, sigma_); }
 
  private:
   bath(double friction, double sigma, std::optional<double> temperature)
@@ -72,7 +75,7 @@ class bath {
   static void require(const char* what, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
     throw std::invalid_argument(
-        fmt::format("bath: the {} must be finite and not negative, got {}", what, value));
+        sentence("bath: the {} must be finite and not negative, got {}", what, value));
   }
 
   double friction_;

@@ -20,25 +20,26 @@ class communicator {
  public:
   virtual ~communicator() = default;
 
-  virtual int rank() const = 0;  // from 0
-  virtual int size() const = 0;
+  virtual int rank() const = 0;  ///< number of this process, from 0
+  virtual int size() const = 0;  ///< how many processes there are
 
   /// Between two ranks messages arrive in the order in which they were sent. send() may wait for receive().
   virtual void send(std::span<const std::byte> message, int to) const = 0;
+  /// Waits for the next message of rank `from`, as long as `message` is.
   virtual void receive(std::span<std::byte> message, int from) const = 0;
 
   /// All get the message of one rank.
   virtual void broadcast(std::span<std::byte> message, int from) const = 0;
   /// Rank r has bytes first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
   virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const = 0;
-  virtual std::int64_t least(std::int64_t value) const = 0;
-  virtual std::int64_t total(std::int64_t value) const = 0;
+  virtual std::int64_t least(std::int64_t value) const = 0;  ///< the least of all ranks' values
+  virtual std::int64_t total(std::int64_t value) const = 0;  ///< the sum of all ranks' values
   /// All wait until all are there. The other calls may burn their processor while they wait, as what comes
   /// soon is there sooner then; this one leaves it to those that work, and takes some milliseconds.
   virtual void meet() const = 0;
 
-  bool is_first() const { return rank() == 0; }
-  bool is_alone() const { return size() == 1; }
+  bool is_first() const { return rank() == 0; }  ///< whether this is rank 0
+  bool is_alone() const { return size() == 1; }  ///< whether there are no others
 };
 
 /// A value that is its bytes, from one rank to all.

@@ -37,14 +37,16 @@ struct conservative_of<run_time_word> {
 
 }  // namespace detail
 
+/// The type of a word without its letters O; run_time_word is its own.
 template <Word W>
 using conservative_word = typename detail::conservative_of<W>::type;
 
+/// The word without its letters O.
 template <TypeLevelWord W>
 conservative_word<W> conservative_part(const W&) {
   return {};
 }
-/// Throws std::invalid_argument if nothing is left.
+/// The same as data. Throws std::invalid_argument if nothing is left.
 inline run_time_word conservative_part(const run_time_word& w) {
   std::string letters = w.letters();
   std::erase(letters, ornstein_uhlenbeck::letter);
@@ -61,6 +63,7 @@ inline void keep_conservative(const run_time_word& w, const auto& all, auto take
 }
 }  // namespace detail
 
+/// The coefficients of the letters that are left, one for each of their slots.
 template <TypeLevelWord W, class C>
 typename conservative_word<W>::template coefficients<C> conservative_part(
     const W& w, const std::array<C, W::slots>& all) {
@@ -73,7 +76,7 @@ typename conservative_word<W>::template coefficients<C> conservative_part(
     return result;
   }
 }
-/// Throws std::invalid_argument unless there is a coefficient for each slot.
+/// The same as data. Throws std::invalid_argument unless there is a coefficient for each slot.
 template <class C>
 std::vector<C> conservative_part(const run_time_word& w, const std::vector<C>& all) {
   w.require_one_for_each_slot(all);

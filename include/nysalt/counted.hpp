@@ -15,8 +15,9 @@ namespace nysalt {
 template <System S>
   requires(!std::is_final_v<S>)
 struct counted : S {
-  explicit counted(const S& system) : S(system) {}
+  explicit counted(const S& system) : S(system) {}  ///< counts from 0
 
+  /// One evaluation; of a black box one more for each direction in which it is differentiated.
   template <class T>
     requires SystemOver<S, T>
   void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
@@ -25,6 +26,7 @@ struct counted : S {
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 
+  /// One evaluation.
   template <class T>
     requires HasSoftForce<S, T>
   void soft_force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
@@ -50,6 +52,7 @@ struct counted : S {
     }
   }
 
+  /// One evaluation.
   template <class T, class C>
     requires HasKick<S, T, C>
   void kick(const vector<T, S::dimension>& q, vector<T, S::dimension>& p, const C& c) const {
@@ -59,7 +62,7 @@ struct counted : S {
 
   std::string description() const { return describe(static_cast<const S&>(*this)); }
 
-  mutable std::int64_t evaluations = 0;
+  mutable std::int64_t evaluations = 0;  ///< so far, by this copy; may be set back
 };
 
 }  // namespace nysalt

@@ -17,8 +17,8 @@ inline constexpr std::int64_t steps_between_checks = 64;
 
 /// One that ran away, and the first bad step that was seen.
 struct diverged_trajectory {
-  std::int64_t trajectory = 0;
-  std::int64_t step = 0;
+  std::int64_t trajectory = 0;  ///< its number in the ensemble
+  std::int64_t step = 0;        ///< the first bad one
 };
 
 /// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, N kT, 1). Without an energy only the
@@ -27,8 +27,10 @@ struct diverged_trajectory {
 template <System S, Scalar T = double>
 class divergence {
  public:
-  using state = phase_point<T, S::dimension>;
+  using state = phase_point<T, S::dimension>;  ///< over double, or over packs
 
+  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: one energy,
+  /// where there is one.
   divergence(const S& system, const state& start) : system_(&system) {
     if constexpr (HasEnergy<S>) {
       initial_ = energy_in_lanes<T>(system, start);
@@ -38,6 +40,7 @@ class divergence {
     }
   }
 
+  /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
   condition_of<T> operator()(const state& x) const {
     condition_of<T> sound = is_finite(x);
     if constexpr (HasEnergy<S>)

@@ -20,6 +20,7 @@ void velocity(const S& system, const vector<T, S::dimension>& p, vector<T, S::di
   }
 }
 
+/// K(p): the system's own, else sum_i p_i^2/(2 m_i).
 template <class T, HasEnergy<T> S>
 T kinetic_energy(const S& system, const vector<T, S::dimension>& p) {
   if constexpr (HasKineticEnergy<S, T>) {

@@ -9,9 +9,10 @@ namespace nysalt {
 
 /// From the least to the largest H that was seen.
 struct energy_range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+  double low = std::numeric_limits<double>::infinity();    ///< the least; above `high` before any
+  double high = -std::numeric_limits<double>::infinity();  ///< the largest; below `low` before any
 
+  /// Widens the range where it does not hold an energy.
   void include(double energy) {
     low = std::min(low, energy);
     high = std::max(high, energy);
@@ -25,7 +26,7 @@ struct energy_range {
     const double outside = std::max(low - energy, energy - high);
     return outside <= slack ? 0.0 : outside;
   }
-  bool contains(double energy) const { return distance(energy) == 0.0; }
+  bool contains(double energy) const { return distance(energy) == 0.0; }  ///< or off by rounding only
 };
 
 }  // namespace nysalt

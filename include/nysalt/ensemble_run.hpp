@@ -24,9 +24,9 @@ namespace nysalt {
 /// What is needed to go on with trajectories of a known ensemble, all at one step: their open runs, whatever
 /// lanes and threads they were stepped in.
 struct saved_runs {
-  std::int64_t step = 0;
-  std::vector<double> numbers;  // q, p and f of one trajectory after the other; 0 of those that diverged
-  std::vector<std::optional<std::int64_t>> diverged_at;  // one for each
+  std::int64_t step = 0;        ///< steps that every trajectory has done
+  std::vector<double> numbers;  ///< q, p and f of one trajectory after the other; 0 of those that diverged
+  std::vector<std::optional<std::int64_t>> diverged_at;  ///< the step of each that did
 };
 
 /// Trajectories m = first .. first + count - 1 from ensemble(seed, m), with the noise of their numbers. As
@@ -101,6 +101,7 @@ class ensemble_run {
     starts_.clear();
   }
 
+  /// What a later ensemble_run of the same trajectories takes up. Between two calls of go_on().
   saved_runs save() const {
     const auto each = static_cast<std::size_t>(3 * size(stepper_->system()));
     saved_runs result{step_, {}, {}};
@@ -120,8 +121,8 @@ class ensemble_run {
     return result;
   }
 
-  std::int64_t step() const { return step_; }
-  /// Of trajectory m, by its number.
+  std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
+  /// The step at which trajectory m, by its number, diverged, if it did.
   std::optional<std::int64_t> diverged_at(std::int64_t m) const {
     const std::int64_t at = m - first_;
     return blocks_[static_cast<std::size_t>(at / width)]->diverged_at(static_cast<int>(at % width));

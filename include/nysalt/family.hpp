@@ -2,8 +2,6 @@
 // A family of methods: one word, whose coefficients are functions of a few parameters.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <concepts>
 #include <stdexcept>
@@ -13,19 +11,22 @@
 
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
 /// Where a parameter may lie. Open: the coefficients are not defined at the ends. Closed: the ends may be
 /// attained.
 struct parameter_range {
-  double low;
-  double high;
-  bool open;
+  double low;   ///< lower end
+  double high;  ///< upper end
+  bool open;    ///< without the ends
 
+  /// Whether a parameter may be x. NaN may not.
   bool contains(double x) const { return open ? low < x && x < high : low <= x && x <= high; }
 };
 
+/// theta: one number for each parameter of the family F.
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
@@ -36,8 +37,8 @@ inline constexpr double farthest_parameter = 4.0;
 /// A classical method that a family contains.
 template <int Parameters>
 struct classical_member {
-  std::string_view name;
-  std::array<double, static_cast<std::size_t>(Parameters)> theta;
+  std::string_view name;                                           ///< that of the method
+  std::array<double, static_cast<std::size_t>(Parameters)> theta;  ///< its parameters in the family
 };
 
 /// Carries the derivatives by theta, which learning needs.
@@ -86,8 +87,8 @@ inline void require_in_range(std::string_view family, std::string_view parameter
                              const parameter_range& range, double theta) {
   if (range.contains(theta)) return;
   const auto [low, high, open] = range;
-  throw std::invalid_argument(fmt::format("{}: the parameter {} must lie in {}{}, {}{}, got {}", family,
-                                          parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
+  throw std::invalid_argument(sentence("{}: the parameter {} must lie in {}{}, {}{}, got {}", family,
+                                       parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
 }
 }  // namespace detail
 

@@ -12,35 +12,20 @@ namespace nysalt {
 /// What a letter acts on: q and p, and f, which holds the force that its word reads, where it is known.
 template <Scalar T, int N>
 struct flow_state : phase_point<T, N> {
-  vector<T, N> f;
+  vector<T, N> f;  ///< the force, as its word needs it
 };
 
 /// Room for letters that need more than the state: made once a run, so that stepping does not allocate.
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {
   flow_room() = default;
+  /// For so many degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
-  vector<T, N> x;
-  vector<T, N> y;
+  vector<T, N> x;  ///< of a rotation, or M^-1 f of a gradient kick
+  vector<T, N> y;  ///< of a rotation, or f'(q) M^-1 f
 };
 
-/// The flow of an exactly solvable part of the motion over the time c h:
-///   letter             its name in words, see docs/notation.md
-///   slots              how many coefficients it has
-///   reads              the force that must be known, in f, when it is applied
-///   force_derivatives  how many f'(q) v it evaluates itself
-///   moves_q            f is stale afterwards
-///   additive           the flows over c h and d h compose to that over (c + d) h without an evaluation, so
-///                      that equal neighbours merge
-/// and, if it is that of a part of the Hamiltonian,
-///   serves<S, T>                     whether it exists for a system over a scalar
-///   prepare(c, h), prepare(b, c, h) of two slots, prepare<N>(c, h, modes) of a QuadraticFlow
-///                                    fold the step into the coefficients, once per run
-///   apply(system, prepared, state, room)
-/// Such a letter that reads the force may also offer
-///   evaluate_and_apply(system, prepared, state)
-/// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
-/// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
+/// The flow of the bath: its `stochastic` is true, and it draws noise.
 template <class L>
 concept StochasticFlow = requires {
   requires L::stochastic;
@@ -68,6 +53,23 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 };
 }  // namespace detail
 
+/// The flow of an exactly solvable part of the motion over the time c h:
+///   letter             its name in words, see docs/notation.md
+///   slots              how many coefficients it has
+///   reads              the force that must be known, in f, when it is applied
+///   force_derivatives  how many f'(q) v it evaluates itself
+///   moves_q            f is stale afterwards
+///   additive           the flows over c h and d h compose to that over (c + d) h without an evaluation, so
+///                      that equal neighbours merge
+/// and, if it is that of a part of the Hamiltonian,
+///   serves<S, T>                     whether it exists for a system over a scalar
+///   prepare(c, h), prepare(b, c, h) of two slots, prepare<N>(c, h, modes) of a QuadraticFlow
+///                                    fold the step into the coefficients, once per run
+///   apply(system, prepared, state, room)
+/// Such a letter that reads the force may also offer
+///   evaluate_and_apply(system, prepared, state)
+/// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
+/// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
 template <class L>
 concept Flow = requires {
   { L::letter } -> std::convertible_to<char>;

@@ -30,67 +30,72 @@ namespace nysalt {
 
 /// Where the pairs of one rank are among those of all.
 struct shared_pairs {
-  shard trajectories;
-  std::size_t first;  // pair
-  std::size_t total;
+  shard trajectories;  ///< which trajectories are whose
+  std::size_t first;   ///< number of the first pair at this rank, among all
+  std::size_t total;   ///< pairs of all ranks
 };
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory. If
 /// ranks share them, each has those of its trajectories.
 template <int N>
 struct flow_map_data {
-  std::vector<phase_point<double, N>> start;
-  std::vector<phase_point<double, N>> finish;
-  std::vector<std::size_t> first_of;  // trajectory m holds the pairs first_of[m] .. first_of[m + 1] - 1
+  std::vector<phase_point<double, N>> start;   ///< (q, p) where a step begins
+  std::vector<phase_point<double, N>> finish;  ///< (q, p) a step later
+  std::vector<std::size_t> first_of;  ///< trajectory m holds the pairs first_of[m] .. first_of[m + 1] - 1
 
-  double step = 0.0;
+  double step = 0.0;  ///< h, of all pairs
 
-  // In a bath: standard normal numbers of the noise over so many equal parts of the step. Those of pair n are
-  // noise[n noise_parts + k], k = 0 .. noise_parts - 1.
+  /// In how many equal parts of a step noise is kept, for systems in a bath; 0: it is not.
   int noise_parts = 0;
+  /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k] for k from 0 to
+  /// noise_parts - 1.
   std::vector<vector<double, N>> noise;
 
-  // A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
+  /// A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
 
-  std::optional<shared_pairs> shared;  // nothing: these are all
+  std::optional<shared_pairs> shared;  ///< nothing if these are all
 
   // Provenance, that of all ranks.
-  std::string system;
-  std::string ensemble;
-  std::string reference;
-  std::uint64_t seed = 0;
-  std::int64_t evaluations = 0;          // force evaluations that it took, checks included
-  double seconds = 0.0;                  // at this rank
-  std::optional<energy_range> energies;  // of all starts and finishes; none where H is not known
+  std::string system;                    ///< description of the system
+  std::string ensemble;                  ///< description of the ensemble
+  std::string reference;                 ///< description of the reference
+  std::uint64_t seed = 0;                ///< of starts and noise
+  std::int64_t evaluations = 0;          ///< force evaluations of all ranks that it took, checks included
+  double seconds = 0.0;                  ///< wall time at this rank
+  std::optional<energy_range> energies;  ///< of all starts and finishes; none where H is not known
 
-  std::size_t pairs() const { return start.size(); }
+  std::size_t pairs() const { return start.size(); }  ///< number of pairs at this rank
+  /// Number of trajectories at this rank.
   std::size_t trajectories() const { return first_of.empty() ? 0 : first_of.size() - 1; }
-  /// The one that a pair belongs to, from 0.
+  /// Number, from 0, of the trajectory at this rank that holds a pair.
   std::size_t trajectory_of(std::size_t pair) const {
     return static_cast<std::size_t>(std::upper_bound(first_of.begin(), first_of.end(), pair) -
                                     first_of.begin()) -
            1;
   }
 
-  /// Of all ranks, as the next.
+  /// Which of all trajectories this rank has.
   shard share() const {
     return shared ? shared->trajectories : shard(static_cast<std::int64_t>(trajectories()));
   }
+  /// Number of pairs of all ranks.
   std::size_t all_pairs() const { return shared ? shared->total : pairs(); }
-  std::size_t first_pair() const { return shared ? shared->first : 0; }  // that is here
+  /// Number of the first pair at this rank, among those of all ranks.
+  std::size_t first_pair() const { return shared ? shared->first : 0; }
 };
 
+/// Which trajectories are followed, for how long, and by whom.
 struct data_options {
-  double step;                      // the step to learn for
-  double horizon = 0.5;             // length of each trajectory
-  std::int64_t trajectories = 100;  // independent starts
-  std::uint64_t seed = 1;
-  std::int64_t first = 0;  // number of the first trajectory: which start and which noise it has
-  int noise_parts = 0;     // of a step whose noise is kept: what the letters O to be learned with need
-  int threads = 1;         // changes no bit of the data
-  const communicator* ranks = &alone;  // who share the trajectories; nor does it
-  // Told after some trajectories how many are done; from any thread, never two calls at once.
+  double step;                         ///< h, the step to learn for
+  double horizon = 0.5;                ///< length of each trajectory, a time: floor(horizon/step) steps
+  std::int64_t trajectories = 100;     ///< number of independent starts
+  std::uint64_t seed = 1;              ///< of starts and noise
+  std::int64_t first = 0;              ///< number of the first trajectory: which start and which noise it has
+  int noise_parts = 0;                 ///< equal parts of a step in which noise is kept, for letters O
+  int threads = 1;                     ///< changes no bit of the data
+  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit either
+  /// Told after some trajectories how many are done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
 
@@ -252,8 +257,8 @@ void add_up(flow_map_data<N>& data) {
 
 }  // namespace detail
 
-/// As many as fit into the memory of one rank, so that their number does not depend on that of ranks. Throws
-/// std::invalid_argument if one does not, or has no step.
+/// As many trajectories as fit into the memory of one rank, so that their number does not depend on that of
+/// ranks. Throws std::invalid_argument if one does not, or has no step.
 inline std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;
   const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));

@@ -9,15 +9,16 @@
 
 #include "nysalt/divergence.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
 /// How a trajectory ended. Where it diverged, `finish` is the state at that step.
 template <int N>
 struct outcome {
-  phase_point<double, N> finish;
-  std::int64_t steps = 0;
-  std::optional<std::int64_t> diverged_at;
+  phase_point<double, N> finish;            ///< the last state
+  std::int64_t steps = 0;                   ///< how many were taken
+  std::optional<std::int64_t> diverged_at;  ///< the first bad step; nothing where all went well
 };
 
 /// Takes `steps` steps of a stepper from start, with the noise of that trajectory. The observer is called as
@@ -38,8 +39,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       std::uint64_t trajectory = 0) {
   constexpr std::int64_t stretch = steps_between_checks;
   if (steps < 0 || every < 1) {
-    throw std::invalid_argument(
-        fmt::format("integrate: {} steps, observed every {}: cannot be", steps, every));
+    throw std::invalid_argument(sentence("integrate: {} steps, observed every {}: cannot be", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");
@@ -89,6 +89,7 @@ outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
+/// The same for a method at a step, unobserved.
 template <System S, Method M>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {

@@ -24,15 +24,16 @@
 
 namespace nysalt {
 
+/// Which trajectories are followed, for how long, and by whom.
 struct ensemble_options {
-  std::int64_t trajectories = 100;
-  std::int64_t steps = 1000;                             // of each
-  std::int64_t every = 1;                                // steps between looks
-  std::uint64_t seed = 1;                                // of the starts
-  int threads = 1;                                       // changes no bit
-  std::int64_t first = 0;                                // number of the first trajectory
-  std::function<void(std::int64_t done)> progress = {};  // after each block; never two calls at once
-  const communicator* ranks = &alone;                    // who share the trajectories; changes no bit
+  std::int64_t trajectories = 100;                       ///< how many trajectories
+  std::int64_t steps = 1000;                             ///< of each trajectory
+  std::int64_t every = 1;                                ///< steps between looks
+  std::uint64_t seed = 1;                                ///< of the starts
+  int threads = 1;                                       ///< changes no bit
+  std::int64_t first = 0;                                ///< number of the first trajectory
+  std::function<void(std::int64_t done)> progress = {};  ///< after each block; never two calls at once
+  const communicator* ranks = &alone;                    ///< who share the trajectories; changes no bit
 };
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T

@@ -19,7 +19,7 @@ namespace detail {
 template <System S>
 constexpr int most_lanes() {
   if constexpr (requires { S::lanes; }) {
-    static_assert(S::lanes >= 1 && S::lanes <= 16, "lanes of a system must lie in 1..16");
+    static_assert(S::lanes >= 1 && S::lanes <= 16, "nysalt: lanes of a system must lie in 1..16");
     return S::lanes;
   } else {
     return default_lanes;
@@ -41,50 +41,57 @@ inline constexpr int lanes_of = [] {
   return 1;
 }();
 
+/// Trajectories that a scalar holds: the lanes of a pack, else one.
 template <class T>
 inline constexpr int lanes_in = 1;
 template <int W>
-inline constexpr int lanes_in<pack<double, W>> = W;
+inline constexpr int lanes_in<pack<double, W>> = W;  ///< its lanes
 
 /// What comparing two T gives: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
 
 // One code for double, which has one lane, and for packs.
-inline double lane(double x, int) { return x; }
-inline bool lane(bool x, int) { return x; }
-inline void set_lane(double& x, int, double value) { x = value; }
-inline void set_lane(bool& x, int, bool value) { x = value; }
+inline double lane(double x, int) { return x; }                    ///< the one lane that it has
+inline bool lane(bool x, int) { return x; }                        ///< the one lane that it has
+inline void set_lane(double& x, int, double value) { x = value; }  ///< the one lane that it has
+inline void set_lane(bool& x, int, bool value) { x = value; }      ///< the one lane that it has
+/// The number in lane k.
 template <int W>
 double lane(const pack<double, W>& x, int k) {
   return x[k];
 }
+/// Whether lane k is set.
 template <int W>
 bool lane(const lane_mask<W>& x, int k) {
   return x[k];
 }
+/// Puts a number into lane k.
 template <int W>
 void set_lane(pack<double, W>& x, int k, double value) {
   x.set(k, value);
 }
+/// Sets lane k, or clears it.
 template <int W>
 void set_lane(lane_mask<W>& x, int k, bool value) {
   x.set(k, value);
 }
 
-inline bool both(bool a, bool b) { return a && b; }
+inline bool both(bool a, bool b) { return a && b; }  ///< a and b
+/// The lanes in which both hold.
 template <int W>
 lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
   return a & b;
 }
 
-/// That of the trajectory in lane k.
+/// The vector of the trajectory in lane k.
 template <class T, int N>
 vector<double, N> lane(const vector<T, N>& x, int k) {
   vector<double, N> result(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = lane(x[i], k);
   return result;
 }
+/// The state of the trajectory in lane k.
 template <class T, int N>
 phase_point<double, N> lane(const phase_point<T, N>& x, int k) {
   phase_point<double, N> result{vector<double, N>(x.size()), vector<double, N>(x.size())};
@@ -94,6 +101,7 @@ phase_point<double, N> lane(const phase_point<T, N>& x, int k) {
   }
   return result;
 }
+/// Puts a state into lane k.
 template <class T, int N>
 void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -102,7 +110,7 @@ void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) 
   }
 }
 
-/// Lanes 0..count - 1.
+/// The lanes 0..count - 1.
 template <class T>
 condition_of<T> first_lanes(int count) {
   condition_of<T> result(false);

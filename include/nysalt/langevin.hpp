@@ -2,8 +2,6 @@
 // Where the letters O go in a word that has none.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -17,24 +15,27 @@
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
-/// Of a word S, over a whole step or two halves:
+/// Where letters O stand beside a word S, over a whole step or two halves:
 ///   end        S O              [li_lu_tao_ye_2023, equation (2.13)]
 ///   symmetric  O/2 S O/2        one draw a step
 ///   middle     S with its central letter X split: ... X/2 O X/2 ...
 enum class placement { end, symmetric, middle };
 
+/// All of them, in that order.
 inline constexpr std::array placements{placement::end, placement::symmetric, placement::middle};
 
+/// end, symmetric or middle, as programs and files write it.
 constexpr std::string_view to_string(placement p) {
   constexpr std::array<std::string_view, 3> names{"end", "symmetric", "middle"};
   return names[static_cast<std::size_t>(p)];
 }
 
-/// Of a word S of some order, where the bath damps alone: O commutes with S to first order only, and what is
-/// symmetric has no second one.
+/// The order of a word S with letters O where the bath damps alone (sigma = 0): O commutes with S to first
+/// order only, and what is symmetric has no second one.
 constexpr int thermostatted_order(placement p, int order, bool symmetric) {
   const bool is_first = p == placement::end || (p == placement::middle && !symmetric);
   return is_first ? 1 : std::min(order, 2);
@@ -134,14 +135,14 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();
   if (w.stochastic_letters > 0) {
-    throw std::invalid_argument(fmt::format("the word {} has its letters O already", letters));
+    throw std::invalid_argument(sentence("the word {} has its letters O already", letters));
   }
   const std::string o(1, ornstein_uhlenbeck::letter);
   if (where == placement::end) return run_time_word(letters + o);
   if (where == placement::symmetric) return run_time_word(o + letters + o);
   if (letters.size() % 2 == 0) {
     throw std::invalid_argument(
-        fmt::format("the word {} has no central letter to split: place O at the end, or symmetric", letters));
+        sentence("the word {} has no central letter to split: place O at the end, or symmetric", letters));
   }
   const std::size_t central = letters.size() / 2;
   return run_time_word(letters.substr(0, central + 1) + o + letters.substr(central));

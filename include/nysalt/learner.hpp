@@ -18,23 +18,25 @@ namespace nysalt {
 /// The same options with parameters as the family holds them.
 template <Family F>
 struct learn_options {
-  nysalt::coordinates coordinates = nysalt::coordinates::qp;
-  parameters_of<F> start = F::start();
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the error counts
+  parameters_of<F> start = F::start();                        ///< where the first search begins
+  /// A value for each parameter that is not to be learned.
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
-  int max_iterations = 200;
-  int threads = 1;
-  loss_choice loss{};
-  bool classical_starts = true;
-  int random_starts = 0;
-  bool guarded = true;
-  bool check_force = true;
-  std::uint64_t seed = 1;
+  int max_iterations = 200;      ///< of the search from each start
+  int threads = 1;               ///< changes no bit of what is learned
+  loss_choice loss{};            ///< what is minimised; by default the paper's one-step loss
+  bool classical_starts = true;  ///< begin at the family's classical members and further starts too
+  int random_starts = 0;         ///< further ones, normal around the first with the deviation 0.3
+  bool guarded = true;           ///< false: an unstable optimum is found, and said not to be usable
+  bool check_force = true;       ///< at some states of the data, before the search
+  std::uint64_t seed = 1;        ///< of the random starts
 };
 
+/// A learned method and what there is to know of it.
 template <Family F>
 struct learned {
-  tuned_method<F> method;
-  fit_summary summary;
+  tuned_method<F> method;  ///< carries its step and system, and refuses others
+  fit_summary summary;     ///< its `usable` says whether to use the method
 };
 
 /// theta that minimises a loss over `data`, by default the one-step loss [li_lu_tao_ye_2023, section 3.1]. Of

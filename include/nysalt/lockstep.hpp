@@ -2,8 +2,6 @@
 // Trajectories side by side, each watched over.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "nysalt/divergence.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -27,14 +26,14 @@ namespace nysalt {
 template <class Stepper, Scalar T>
 class lockstep {
  public:
-  static constexpr int dimension = Stepper::dimension;
-  static constexpr int lanes = lanes_in<T>;
-  using state = phase_point<T, dimension>;
-  using condition = condition_of<T>;
+  static constexpr int dimension = Stepper::dimension;  ///< degrees of freedom
+  static constexpr int lanes = lanes_in<T>;             ///< how many trajectories at most
+  using state = phase_point<T, dimension>;              ///< of all lanes
+  using condition = condition_of<T>;                    ///< a bool for one lane, else a mask
 
-  /// Refers to the stepper. Lanes from `count` on hold no trajectory; lane 0 holds number `first`, whose
-  /// noise it sees. Throws std::invalid_argument if the start does not fit; that it is finite is up to the
-  /// caller.
+  /// Trajectories that begin at `start`. Refers to the stepper. Lanes from `count` on hold no trajectory;
+  /// lane 0 holds number `first`, whose noise it sees. Throws std::invalid_argument if the start does not
+  /// fit; that it is finite is up to the caller.
   lockstep(const Stepper& stepper, const state& start, int count, std::int64_t first = 0)
       : stepper_(&stepper),
         run_(stepper.open(start, static_cast<std::uint64_t>(first))),
@@ -42,7 +41,7 @@ class lockstep {
         diverged_(stepper.system(), start),
         live_(first_lanes<T>(count)) {}
 
-  using losses = std::array<std::optional<std::int64_t>, lanes>;  // the step at which a lane diverged
+  using losses = std::array<std::optional<std::int64_t>, lanes>;  ///< the step at which a lane diverged
 
   /// Takes up what was put away: open() and diverged_at() of trajectories that began at `start`. If it was
   /// put away at a step that steps_between_checks divides, it goes on as if nothing had happened, to the bit.
@@ -65,7 +64,7 @@ class lockstep {
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, const Take& take) {
     if (every < 1)
-      throw std::invalid_argument(fmt::format("lockstep: observed every {} steps: cannot be", every));
+      throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     while (run_.step < end && any(live_)) {
       good_ = run_;
@@ -84,17 +83,18 @@ class lockstep {
       }
     }
   }
-  /// The same unobserved.
+  /// Goes on to step `end`, unobserved.
   void go_on(std::int64_t end) {
     go_on(
         end, std::max<std::int64_t>(end, 1), 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
   }
 
-  std::int64_t step() const { return run_.step; }
-  const open_run<T, dimension>& open() const { return run_; }
-  /// Of lanes that diverged nothing is known but when.
+  std::int64_t step() const { return run_.step; }              ///< at which all are
+  const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
+  /// The states at that step. Of lanes that diverged nothing is known but when.
   state synchronous() const { return stepper_->synchronous(run_); }
-  const condition& live() const { return live_; }
+  const condition& live() const { return live_; }  ///< those that go on
+  /// The step at which lane k diverged; nothing while it goes on.
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[static_cast<std::size_t>(k)]; }
 
  private:

@@ -2,8 +2,6 @@
 // A method: a word with its coefficients, and what it promises.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -15,10 +13,12 @@
 #include "nysalt/energy_range.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/requirements.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
 
+/// A word with its coefficients, and what it promises:
 ///   word, coefficients(), name()      and letters() where the word is a run_time_word
 ///   order, symmetric                  as declared; measured in the tests
 ///   requires_quadratic_kinetic        the order holds for K = p M^-1 p / 2 only
@@ -37,13 +37,13 @@ concept Method = Word<typename M::word> && requires(const M& method) {
 template <Family F>
 class member {
  public:
-  using family = F;
+  using family = F;  ///< whose member it is
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
-  /// Throws std::invalid_argument if a parameter is out of its range.
+  /// The member of a family at theta. Throws std::invalid_argument if a parameter is out of its range.
   explicit member(const parameters_of<F>& theta, const F& family = {}) : theta_(theta), family_(family) {
     require_in_range<F>(theta);
   }
@@ -64,12 +64,13 @@ class member {
 template <Family F>
 class tuned_method {
  public:
-  using family = F;
+  using family = F;  ///< whose member it is
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
+  /// `system` is what describe() says of it. Without energies, has_seen is true everywhere.
   tuned_method(const member<F>& plain, double step, std::string system,
                std::optional<energy_range> energies = {})
       : member_(plain), step_(step), system_(std::move(system)), energies_(energies) {}
@@ -78,9 +79,9 @@ class tuned_method {
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
   word letters() const { return member_.letters(); }
   std::string name() const { return "learned:" + member_.name(); }
-  double step() const { return step_; }
-  const std::string& system() const { return system_; }
-  /// Of the trajectories that it was learned from; nothing where nobody told.
+  double step() const { return step_; }                  ///< at which it was learned
+  const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
+  /// The energies of the trajectories that it was learned from; nothing where nobody told.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
   /// of many starts learning/energies_outside.hpp tells whether that is chance.
@@ -88,20 +89,20 @@ class tuned_method {
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !energies_ || energies_->contains(energy<double>(system, state));
   }
-  const member<F>& anywhere() const { return member_; }
+  const member<F>& anywhere() const { return member_; }  ///< valid at any step, for any system
 
-  /// Throws std::invalid_argument at a step other than the learned one (to 1e-9 relative, as steps are
-  /// typed in decimals) or for another system.
+  /// Refuses where it is not valid: throws std::invalid_argument at a step other than the learned one (to
+  /// 1e-9 relative, as steps are typed in decimals) or for another system.
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
       throw std::invalid_argument(
-          fmt::format("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
-                      name(), step_, step));
+          sentence("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
+                   name(), step_, step));
     }
     if (system != system_) {
       throw std::invalid_argument(
-          fmt::format("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
-                      system_, system));
+          sentence("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
+                   system_, system));
     }
   }
 
@@ -123,8 +124,8 @@ stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const 
   }
   if (method.requires_quadratic_kinetic && !NystromSystem<S>) {  // known before only of a type-level method
     throw std::invalid_argument(
-        fmt::format("the order of {} needs a quadratic kinetic energy, but {} has one of its own",
-                    method.name(), describe(system)));
+        sentence("the order of {} needs a quadratic kinetic energy, but {} has one of its own", method.name(),
+                 describe(system)));
   }
   return {system, word_of(method), method.coefficients(), step, noise};
 }

@@ -2,28 +2,29 @@
 // Which part of a step each letter O of a word covers.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
+
 namespace nysalt {
 
 /// From begin to end, in equal parts of a step.
 struct noise_interval {
-  int begin;
-  int end;
+  int begin;  ///< the first part of it
+  int end;    ///< the first part behind it
+  /// Whether both ends are the same.
   friend bool operator==(const noise_interval&, const noise_interval&) = default;
 };
 
 /// The letters O share the step in their order: each covers as much as its coefficient says. `parts` is the
 /// least number of equal parts such that none is cut; 0 where there is no letter O.
 struct noise_intervals {
-  int parts = 0;
-  std::vector<noise_interval> of_letters;
+  int parts = 0;                           ///< of the step, all equal
+  std::vector<noise_interval> of_letters;  ///< one for each letter O, in their order
 
   /// The same in a multiple of the parts.
   noise_intervals in_parts(int more) const {
@@ -43,7 +44,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   for (const double c : coefficients) {
     if (c < 0.0) {
       throw std::invalid_argument(
-          fmt::format("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
+          sentence("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
     }
     ends.push_back(ends.back() + c);
   }
@@ -51,8 +52,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more
   if (!(std::abs(ends.back() - 1.0) <= rounding)) {
     throw std::invalid_argument(
-        fmt::format("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
-                    letters, ends.back()));
+        sentence("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
+                 letters, ends.back()));
   }
   for (int parts = 1; parts <= most_parts; ++parts) {
     noise_intervals result{parts, {}};
@@ -63,8 +64,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
     }
     if (result.of_letters.size() + 1 == ends.size()) return result;
   }
-  throw std::invalid_argument(fmt::format(
-      "the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
+  throw std::invalid_argument(
+      sentence("the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
 }
 
 }  // namespace nysalt

@@ -17,28 +17,29 @@ struct no_room {};
 /// other letters need.
 template <NoiseSource Noise, Scalar T, int N, class Room>
 struct noise_cursor {
-  static constexpr bool is_noisy = true;
-  const Noise* source;
-  std::uint64_t trajectory;
-  std::int64_t step;
-  int letters;        // O of a word
-  bool bath_is_warm;  // false: sigma = 0, no number is drawn
-  vector<T, N> xi;
-  Room room;
+  static constexpr bool is_noisy = true;  ///< there are letters O
+  const Noise* source;                    ///< where numbers come from
+  std::uint64_t trajectory;               ///< whose noise it is; that of lane 0
+  std::int64_t step;                      ///< that is under way
+  int letters;                            ///< O of a word
+  bool bath_is_warm;                      ///< false: sigma = 0, no number is drawn
+  vector<T, N> xi;                        ///< of the last draw
+  Room room;                              ///< for letters G, R, H, or none
 
+  /// Standard normal numbers for letter O number `letter` of a step; held until the next draw.
   const vector<T, N>& draw(std::int64_t of_step, int letter) {
     source->normals({trajectory, of_step, letter}, xi);
     return xi;
   }
-  void next() { ++step; }
+  void next() { ++step; }  ///< to the next step
 };
 
 /// The same where a word has no letter O.
 template <class Room>
 struct quiet_cursor {
-  static constexpr bool is_noisy = false;
-  Room room;
-  void next() {}
+  static constexpr bool is_noisy = false;  ///< no letter O
+  Room room;                               ///< for letters G, R, H, or none
+  void next() {}                           ///< no noise, nothing to count
 };
 
 /// One letter O of a step.
@@ -60,6 +61,7 @@ template <Scalar C>
 class noise_seam {
  public:
   noise_seam() = default;
+  /// From the letters as they are prepared. `bath_is_warm`: sigma > 0, so that there is noise.
   noise_seam(const ornstein_uhlenbeck::prepared<C>& end, const ornstein_uhlenbeck::prepared<C>& begin,
              bool bath_is_warm)
       : end_(end), begin_(begin) {

@@ -18,15 +18,17 @@ namespace nysalt {
 template <Method M>
 class odeint_stepper {
  public:
-  using value_type = double;
-  using time_type = double;
-  using order_type = unsigned short;
-  using stepper_category = boost::numeric::odeint::stepper_tag;
+  using value_type = double;                                     ///< as Odeint asks
+  using time_type = double;                                      ///< as Odeint asks
+  using order_type = unsigned short;                             ///< as Odeint asks
+  using stepper_category = boost::numeric::odeint::stepper_tag;  ///< as Odeint asks
 
+  /// Holds a copy of the method.
   explicit odeint_stepper(M method = M{}) : method_(std::move(method)) {}
 
-  order_type order() const { return static_cast<order_type>(M::order); }
+  order_type order() const { return static_cast<order_type>(M::order); }  ///< that of the method
 
+  /// One plain step of x by dt. Cost: the word's evaluations_of_plain_step, and the making of a stepper.
   template <System S>
   void do_step(const S& system, phase_point<double, S::dimension>& x, double /*t*/, double dt) const {
     make_stepper(system, method_, dt).step(x);

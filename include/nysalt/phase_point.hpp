@@ -15,13 +15,13 @@ using vector = Eigen::Matrix<T, N, 1>;
 /// Positions q and momenta p of one state, each of the system's dimension.
 template <Scalar T, int N>
 struct phase_point {
-  using scalar_type = T;
-  static constexpr int dimension = N;
+  using scalar_type = T;               ///< what each entry is
+  static constexpr int dimension = N;  ///< N, fixed or Eigen::Dynamic
 
-  vector<T, N> q;
-  vector<T, N> p;
+  vector<T, N> q;  ///< positions, one for each degree of freedom
+  vector<T, N> p;  ///< momenta (not velocities), likewise
 
-  Eigen::Index size() const { return q.size(); }
+  Eigen::Index size() const { return q.size(); }  ///< degrees of freedom
 
   /// The same state in another scalar type (constants of it).
   template <Scalar U>
@@ -35,6 +35,7 @@ struct phase_point {
   }
 };
 
+/// No NaN and no infinity in q and p.
 template <int N>
 bool is_finite(const phase_point<double, N>& x) {
   return x.q.allFinite() && x.p.allFinite();

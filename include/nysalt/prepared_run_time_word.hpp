@@ -14,14 +14,16 @@
 
 namespace nysalt {
 
-/// One decision a letter, the same operations in the same order, hence the same bits. Nothing is inlined
-/// where it is used: each scalar is compiled once, and a call costs little beside the decisions.
+/// Of letters as data: one decision a letter, the same operations in the same order, hence the same bits.
+/// Nothing is inlined where it is used: each scalar is compiled once, and a call costs little beside the
+/// decisions.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
   static constexpr bool needs_room = true;  // perhaps
 
-  /// Throws std::invalid_argument unless there is a coefficient for each slot.
+  /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
+  /// coefficient for each slot.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& its)
       : merges_(w.merges),
         halves_meet_(w.halves_meet),
@@ -53,8 +55,10 @@ class prepared_word<run_time_word, C, N> {
     }
   }
 
+  /// Itself: it holds its letters elsewhere anyway.
   const prepared_word& in_loop() const { return *this; }
 
+  /// Opens a run. Cost: the word's evaluations_to_open.
   template <class T, System S>
   [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (evaluates_to_open_) evaluate<T>(system, x);
@@ -63,6 +67,7 @@ class prepared_word<run_time_word, C, N> {
     first.evaluates = evaluation::none;
     apply(system, first, x, cursor);
   }
+  /// Steps of an open run. Cost: the word's evaluations_per_step each.
   template <class T, System S>
   [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                  auto& cursor) const {
@@ -72,11 +77,13 @@ class prepared_word<run_time_word, C, N> {
       cursor.next();
     }
   }
+  /// What an open state is at its step. No evaluation.
   template <class T, System S>
   [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (merges_) apply(system, undo_, x, cursor);
     if (halves_meet_) end(system, x, cursor);
   }
+  /// One step from q and p alone. Cost: the word's evaluations_of_plain_step.
   template <class T, System S>
   [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (halves_meet_) begin(system, x, cursor);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -15,10 +16,10 @@
 
 namespace nysalt {
 
-/// What letters are prepared with, beside coefficients and step: where their word needs it, else null.
+/// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
-  const bath* its_bath = nullptr;
-  std::shared_ptr<const quadratic_part> part;
+  std::optional<bath> its_bath;                ///< for letters O; a copy, as a system may return it by value
+  std::shared_ptr<const quadratic_part> part;  ///< for letters R
 };
 
 namespace detail {
@@ -38,6 +39,7 @@ auto prepare_letter(const C* c, double h, const surroundings_of_word& its) {
 }  // namespace detail
 
 // clang-format off
+/// Letters with coefficients and step folded in, and what a stepper does with them:
 /// open(system, x)                from a synchronous state to an open one: force and first letter where needed
 /// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
 /// close(system, x, cursor)       an open state becomes synchronous
@@ -52,15 +54,18 @@ auto prepare_letter(const C* c, double h, const surroundings_of_word& its) {
 template <class W, Scalar C, int N>
 class prepared_word;
 
-/// Unrolled, nothing is decided while stepping.
+/// Of letters known at compile time: unrolled, nothing is decided while stepping.
 template <Scalar C, int N, Flow... L>
 class prepared_word<word<L...>, C, N> {
   using W = word<L...>;
 
  public:
+  /// One for each slot.
   using coefficients = typename W::template coefficients<C>;
+  /// Its cursor holds a flow_room: there is a letter G, R or H.
   static constexpr bool needs_room = W::force_derivatives > 0 || (QuadraticFlow<L> || ...);
 
+  /// Folds step and surroundings into the coefficients.
   prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& its)
       : letters_(prepare(c, h, its, std::make_index_sequence<W::length>{})) {
     if constexpr (W::merges) {  // letters that merge have one coefficient
@@ -77,11 +82,13 @@ class prepared_word<word<L...>, C, N> {
   /// A copy: local coefficients cannot alias the system, so they stay in registers.
   prepared_word in_loop() const { return *this; }
 
+  /// Opens a run. Cost: W::evaluations_to_open.
   template <class T, System S>
   void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (W::evaluations_to_open > 0) force_of<W::reads, T>(system, x.q, x.f);
     if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x, cursor.room);
   }
+  /// Steps of an open run. Cost: W::evaluations_per_step each.
   template <class T, System S>
   [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                       auto& cursor) const {
@@ -97,11 +104,13 @@ class prepared_word<word<L...>, C, N> {
       }
     }
   }
+  /// What an open state is at its step. No evaluation.
   template <class T, System S>
   void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (W::merges) first::apply(system, undo_, x, cursor.room);
     if constexpr (W::halves_meet) seam_.end(system, cursor, x);
   }
+  /// One step from q and p alone. Cost: W::evaluations_of_plain_step.
   template <class T, System S>
   void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (W::halves_meet) seam_.begin(system, cursor, x);

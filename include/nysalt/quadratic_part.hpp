@@ -2,13 +2,12 @@
 // The quadratic part of a Hamiltonian by its modes, laid out for rotations.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -18,14 +17,16 @@ namespace nysalt {
 /// the modes of many systems are local.
 class quadratic_part {
  public:
+  /// An entry of U, not zero, with the mass m of its coordinate.
   struct entry {
-    Eigen::Index coordinate;
-    Eigen::Index mode;
-    double heavy;  // U m^{1/2}: q to x, and y to p
-    double light;  // U m^{-1/2}: p to y, and x to q
+    Eigen::Index coordinate;  ///< row of U
+    Eigen::Index mode;        ///< column of U
+    double heavy;             ///< U m^{1/2}: q to x, and y to p
+    double light;             ///< U m^{-1/2}: p to y, and x to q
   };
 
-  /// Throws std::invalid_argument unless there is a finite column and a frequency >= 0 for each coordinate.
+  /// That of a system, by its modes(). Throws std::invalid_argument unless there is a finite column and a
+  /// frequency >= 0 for each coordinate.
   template <System S>
   static std::shared_ptr<const quadratic_part> of(const S& system) {
     const normal_modes modes = system.modes();
@@ -34,8 +35,8 @@ class quadratic_part {
         !modes.basis.allFinite() || !modes.frequencies.allFinite() ||
         (modes.frequencies.array() < 0.0).any()) {
       throw std::invalid_argument(
-          fmt::format("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
-                      describe(system), n, n));
+          sentence("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
+                   describe(system), n, n));
     }
     auto result = std::make_shared<quadratic_part>();
     result->frequencies_.assign(modes.frequencies.begin(), modes.frequencies.end());
@@ -50,8 +51,8 @@ class quadratic_part {
     return result;
   }
 
-  const std::vector<entry>& entries() const { return entries_; }
-  const std::vector<double>& frequencies() const { return frequencies_; }
+  const std::vector<entry>& entries() const { return entries_; }           ///< row by row of U
+  const std::vector<double>& frequencies() const { return frequencies_; }  ///< omega_k
 
  private:
   std::vector<entry> entries_;

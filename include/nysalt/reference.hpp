@@ -14,6 +14,7 @@
 
 namespace nysalt {
 
+/// A flow that is as good as exact, of a system that is in no bath:
 /// advance(system, x, t)  x becomes the state a time t later
 /// finer()                the same with a much smaller error: the difference measures the error of this one
 /// description()          what it is, with its step or tolerance
@@ -29,9 +30,9 @@ concept ReferenceFlow = SeparableSystem<S> &&
 
 /// Whose noise a path sees, and how far it is: after `step` times of equal length.
 struct path_place {
-  std::uint64_t seed = 0;
-  std::uint64_t trajectory = 0;
-  std::int64_t step = 0;
+  std::uint64_t seed = 0;        ///< of the noise
+  std::uint64_t trajectory = 0;  ///< whose noise
+  std::int64_t step = 0;         ///< how many such times have passed before
 };
 
 /// The same for a system in a bath, path by path:

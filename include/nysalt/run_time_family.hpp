@@ -18,13 +18,14 @@ namespace nysalt {
 
 /// A method by its name and parameters.
 struct named_parameters {
-  std::string name;
-  Eigen::VectorXd theta;
+  std::string name;       ///< what it is called
+  Eigen::VectorXd theta;  ///< its parameters
 };
 
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
  public:
+  /// From any family; learns nothing of its type but what is listed here.
   template <class F>
     requires(!std::same_as<F, run_time_family> && Family<F>)
   explicit run_time_family(const F& family)
@@ -61,10 +62,10 @@ class run_time_family {
   }
 
   std::string name;
-  std::vector<std::string> parameter_names;
-  std::vector<parameter_range> ranges;
-  std::optional<Eigen::VectorXd> refuge;  // the member that is stable farthest
-  std::vector<named_parameters> starts;   // the family's own, its classical members, further ones
+  std::vector<std::string> parameter_names;  ///< one for each parameter
+  std::vector<parameter_range> ranges;       ///< where each may lie
+  std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest
+  std::vector<named_parameters> starts;      ///< the family's own, its classical members, further ones
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;
@@ -75,7 +76,7 @@ class run_time_family {
   /// d c_i / d theta_k in row i, column k.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& theta) const { return jacobian_(theta); }
 
-  /// Within the open ranges: beyond them the coefficients are not defined.
+  /// Whether theta is within the open ranges: beyond them the coefficients are not defined.
   bool is_defined(const Eigen::VectorXd& theta) const {
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
@@ -83,6 +84,7 @@ class run_time_family {
     return true;
   }
 
+  /// Whether theta is within all ranges, open or closed.
   bool is_in_range(const Eigen::VectorXd& theta) const {
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       if (!ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
@@ -90,7 +92,7 @@ class run_time_family {
     return true;
   }
 
-  /// The same with letters O at a placement. Throws std::invalid_argument if it has some already, or no
+  /// A family with letters O at a placement. Throws std::invalid_argument if it has some already, or no
   /// central letter to split.
   friend run_time_family thermostatted(const run_time_family& plain, placement where) {
     run_time_family result = plain;

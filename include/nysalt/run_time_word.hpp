@@ -2,8 +2,6 @@
 // A method's letters as data: for coefficients that come from a file.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
@@ -18,6 +16,7 @@
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/flows/rotation.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
@@ -38,6 +37,7 @@ template <class... L>
 /// hand, and how many evaluations that leaves.
 class run_time_word {
  public:
+  /// One for each slot; C is double or the scalar of the states.
   template <class C>
   using coefficients = std::vector<C>;
 
@@ -60,16 +60,16 @@ class run_time_word {
         if (i == 0) additive = flow.additive;
       });
       if (!is_known) {
-        throw std::invalid_argument(fmt::format("the word {} holds the letter {}; known letters are {}",
-                                                letters_, letters_[i], all_known()));
+        throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}",
+                                             letters_, letters_[i], all_known()));
       }
     }
     if (detail::mixes_splittings(letters_)) {
       throw std::invalid_argument(
-          fmt::format("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
-                      "quadratic part and the "
-                      "rest; take those of one splitting",
-                      letters_));
+          sentence("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
+                   "quadratic part and the "
+                   "rest; take those of one splitting",
+                   letters_));
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
     halves_meet = length > 1 && letters_.front() == ornstein_uhlenbeck::letter &&
@@ -77,8 +77,7 @@ class run_time_word {
     stochastic_letters =
         static_cast<int>(std::count(letters_.begin(), letters_.end(), ornstein_uhlenbeck::letter));
     if (stochastic_letters == static_cast<int>(length)) {
-      throw std::invalid_argument(
-          fmt::format("the word {} needs a letter beside those of the bath", letters_));
+      throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
     evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives;
@@ -88,34 +87,37 @@ class run_time_word {
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
 
-  /// Throws std::invalid_argument otherwise.
+  /// Throws std::invalid_argument unless there are as many coefficients as slots.
   void require_one_for_each_slot(const auto& coefficients) const {
     if (coefficients.size() == slots) return;
-    const std::string two = slots > length ? fmt::format(" and {} coefficients", slots) : "";
-    throw std::invalid_argument(fmt::format("the word {} has {} letters{}, but {} coefficients are given",
-                                            letters_, length, two, coefficients.size()));
+    const std::string two = slots > length ? sentence(" and {} coefficients", slots) : "";
+    throw std::invalid_argument(sentence("the word {} has {} letters{}, but {} coefficients are given",
+                                         letters_, length, two, coefficients.size()));
   }
 
   /// Where the coefficients of letter i begin.
   std::size_t first_slot(std::size_t i) const { return first_slots_[i]; }
+  /// How many coefficients letter i has.
   std::size_t slots_of(std::size_t i) const {
     return (i + 1 < length ? first_slots_[i + 1] : slots) - first_slots_[i];
   }
 
-  const std::string& letters() const { return letters_; }
+  const std::string& letters() const { return letters_; }  ///< as they were given
+  /// Where a step of an open run begins: 1 if letter 0 merges with the last.
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
+  /// Which letters evaluate the force, in a plain step and in an open run.
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
-  std::size_t length;
-  std::size_t slots = 0;
-  field reads = field::none;  // what its letters kick with
-  int force_derivatives = 0;
-  bool merges;
-  bool halves_meet;
-  int stochastic_letters;
-  int evaluations_per_step;
-  int evaluations_to_open;
-  int evaluations_of_plain_step;
+  std::size_t length;             ///< how many letters
+  std::size_t slots = 0;          ///< how many coefficients
+  field reads = field::none;      ///< the force that its letters read
+  int force_derivatives = 0;      ///< f'(q) v in a step, one evaluation each
+  bool merges;                    ///< last and first letter are applied as one
+  bool halves_meet;               ///< first and last letter are of the bath
+  int stochastic_letters;         ///< how many letters are of the bath
+  int evaluations_per_step;       ///< force evaluations of a step of an open run
+  int evaluations_to_open;        ///< force evaluations to open a run
+  int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
 
  private:
   static std::string all_known() {
@@ -130,7 +132,7 @@ class run_time_word {
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 
-/// It reads the same from both ends, letters and coefficients.
+/// Whether a method reads the same from both ends, letters and coefficients.
 inline bool is_palindrome(const run_time_word& word, const std::vector<double>& coefficients) {
   for (std::size_t i = 0, j = word.length; i < j--; ++i) {
     if (word.letters()[i] != word.letters()[j]) return false;
@@ -141,7 +143,7 @@ inline bool is_palindrome(const run_time_word& word, const std::vector<double>& 
   return true;
 }
 
-/// What a stepper takes.
+/// A word as a type or as data: what a stepper takes.
 template <class W>
 concept Word = TypeLevelWord<W> || std::same_as<W, run_time_word>;
 

@@ -30,13 +30,13 @@ template <class C, class T>
 concept CoefficientOf = Scalar<C> && Scalar<T> && (std::same_as<C, double> || std::same_as<C, T>);
 // clang-format on
 
-/// The same, said of the state's scalar.
+/// States over T can be stepped with coefficients C: CoefficientOf, said of the state's scalar.
 template <class T, class C>
 concept SteppedBy = CoefficientOf<C, T>;
 
 /// a where the condition holds, else b. Systems that write it instead of a branch serve packs and their duals
 /// too, where the condition may differ from lane to lane.
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
-inline bool any(bool condition) { return condition; }
+inline bool any(bool condition) { return condition; }  ///< whether it holds in any lane
 
 }  // namespace nysalt

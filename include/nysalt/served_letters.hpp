@@ -2,13 +2,12 @@
 // Which letters of a word a system has.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
 
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -27,13 +26,14 @@ consteval bool serves_all(std::index_sequence<I...>) {
 }
 }  // namespace detail
 
+/// Whether a letter R is among them, so that modes are needed.
 template <Word W>
 bool has_rotation(const W& word) {
   return word.letters().find(rotation::letter) != std::string::npos;
 }
 
-/// All letters of a word exist for a system over T: told when it is compiled where the word is a type.
-/// Throws std::invalid_argument, saying what is missing, where it is data.
+/// Refuses a word with a letter that a system does not have over T. Where the word is a type it does not
+/// compile. Throws std::invalid_argument, saying what is missing, where it is data.
 template <System S, Scalar T, Word W>
 void require_served(const W& word, const S& system) {
   if constexpr (TypeLevelWord<W>) {
@@ -50,9 +50,9 @@ void require_served(const W& word, const S& system) {
         using L = decltype(flow);
         if constexpr (!L::template serves<S, T>) {
           throw std::invalid_argument(
-              fmt::format("the word {} cannot step {}: {}", word.letters(), describe(system),
-                          letter == gradient_kick::letter ? detail::needs_quadratic_kinetic
-                                                          : detail::needs_quadratic_part));
+              sentence("the word {} cannot step {}: {}", word.letters(), describe(system),
+                       letter == gradient_kick::letter ? detail::needs_quadratic_kinetic
+                                                       : detail::needs_quadratic_part));
         }
       });
     }

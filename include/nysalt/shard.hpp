@@ -33,6 +33,7 @@ std::span<double> numbers_in(Matrix& term) {
 /// none. What refers to it must not outlive the communicator.
 class shard {
  public:
+  /// The share that this rank has of `total` trajectories.
   explicit shard(std::int64_t total, const communicator& ranks = alone) : total_(total), ranks_(&ranks) {
     const std::int64_t leaves = (total + trajectories_of_leaf - 1) / trajectories_of_leaf;
     blocks_ = leaves;
@@ -42,15 +43,16 @@ class shard {
     }
   }
 
-  std::int64_t total() const { return total_; }
-  std::int64_t first() const { return first_of(ranks_->rank()); }
+  std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
+  std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
+  /// Trajectories of this rank.
   std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
   /// The first trajectory of a rank; total() of rank size().
   std::int64_t first_of(int rank) const {
     const std::int64_t block = first_of_part(blocks_, rank, ranks_->size());
     return std::min(total_, (block << level_) * trajectories_of_leaf);
   }
-  const communicator& ranks() const { return *ranks_; }
+  const communicator& ranks() const { return *ranks_; }  ///< the ranks that share the trajectories
 
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
   /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
@@ -68,7 +70,7 @@ class shard {
     ranks_->broadcast(std::as_writable_bytes(detail::numbers_in(result)), 0);
     return result;
   }
-  double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }
+  double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }  ///< the same of numbers
 
   /// Of all trajectories each rank has filled in the items of its own: all get them all. Memory and messages
   /// grow with the trajectories: for what is small, and once. Throws std::invalid_argument if there is not

@@ -11,11 +11,10 @@
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
-
 #include "nysalt/conservative_part.hpp"
 #include "nysalt/noises/none.hpp"
 #include "nysalt/prepared_run_time_word.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/served_letters.hpp"
 
 namespace nysalt {
@@ -25,9 +24,9 @@ namespace nysalt {
 /// the bit.
 template <Scalar T, int N>
 struct open_run {
-  flow_state<T, N> state;
-  std::int64_t step = 0;
-  std::uint64_t trajectory = 0;  // whose noise it sees; that of lane 0
+  flow_state<T, N> state;        ///< ahead or behind, as said above
+  std::int64_t step = 0;         ///< how many are done
+  std::uint64_t trajectory = 0;  ///< whose noise it sees; that of lane 0
 };
 
 /// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
@@ -44,15 +43,17 @@ class stepper {
   }();
 
  public:
-  using system_type = S;
-  using noise_type = Noise;
-  static constexpr int dimension = S::dimension;
+  using system_type = S;                          ///< what it steps
+  using noise_type = Noise;                       ///< where its noise comes from
+  static constexpr int dimension = S::dimension;  ///< degrees of freedom
 
+  /// One for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
 
-  /// Throws std::invalid_argument if the step is zero or not finite; if a run-time word has another number
-  /// of slots than of coefficients, or a letter that the system does not serve; if a bath acts and the word
-  /// has no letter O; or if it is noisy and there is no noise. A negative step goes back in time.
+  /// Prepares the letters for the step, once for all runs. Throws std::invalid_argument if the step is zero
+  /// or not finite; if a run-time word has another number of slots than of coefficients, or a letter that the
+  /// system does not serve; if a bath acts and the word has no letter O; or if it is noisy and there is no
+  /// noise. A negative step goes back in time.
   stepper(const S& system, const W& word, const coefficients_type& coefficients, double step,
           const Noise& noise = {})
       : system_(&system),
@@ -64,19 +65,20 @@ class stepper {
         letters_(letters_of(system, word, coefficients, step)),
         quiet_(quiet_letters_of(system, word, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
-      throw std::invalid_argument(fmt::format("the step must be finite and not zero, got {}", step));
+      throw std::invalid_argument(sentence("the step must be finite and not zero, got {}", step));
     }
     if (acts_) require_thermostat(word.letters());
   }
+  /// The same for a word that is known by its type.
   stepper(const S& system, const coefficients_type& coefficients, double step,
           const Noise& noise = {}) requires TypeLevelWord<W>
       : stepper(system, W{}, coefficients, step, noise) {}
   stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
-  double step_size() const { return step_; }
-  const S& system() const { return *system_; }
-  const Noise& noise() const { return noise_; }
+  double step_size() const { return step_; }     ///< h; back in time it is negative
+  const S& system() const { return *system_; }   ///< that it steps, no copy
+  const Noise& noise() const { return noise_; }  ///< a copy of its source
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
   /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.
@@ -91,13 +93,13 @@ class stepper {
     return run;
   }
 
-  /// THE loop. Cost: steps times the word's evaluations_per_step, and a normal number for each momentum and
-  /// letter O. Allocates nothing that the force does not; of a dynamic size, one vector
-  /// with noise and a few for the letters G, R, H.
-  /// Throws std::invalid_argument if steps < 0. If the force throws, the run is lost: go on from a copy.
+  /// Takes so many steps: THE loop. Cost: steps times the word's evaluations_per_step, and a normal number
+  /// for each momentum and letter O. Allocates nothing that the force does not; of a dynamic size, one vector
+  /// with noise and a few for the letters G, R, H. Throws std::invalid_argument if steps < 0. If the force
+  /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
-    if (steps < 0) throw std::invalid_argument(fmt::format("a run cannot advance by {} steps", steps));
+    if (steps < 0) throw std::invalid_argument(sentence("a run cannot advance by {} steps", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
@@ -114,7 +116,7 @@ class stepper {
   void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
     if (steps < 0 || every < 1) {
       throw std::invalid_argument(
-          fmt::format("a run cannot advance by {} steps, watched every {}", steps, every));
+          sentence("a run cannot advance by {} steps, watched every {}", steps, every));
     }
     flow_state<T, dimension> x = std::move(run.state);
     flow_state<T, dimension> y = x;
@@ -198,7 +200,7 @@ class stepper {
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
     surroundings_of_word result;
-    if constexpr (HasBath<S>) result.its_bath = &static_cast<const bath&>(system.bath());
+    if constexpr (HasBath<S>) result.its_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {
       if (has_rotation(word)) result.part = quadratic_part::of(system);
@@ -243,14 +245,14 @@ class stepper {
   void require_thermostat(const std::string& letters) const {
     if constexpr (HasBath<S>) {
       if (stochastic_letters_ == 0) {
-        throw std::invalid_argument(fmt::format(
+        throw std::invalid_argument(sentence(
             "the system is in a {}, but the word {} has no letter O: thermostat it, or step the system alone",
             system_->bath().description(), letters));
       }
       if (std::is_same_v<Noise, no_noise> && system_->bath().sigma() > 0.0) {
         throw std::invalid_argument(
-            fmt::format("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
-                        system_->bath().description()));
+            sentence("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
+                     system_->bath().description()));
       }
     }
   }
@@ -258,9 +260,8 @@ class stepper {
   template <Scalar T>
   void require_size(const phase_point<T, dimension>& x) const {
     if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
-    throw std::invalid_argument(
-        fmt::format("the state has {} positions and {} momenta, the system {} of each", x.q.size(),
-                    x.p.size(), size(*system_)));
+    throw std::invalid_argument(sentence("the state has {} positions and {} momenta, the system {} of each",
+                                         x.q.size(), x.p.size(), size(*system_)));
   }
 
   const S* system_;

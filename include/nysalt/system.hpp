@@ -39,26 +39,30 @@ namespace nysalt {
 /// Orthonormal modes of the quadratic part: column k of `basis` in mass-weighted coordinates M^{1/2} q,
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
-  Eigen::MatrixXd basis;
-  Eigen::VectorXd frequencies;
+  Eigen::MatrixXd basis;        ///< N x N, orthogonal
+  Eigen::VectorXd frequencies;  ///< N of them, none negative
 };
 
-/// Angular frequencies low..high that the linearised motion has.
+/// Angular frequencies, low to high, that the linearised motion has.
 struct frequency_band {
-  double low;
-  double high;
+  double low;   ///< lower end, not negative
+  double high;  ///< upper end
 };
 
+/// What can be stepped at all: it can be copied, and has `static constexpr int dimension`, positive, or
+/// Eigen::Dynamic and a size().
 template <class S>
 concept System = std::copyable<S> &&
     (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
        { s.size() } -> std::convertible_to<Eigen::Index>;
      }));
 
+/// V(q) can be evaluated over T.
 template <class S, class T>
 concept HasPotential = requires(const S& s, const vector<T, S::dimension>& q) {
   { s.potential(q) } -> std::same_as<T>;
 };
+/// The system has a force(q, f) of its own over T, f = -grad V(q).
 template <class S, class T>
 concept HasForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
   s.force(q, f);
@@ -103,33 +107,42 @@ concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<
 };
 }  // namespace detail
 
+/// The system has a kick of its own over T, p += c force(q), that is written in the class of its force or
+/// further down: one that is inherited beside another force does not count.
 template <class S, class T, class C = double>
 concept HasKick = detail::CanKick<S, T, C> && detail::KickOfTheForce<S, T, C>;
+/// The system has a directional derivative of its force over T, g = f'(q) v.
 template <class S, class T = double>
 concept HasForceDerivative = requires(const S& s, const vector<T, S::dimension>& q,
                                       const vector<T, S::dimension>& v, vector<T, S::dimension>& g) {
   s.force_derivative(q, v, g);
 };
+/// The system has the force of V without its quadratic part.
 template <class S, class T = double>
 concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
   s.soft_force(q, f);
 };
+/// The system has masses, by 1/m_i; else each is 1.
 template <class S>
 concept HasInverseMass = requires(const S& s, Eigen::Index i) {
   { s.inverse_mass(i) } -> std::convertible_to<double>;
 };
+/// The system has a kinetic energy of its own, K(p) over T.
 template <class S, class T>
 concept HasKineticEnergy = requires(const S& s, const vector<T, S::dimension>& p) {
   { s.kinetic_energy(p) } -> std::same_as<T>;
 };
+/// The system has a velocity of its own, v = grad K(p) over T.
 template <class S, class T>
 concept HasVelocity = requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
   s.velocity(p, v);
 };
+/// The system tells the modes of its quadratic part.
 template <class S>
 concept HasModes = requires(const S& s) {
   { s.modes() } -> std::same_as<normal_modes>;
 };
+/// The system tells the angular frequencies of its linearised motion, on which a step must be stable.
 template <class S>
 concept HasFrequencyBands = requires(const S& s) {
   { s.frequency_bands() } -> std::same_as<std::vector<frequency_band>>;
@@ -159,7 +172,7 @@ concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, det
                                    (BlackBoxForce<S> && detail::is_dual_of_double<T>));
 // clang-format on
 
-/// H = K(p) + V(q): kicks and drifts are exact.
+/// H = K(p) + V(q), with a force over double and over dual numbers: kicks and drifts are exact.
 template <class S>
 concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>>;
 
@@ -167,8 +180,8 @@ concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>
 template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
-/// The same of systems that need not be separable over double; order_probe, whose K is decided while running,
-/// says so.
+/// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
+/// while running, says so itself.
 template <class S>
 concept HasQuadraticKinetic = System<S> &&((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                            requires { requires S::may_have_quadratic_kinetic; });
@@ -179,7 +192,7 @@ template <class S>
 concept HasQuadraticPart = NystromSystem<S> && HasModes<S> && HasSoftForce<S>;
 
 // clang-format off
-/// H can be evaluated.
+/// H = K + V can be evaluated over T.
 template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
@@ -194,7 +207,7 @@ Eigen::Index size(const S& system) {
   }
 }
 
-/// A vector of the system's dimension.
+/// A vector of the system's dimension, its entries not set.
 template <Scalar T, System S>
 vector<T, S::dimension> make_vector(const S& system) {
   return vector<T, S::dimension>(size(system));

@@ -2,8 +2,6 @@
 // Parameters that were learned at several steps, and between them.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,14 +11,16 @@
 
 #include <Eigen/Core>
 
+#include "nysalt/sentence.hpp"
+
 namespace nysalt {
 
 /// theta(step) through learned points: at a point what was learned there, between two of them the polynomial
 /// through two on either side, and nothing beyond the first and the last.
 class theta_curve {
  public:
-  /// Throws std::invalid_argument unless there is a theta for each step, all as long and finite, and the
-  /// steps rise.
+  /// Through one theta for each step. Throws std::invalid_argument unless there is a theta for each step, all
+  /// as long and finite, and the steps rise.
   theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas)
       : steps_(std::move(steps)), thetas_(std::move(thetas)) {
     bool sound = !steps_.empty() && steps_.size() == thetas_.size();
@@ -33,24 +33,24 @@ class theta_curve {
     throw std::invalid_argument("a curve of parameters needs rising steps, and as many finite ones at each");
   }
 
-  const std::vector<double>& steps() const { return steps_; }
-  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }
+  const std::vector<double>& steps() const { return steps_; }             ///< of the points, rising
+  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }  ///< what was learned at each
 
-  /// To 1e-9 relative, as steps are typed in decimals.
+  /// Whether a step lies between the first and the last, to 1e-9 relative, as steps are typed in decimals.
   bool covers(double step) const {
     return steps_.front() * (1.0 - met) <= step && step <= steps_.back() * (1.0 + met);
   }
 
-  /// Whether it was learned there, and not between.
+  /// Whether a step is one of the points, and not between.
   bool has(double step) const {
     return std::any_of(steps_.begin(), steps_.end(), [&](double s) { return std::abs(step - s) <= met * s; });
   }
 
-  /// Throws std::invalid_argument where it does not cover the step.
+  /// theta at a step. Throws std::invalid_argument where it does not cover the step.
   Eigen::VectorXd at(double step) const {
     if (!covers(step)) {
       throw std::invalid_argument(
-          fmt::format("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
+          sentence("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
     }
     for (std::size_t k = 0; k < steps_.size(); ++k) {
       if (std::abs(step - steps_[k]) <= met * steps_[k]) return thetas_[k];

@@ -56,6 +56,7 @@ T tree_sum(std::span<const T> terms) {
   return level.front();
 }
 
+/// The same of a vector.
 template <class T>
 T tree_sum(const std::vector<T>& terms) {
   return tree_sum(std::span<const T>(terms));

@@ -84,7 +84,8 @@ constexpr bool mixes_splittings(std::string_view letters) {
 }
 }  // namespace detail
 
-/// Letters act from left to right: word<kick, drift, kick> is velocity Verlet.
+/// A method by its letters, as a type. They act from left to right: word<kick, drift, kick> is velocity
+/// Verlet.
 ///
 /// A run over many steps is held open: the first letter is already applied. Where the last letter is the
 /// first one again (and additive), the two become one; and a force is reused while q has not moved.
@@ -92,9 +93,11 @@ constexpr bool mixes_splittings(std::string_view letters) {
 template <Flow... L>
   requires(sizeof...(L) > 0)
 struct word {
-  static constexpr std::size_t length = sizeof...(L);
+  static constexpr std::size_t length = sizeof...(L);  ///< how many letters
+  /// The flow of letter I, from 0 on.
   template <std::size_t I>
   using letter = std::tuple_element_t<I, std::tuple<L...>>;
+  /// One for each slot; C is double or the scalar of the states.
   template <class C>
   using coefficients = std::array<C, (0 + ... + L::slots)>;
 
@@ -103,10 +106,11 @@ struct word {
     constexpr std::array<std::size_t, length> slots{L::slots...};
     return std::accumulate(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(i), std::size_t{0});
   }
-  static constexpr std::size_t slots = first_slot(length);
+  static constexpr std::size_t slots = first_slot(length);  ///< how many coefficients
 
   /// The force that its letters read.
   static constexpr field reads = std::max({L::reads...});
+  /// Its letters are of one splitting of H: A, B, G or R, S, H. Others do not compile.
   static constexpr bool has_one_splitting = [] {
     constexpr std::array all{L::letter...};
     return !detail::mixes_splittings({all.data(), all.size()});
@@ -117,11 +121,13 @@ struct word {
       "rest: a word has those of one splitting");
 
   /// Last and first letter of successive steps are applied as one.
-  static constexpr bool merges =
-      length > 1 && std::is_same_v<letter<0>, letter<length - 1>>&& letter<0>::additive;
+  static constexpr bool merges = [] {
+    return length > 1 && std::is_same_v<letter<0>, letter<length - 1>> && letter<0>::additive;
+  }();
 
-  /// How many letters of the bath there are, and which of them, from 0 on, letter i is.
+  /// How many letters of the bath there are.
   static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
+  /// Which of the letters of the bath letter i is, from 0 on: how many come before it.
   static constexpr int stochastic_number(std::size_t i) {
     constexpr std::array<bool, length> is{StochasticFlow<L>...};
     return static_cast<int>(std::count(is.begin(), is.begin() + static_cast<std::ptrdiff_t>(i), true));
@@ -130,17 +136,21 @@ struct word {
   static constexpr bool halves_meet =
       length > 1 && StochasticFlow<letter<0>>&& StochasticFlow<letter<length - 1>>;
 
-  static std::string letters() { return {L::letter...}; }
+  static std::string letters() { return {L::letter...}; }  ///< as in docs/notation.md, from left to right
 
+  /// Where a step of an open run begins: 1 if letter 0 merges with the last.
   static constexpr std::size_t first_in_loop = merges ? 1 : 0;
+  /// Which letters evaluate the force, in a plain step and in an open run.
   static constexpr detail::evaluation_plan<std::array<evaluation, length>> plan{
       std::array{(L::reads != field::none)...}, std::array{L::moves_q...}, first_in_loop, {}};
 
-  /// Force evaluations of one step in the loop, of opening a run, and of a plain step.
+  /// How many f'(q) v a step evaluates, each of which counts as one force evaluation.
   static constexpr int force_derivatives =
       (0 + ... + L::force_derivatives);  // none is in a letter that merges
+  /// Force evaluations of a step of an open run.
   static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives;
-  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;
+  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< those to open a run
+  /// Those of a plain step, which begins with q and p alone.
   static constexpr int evaluations_of_plain_step = plan.count(plan.in_step) + force_derivatives;
 };
 

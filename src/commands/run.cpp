@@ -10,12 +10,10 @@
 #include "../commands.hpp"
 #include "../destination.hpp"
 #include "../learning.hpp"
-#include "../method_source.hpp"
 #include "../output.hpp"
+#include "../planned_run.hpp"
 #include "../progress.hpp"
 #include "../run_question.hpp"
-#include "../seeds.hpp"
-#include "../stability_margin.hpp"
 #include "../stretches.hpp"
 #include "../world.hpp"
 #include "nysalt/report/plot.hpp"
@@ -120,15 +118,6 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
   return all;
 }
 
-void require_observables(const run_command& command, const bundled_system& system) {
-  for (const auto& name : command.observables) system.require_observable(name);
-  for (std::size_t i = 1; i < command.observables.size(); ++i) {
-    const auto earlier = std::span(command.observables).first(i);
-    if (std::ranges::find(earlier, command.observables[i]) == earlier.end()) continue;
-    refuse("--observables names {} twice", command.observables[i]);
-  }
-}
-
 void tell(const run_command& command, const json& result, bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
@@ -172,46 +161,32 @@ bool agreed(bool at_first) {
 }  // namespace
 
 int run(const run_command& asked, const common_settings& common) {
-  run_command command = asked;
-  require_positive("--step", command.step);
-  require_at_least_one("--trajectories", command.trajectories);
-  require_at_least_one("--sample-every", command.sample_every);
-  const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
+  const planned_run planned(asked, common);
+  const run_command& command = planned.command();
+  bundled_system& system = planned.system();
+  const tabulated& method = planned.method();
+  const std::int64_t steps = planned.steps();
   on_first(world(), [&] { require_files(command); });
-  const auto system = make_system(command.system);
-  if (command.observables.empty()) command.observables = {system->default_observable()};
-  require_observables(command, *system);
   require_room(command, steps, common.json && command.output.empty(), common.threads);
 
-  std::vector<std::string> warnings;
-  method_source source;
-  together(world(), [&] { source = find_method(command.method); });
-  const tabulated method = coefficients_at(source, *system, command.step, common.force,
-                                           placement_asked(command.placement), warnings);
-
   const auto began = std::chrono::steady_clock::now();
-  const json question = question_of(command, *system, method, steps, common.seed);
+  const json question = question_of(command, system, method, steps, common.seed);
   require_agreement("methods", question.dump(-1, ' ', false, json::error_handler_t::replace));
   progress shown;
   std::optional<destination> output;  // at rank 0
   on_first(world(), [&] {             // from now on the run can be gone on with
     output.emplace(command, steps, common.json, question,
-                   about_run(command, *system, method, steps, common.seed));
+                   about_run(command, system, method, steps, common.seed));
   });
   const bool was_finished = agreed(output && output->is_finished());
-  if (!was_finished || common.json) prepare_starts(*system, common, shown);
-  const trajectories_plan plan{command.step, steps, command.trajectories, seed_for(role::test, common.seed),
-                               common.threads};
+  if (!was_finished || common.json) prepare_starts(system, common, shown);
+  const trajectories_plan plan = planned.plan();
   shown.clear();
-  if (!common.json && !was_finished) {  // only now: a refusal is one line
-    for (const auto& text : warnings) warn(text);
-  }
+  std::vector<std::string> warnings = planned.warnings();
   if (!was_finished) {
-    for (const auto& text : {stability_warning(command.method, method, *system, plan.step, plan.seed),
-                             warning_of_energies(source, *system, plan)}) {
-      if (!text) continue;
-      warnings.push_back(*text);
-      if (!common.json) warn(*text);
+    for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
+    if (!common.json) {  // only now: a refusal is one line
+      for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
     on_first(world(), [&] {
@@ -221,16 +196,16 @@ int run(const run_command& asked, const common_settings& common) {
     });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
-    system->run(method, sampled, take, shown.counter(1000));
+    system.run(method, sampled, take, shown.counter(1000));
     shown.clear();
     on_first(world(), [&] { put_in_place(command, *output, steps, common); });
   }
 
   on_first(world(), [&] {
-    json result = document(command, *system, *output, with_times(output->lost(), command.step));
+    json result = document(command, system, *output, with_times(output->lost(), command.step));
     result["steps"] = steps;
     result["seed"] = common.seed;
-    if (!was_finished || common.json) result["evaluations"] = system->count_evaluations(method, plan);
+    if (!was_finished || common.json) result["evaluations"] = system.count_evaluations(method, plan);
     result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     result["warnings"] = warnings;
     if (common.json) {

@@ -1,5 +1,5 @@
-# Uses nysalt as others do: installs BUILD below FOLDER, then configures, builds and runs the projects that
-# stand beside this file, rightly and wrongly.
+# Uses nysalt as others do: installs it below FOLDER, as BUILD does too, then configures, builds and runs the projects
+# that stand beside this file, rightly and wrongly. MPI says whether there is one.
 
 cmake_minimum_required(VERSION 3.25)
 load_cache(${BUILD} READ_WITH_PREFIX its_
@@ -55,6 +55,7 @@ endfunction()
 # The program has the project's name, and its main.cpp says what it prints.
 function(build_and_run name)
   run(${CMAKE_COMMAND} --build ${FOLDER}/${name})
+  set(output "${output}" PARENT_SCOPE)
   run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name} -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp
     -P ${nysalt}/tests/check_example.cmake)
 endfunction()
@@ -82,20 +83,48 @@ function(require_no_match text pattern)
   endif()
 endfunction()
 
-# Installed, the package must know nothing of where it was made.
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/installed --component nysalt_development)
-file(GLOB_RECURSE package ${FOLDER}/installed/*.cmake)
-foreach(file IN LISTS package)
-  file(READ ${file} text)
+# nysalt itself, configured where there is Eigen alone: what is installed is the same, and knows nothing of where it
+# was made.
+set(eigen_alone "")
+foreach(package IN ITEMS Boost fmt TBB Ceres MPI)
+  list(APPEND eigen_alone -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+set(no_ceres -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
+refuses("benchmarks need Ceres 2.1 (Debian: libceres-dev, or set Ceres_DIR)" nysalt ${no_ceres})
+refuses("nysalt needs Eigen 3.4 (Debian: libeigen3-dev, or set Eigen3_DIR)" nysalt
+  -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+configure(nysalt ${eigen_alone}
+  -D NYSALT_BUILD_TESTS=OFF -D NYSALT_BUILD_EXAMPLES=OFF -D NYSALT_BUILD_PROGRAMS=OFF)
+run(${CMAKE_COMMAND} --install ${FOLDER}/nysalt --prefix ${FOLDER}/installed)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/of_all --component nysalt_development)
+file(GLOB_RECURSE files RELATIVE ${FOLDER}/installed ${FOLDER}/installed/*)
+file(GLOB_RECURSE others RELATIVE ${FOLDER}/of_all ${FOLDER}/of_all/*)
+if(NOT files STREQUAL others)
+  message(FATAL_ERROR "what is installed depends on what is found:\n${files}\n${others}")
+endif()
+foreach(file IN LISTS files)
+  file(READ ${FOLDER}/installed/${file} text)
+  file(READ ${FOLDER}/of_all/${file} other)
+  if(NOT text STREQUAL other)
+    message(FATAL_ERROR "${file} depends on what is found")
+  endif()
   string(FIND "${text}" "${nysalt}/" found)
   if(NOT found EQUAL -1)
     message(FATAL_ERROR "${file} names a path below ${nysalt}")
   endif()
 endforeach()
 
+# With Eigen alone there is core, and its headers read nothing else.
+set(theirs "/include/(fmt|boost|oneapi|tbb|ceres|glog)/|/mpi\\.h")
+configure(core ${eigen_alone})
+build_and_run(core)
+require_match("${output}" "/nysalt/core\\.hpp.*/Eigen/Core")
+require_no_match("${output}" "${theirs}")
+
 # Who integrates has nothing of Ceres; who learns does, which shows that it would be seen.
-configure(integrate)
+configure(integrate ${no_ceres})
 build_and_run(integrate)
+require_match("${output}" "${theirs}")
 inspect(integrate)
 require_match("${libraries}" "libtbb")
 require_no_match("${libraries};${symbols}" "ceres|glog")
@@ -105,41 +134,68 @@ inspect(learn)
 require_match("${libraries}" "libceres|libglog")
 require_match("${symbols}" "ceres")
 
-# The same before linking: a linker may leave out what is linked and not used.
+# Boost's headers are enough for odeint.
+configure(odeint -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_TBB=ON ${no_ceres}
+  -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+build_and_run(odeint)
+
+# Without a wish there is what can be found, and the rest is told of.
 configure(link_interface)
 string(REPLACE "${FOLDER}" "" sentences "${sentences}")
-require_match("${sentences}" "nysalt::nysalt includes [^/;]*/installed/include>?;")
+require_match("${sentences}" "nysalt::core includes [^/;]*/installed/include>?;")
+require_match("${sentences}" "nysalt::core compiles with [^ ]*-ffp-contract=off;-fno-tree-slp-vectorize;")
+require_match("${sentences}" "nysalt::core brings nysalt::core;Eigen3::Eigen;")
 require_match("${sentences}" "nysalt::nysalt brings [^ ]*;TBB::tbb;")
 require_no_match("${sentences}" "nysalt::nysalt brings [^ ]*([Cc]eres|glog)")
-require_match("${sentences}" "nysalt::learner brings [^ ]*;Ceres::ceres;[^ ]*glog")
+require_match("${sentences}" "nysalt::learn brings [^ ]*;Ceres::ceres;[^ ]*glog")
+configure(link_interface -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+require_match("${sentences}" "component nysalt needs fmt 9 \\(Debian: libfmt-dev, or set fmt_DIR\\), and is left out")
+require_match("${sentences}" "component mpi needs fmt 9 [^)]*\\) and an MPI 3.1 [^)]*\\), and is left out")
+require_match("${sentences}" "nysalt::odeint brings nysalt::odeint;nysalt::core;Boost::headers;")
+require_no_match("${sentences}" "nysalt::(nysalt|learn|mpi) brings")
 
-# Components, with Ceres and without.
-set(no_ceres -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
-configure(link_interface -D COMPONENTS=learner)
-require_no_match("${sentences}" "nysalt::mpi")
-if(EXISTS ${FOLDER}/installed/include/nysalt/communicators/mpi.hpp)
-  configure(link_interface -D COMPONENTS=mpi)
-  require_match("${sentences}" "nysalt::mpi brings [^ ]*;MPI::MPI_CXX")
-  refuses("nysalt's component mpi needs an MPI 3.1" link_interface
-    -D COMPONENTS=mpi -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+# With one there is that, and what it stands on.
+configure(link_interface -D COMPONENTS=core)
+require_no_match("${sentences}" "nysalt::(nysalt|learn|odeint|mpi) brings")
+configure(link_interface -D COMPONENTS=learn)
+require_match("${sentences}" "nysalt::nysalt brings")
+require_no_match("${sentences}" "nysalt::(odeint|mpi) brings")
+refuses("nysalt has no component 'lern': there are core, nysalt, learn, odeint, mpi" link_interface -D COMPONENTS=lern)
+refuses("component learner is now called learn, and its target nysalt::learn" link_interface -D COMPONENTS=learner)
+refuses("nysalt's component learn needs Ceres 2.1 (Debian: libceres-dev" learn ${no_ceres})
+refuses("nysalt's component core needs Eigen 3.4 (Debian: libeigen3-dev" link_interface
+  -D COMPONENTS= -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+refuses("nysalt's component mpi needs an MPI 3.1" link_interface
+  -D COMPONENTS=mpi -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+if(MPI)
+  configure(mpi)
+  build_and_run(mpi)
 endif()
-refuses("nysalt has no component 'lerner': there are learner and mpi" link_interface -D COMPONENTS=lerner)
-refuses("nysalt's component learner needs Ceres 2.1 (Debian: libceres-dev)" learn ${no_ceres})
-configure(integrate ${no_ceres})  # also shows that nothing is found only because Ceres looks for it too
-build_and_run(integrate)
 
-# nysalt itself, configured and installed without Ceres: then there is no learner, wherever Ceres comes from later.
-refuses("that needs Ceres (Debian: libceres-dev)" nysalt ${no_ceres})
-configure(nysalt ${no_ceres}
-  -D NYSALT_BUILD_TESTS=OFF -D NYSALT_BUILD_EXAMPLES=OFF -D NYSALT_BUILD_PROGRAMS=OFF)
-run(${CMAKE_COMMAND} --install ${FOLDER}/nysalt --prefix ${FOLDER}/installed_without_ceres)
-refuses("installed without its component learner" learn -D nysalt_ROOT=${FOLDER}/installed_without_ceres)
+# Without CMake: the same flags, from wherever the tree stands.
+find_program(pkg_config pkg-config)
+if(pkg_config)
+  file(RENAME ${FOLDER}/installed ${FOLDER}/moved)
+  set(ENV{PKG_CONFIG_PATH} ${FOLDER}/moved/share/pkgconfig:$ENV{PKG_CONFIG_PATH})
+  set(main ${CMAKE_CURRENT_LIST_DIR}/integrate/main.cpp)
+  run(${pkg_config} --cflags --libs nysalt-learn)
+  require_match("${output}" "-ffp-contract=off -fno-tree-slp-vectorize.*-lceres.*-lglog")
+  run(sh -c "\"$0\" -std=c++20 \"$1\" -o \"$2\" $(\"$3\" --cflags --libs nysalt)"
+    ${its_CMAKE_CXX_COMPILER} ${main} ${FOLDER}/by_pkg_config ${pkg_config})
+  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/by_pkg_config -D SOURCE=${main} -P ${nysalt}/tests/check_example.cmake)
+  file(RENAME ${FOLDER}/moved ${FOLDER}/installed)
+endif()
 
 # nysalt as a subdirectory builds nothing and changes nothing around it.
 configure(subdirectory -D NYSALT=${nysalt})
 build_and_run(subdirectory)
 refuses("nysalt has more than headers here: ${nysalt}/examples" subdirectory
   -D NYSALT=${nysalt} -D NYSALT_BUILD_EXAMPLES=ON)
+
+# So it does from an archive, which needs no more than this.
+run(${CMAKE_COMMAND} -E chdir ${nysalt} ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include)
+configure(fetch -D NYSALT=${FOLDER}/nysalt.tar.gz)
+
 foreach(change
     "set(CMAKE_CXX_STANDARD 20 PARENT_SCOPE)"
     "set(CMAKE_POSITION_INDEPENDENT_CODE ON PARENT_SCOPE)"

@@ -1,4 +1,4 @@
-// expect: bath is not of the form
+// expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
@@ -12,7 +12,9 @@ struct misdeclared {
 #ifdef NYSALT_CONTROL
   nysalt::bath bath() const { return nysalt::bath::of_sigma(0.1, 0.0); }
 #else
+  // [mistake]
   double bath() const { return 0.1; }
+  // [/mistake]
 #endif
 };
 

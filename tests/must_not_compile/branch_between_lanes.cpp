@@ -1,4 +1,5 @@
-// expect: write nysalt::select(condition, a, b)
+// expect: nysalt: lanes may differ in a comparison, so it cannot choose a branch: write
+//   nysalt::select(condition, a, b), or let the system say `static constexpr int lanes = 1;`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
@@ -12,11 +13,13 @@ struct wall {
 #endif
   template <class T>
   void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const {
+    // [mistake]
     if (q[0] < 0.0) {
       f[0] = q[0] * -100.0;
     } else {
       f[0] = T(0.0);
     }
+    // [/mistake]
   }
 };
 

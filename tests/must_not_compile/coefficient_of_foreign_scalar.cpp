@@ -1,4 +1,6 @@
-// expect: CoefficientOf
+// expect GNU: required for the satisfaction of 'CoefficientOf<C, T>' [with C = nysalt::dual<double, 2>; T =
+//   nysalt::dual<double, 1>]
+// expect Clang: because 'CoefficientOf<nysalt::dual<double, 2>, nysalt::dual<double, 1> >' evaluated to false
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/stepper.hpp"
@@ -10,7 +12,9 @@ int main() {
 #ifdef NYSALT_CONTROL
   using state = two;
 #else
+  // [mistake]
   using state = nysalt::dual<double, 1>;
+  // [/mistake]
 #endif
   const nysalt::pendulum system;
   const nysalt::stepper<nysalt::pendulum, nysalt::nystrom::word, two> fixed(

@@ -1,4 +1,5 @@
-// expect: frequency_bands is not of the form
+// expect: nysalt: frequency_bands is not of the form `std::vector<nysalt::frequency_band> frequency_bands()
+//   const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -12,7 +13,9 @@ struct misdeclared {
 #ifdef NYSALT_CONTROL
   std::vector<nysalt::frequency_band> frequency_bands() const { return {{1.0, 1.0}}; }
 #else
+  // [mistake]
   std::vector<double> frequency_bands() const { return {1.0}; }
+  // [/mistake]
 #endif
 };
 

@@ -1,4 +1,4 @@
-// expect: the letter G needs a quadratic kinetic energy
+// expect: nysalt: the letter G needs a quadratic kinetic energy, and a force that can be differentiated
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
@@ -23,5 +23,7 @@ struct relativistic {
 int main() {
   const relativistic system;
   const auto coefficients = nysalt::fg_chin::coefficients(nysalt::fg_chin::start());
+  // [mistake]
   nysalt::stepper<relativistic, nysalt::fg_chin::word>(system, coefficients, 0.1);
+  // [/mistake]
 }

@@ -1,4 +1,4 @@
-// expect: inverse_mass is not of the form
+// expect: nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -12,7 +12,9 @@ struct misdeclared {
 #ifdef NYSALT_CONTROL
   double inverse_mass(Eigen::Index) const { return 0.5; }
 #else
+  // [mistake]
   double inverse_mass(Eigen::Index) { return 0.5; }
+  // [/mistake]
 #endif
 };
 

@@ -1,4 +1,4 @@
-// expect: kick is not of the form
+// expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -15,10 +15,12 @@ struct misdeclared {
     p[0] -= q[0] * 2.0 * c;
   }
 #else
+  // [mistake]
   template <class T, class C>
   void kick(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& p, const C& c) {
     p[0] -= q[0] * 2.0 * c;
   }
+  // [/mistake]
 #endif
 };
 

@@ -1,4 +1,4 @@
-// expect: kinetic_energy is not of the form
+// expect: nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -15,10 +15,12 @@ struct misdeclared {
     return p[0] * p[0];
   }
 #else
+  // [mistake]
   template <class T>
   T kinetic_energy(const nysalt::vector<T, 1>& p) {
     return p[0] * p[0];
   }
+  // [/mistake]
 #endif
 };
 

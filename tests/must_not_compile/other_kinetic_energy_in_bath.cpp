@@ -1,4 +1,5 @@
-// expect: NystromSystem
+// expect GNU: required for the satisfaction of 'NystromSystem<S>' [with S = relativistic]
+// expect Clang: because 'relativistic' does not satisfy 'NystromSystem'
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
@@ -20,6 +21,8 @@ struct relativistic {
 };
 
 int main() {
+  // [mistake]
   const nysalt::in_bath<relativistic> system({}, nysalt::bath::of_sigma(0.1, 0.2));
+  // [/mistake]
   return system.bath().acts() ? 0 : 1;
 }

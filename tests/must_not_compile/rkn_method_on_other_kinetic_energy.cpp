@@ -1,4 +1,5 @@
-// expect: the order of this method needs a quadratic kinetic energy
+// expect: nysalt: the order of this method needs a quadratic kinetic energy, but the system has a kinetic
+//   energy of its own
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
@@ -12,11 +13,13 @@ struct relativistic {
     return q[0] * q[0];
   }
 #ifndef NYSALT_CONTROL
+  // [mistake]
   template <class T>
   T kinetic_energy(const nysalt::vector<T, 1>& p) const {
     using std::sqrt;
     return sqrt(p[0] * p[0] + 1.0);
   }
+  // [/mistake]
 #endif
 };
 

@@ -1,4 +1,5 @@
-// expect: the letters R, S, H need a system that declares a quadratic part
+// expect: nysalt: the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q,
+//   f), see nysalt/system.hpp
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/stepper.hpp"
@@ -20,6 +21,8 @@ struct spring {
 
 int main() {
   const spring system;
+  // [mistake]
   using impulse = nysalt::word<nysalt::soft_kick, nysalt::rotation, nysalt::soft_kick>;
   nysalt::stepper<spring, impulse>(system, {0.5, 1.0, 0.5}, 0.1);
+  // [/mistake]
 }

@@ -1,4 +1,5 @@
-// expect: s_aia2_for needs the system's highest frequency
+// expect: nysalt: s_aia2_for needs the system's highest frequency; give the system frequency_bands(), or use
+//   s_aia2(step * frequency)
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/methods/s_aia.hpp"
 
@@ -13,4 +14,8 @@ struct of_unknown_frequency {
 #endif
 };
 
-int main() { nysalt::s_aia2_for(of_unknown_frequency(), 0.1); }
+int main() {
+  // [mistake]
+  nysalt::s_aia2_for(of_unknown_frequency(), 0.1);
+  // [/mistake]
+}

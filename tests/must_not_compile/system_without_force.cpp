@@ -1,4 +1,5 @@
-// expect: a separable system offers `template <class T> T potential(q)`, or `force(q, f)`
+// expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
+//   template or over double, const all of them; see nysalt/system.hpp
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"

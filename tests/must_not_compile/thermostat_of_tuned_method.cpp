@@ -1,4 +1,4 @@
-// expect: thermostat its anywhere()
+// expect: nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/thermostatted.hpp"
@@ -9,6 +9,8 @@ int main() {
 #ifdef NYSALT_CONTROL
   nysalt::thermostat<nysalt::placement::end>(tuned.anywhere());
 #else
+  // [mistake]
   nysalt::thermostat<nysalt::placement::end>(tuned);
+  // [/mistake]
 #endif
 }

@@ -1,4 +1,4 @@
-// expect: this word has its letters O already
+// expect: nysalt: this word has its letters O already
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/thermostatted.hpp"
@@ -8,6 +8,8 @@ int main() {
 #ifdef NYSALT_CONTROL
   nysalt::thermostat<nysalt::placement::symmetric>(nysalt::verlet()).coefficients();
 #else
+  // [mistake]
   nysalt::thermostat<nysalt::placement::symmetric>(nysalt::baoab()).coefficients();
+  // [/mistake]
 #endif
 }

@@ -1,4 +1,4 @@
-// expect: a velocity(p, v) over double alone cannot be differentiated
+// expect: nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -11,12 +11,14 @@ struct half_differentiable {
   }
 #ifdef NYSALT_CONTROL
   template <class T>
-#else
-  template <std::same_as<double> T>
-#endif
   void velocity(const nysalt::vector<T, 1>& p, nysalt::vector<T, 1>& v) const {
     v[0] = p[0] * 2.0;
   }
+#else
+  // [mistake]
+  void velocity(const nysalt::vector<double, 1>& p, nysalt::vector<double, 1>& v) const { v[0] = p[0] * 2.0; }
+  // [/mistake]
+#endif
 };
 
 int main() {

@@ -1,4 +1,4 @@
-// expect: a word needs a letter beside those of the bath
+// expect: nysalt: a word needs a letter beside those of the bath
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/conservative_part.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -9,7 +9,9 @@ int main() {
 #ifdef NYSALT_CONTROL
   using some = nysalt::word<O, nysalt::drift>;
 #else
+  // [mistake]
   using some = nysalt::word<O, O>;
+  // [/mistake]
 #endif
   return nysalt::conservative_word<some>::length == 1 ? 0 : 1;
 }

@@ -1,4 +1,5 @@
-// expect: the letters A, B, G split H into K and V, and R, S, H into its quadratic part
+// expect: nysalt: the letters A, B, G split H into K and V, and R, S, H into its quadratic part and the rest:
+//   a word has those of one splitting
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
@@ -6,9 +7,11 @@
 
 int main() {
 #ifdef NYSALT_CONTROL
-  using first = nysalt::soft_kick;
+  using mixed = nysalt::word<nysalt::soft_kick, nysalt::rotation, nysalt::soft_kick>;
 #else
-  using first = nysalt::kick;
+  // [mistake]
+  using mixed = nysalt::word<nysalt::kick, nysalt::rotation, nysalt::soft_kick>;
+  // [/mistake]
 #endif
-  return nysalt::word<first, nysalt::rotation, nysalt::soft_kick>::length == 3 ? 0 : 1;
+  return mixed::length == 3 ? 0 : 1;
 }

@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(commands_are_found_in_a_text) {
 
 BOOST_AUTO_TEST_CASE(examples_of_the_program_run) {
   for (const char* command : {"", "list --help", "learn --help", "run --help", "compare --help",
-                              "recommend --help", "stability --help", "reproduce --help"}) {
+                              "recommend --help", "stability --help", "reproduce --help", "cite --help"}) {
     BOOST_TEST_CONTEXT("shown by nysalt " << command) {
       const auto help = run(command);
       BOOST_TEST(help.code == 0);

@@ -19,11 +19,12 @@
 
 namespace nysalt {
 
+/// How often proposals are accepted, and what they cost.
 struct acceptance_result {
-  estimate probability;                          // over all trajectories
-  std::vector<double> of_each;                   // trajectory; 0 if it diverged
-  std::vector<diverged_trajectory> diverged_at;  // in their order
-  double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
+  estimate probability;                          ///< mean over all trajectories
+  std::vector<double> of_each;                   ///< probability of each trajectory; 0 if it diverged
+  std::vector<diverged_trajectory> diverged_at;  ///< in their order
+  double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
 };
 
 /// The probability that Metropolis' rule accepts where a trajectory of n steps leads

@@ -42,11 +42,11 @@ class autocovariance {
     }
   }
 
-  std::size_t lags() const { return total_.size() - 1; }
-  double interval() const { return interval_; }
-  /// Those that count.
+  std::size_t lags() const { return total_.size() - 1; }  ///< L, the largest lag
+  double interval() const { return interval_; }           ///< time between samples, that of one lag
+  /// Number of groups that count.
   std::size_t groups() const { return groups_.size(); }
-  /// NaN if no trajectory counts.
+  /// Mean of the observable; NaN if no trajectory counts.
   double mean() const { return centre_ + total_[0].heads / total_[0].pairs; }
   /// C(k); NaN if no trajectory counts.
   double covariance(std::size_t k) const { return total_.at(k).covariance(); }

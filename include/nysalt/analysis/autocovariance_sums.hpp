@@ -18,17 +18,19 @@ namespace nysalt {
 /// Of some trajectories at one lag k, over all pairs of samples y_t, y_{t+k} of one trajectory: their number,
 /// and the sums of y_t y_{t+k}, of y_t and of y_{t+k}, where y is the observable less a centre.
 struct pair_sums {
-  double pairs = 0.0;
-  double products = 0.0;
-  double heads = 0.0;
-  double tails = 0.0;
+  double pairs = 0.0;     ///< number of pairs
+  double products = 0.0;  ///< sum of y_t y_{t+k}
+  double heads = 0.0;     ///< sum of y_t
+  double tails = 0.0;     ///< sum of y_{t+k}
 
   /// C = mean y_t y_{t+k} - mean y_t mean y_{t+k}; NaN if there is no pair.
   double covariance() const { return products / pairs - (heads / pairs) * (tails / pairs); }
 
+  /// Over the pairs of both.
   friend pair_sums operator+(const pair_sums& a, const pair_sums& b) {
     return {a.pairs + b.pairs, a.products + b.products, a.heads + b.heads, a.tails + b.tails};
   }
+  /// Over the pairs of a that are not those of b.
   friend pair_sums operator-(const pair_sums& a, const pair_sums& b) {
     return {a.pairs - b.pairs, a.products - b.products, a.heads - b.heads, a.tails - b.tails};
   }
@@ -37,7 +39,7 @@ struct pair_sums {
 /// The same at the lags 0..L.
 using autocovariance_sums = std::vector<pair_sums>;
 
-/// Throws std::invalid_argument unless there are 1 to 10^5: a sample costs a product a lag.
+/// The number of lags. Throws std::invalid_argument unless it is 1 to 10^5: a sample costs a product a lag.
 inline std::size_t checked_lags(int lags) {
   constexpr int most = 100'000;
   if (1 <= lags && lags <= most) return static_cast<std::size_t>(lags);
@@ -61,6 +63,7 @@ class autocovariance_along {
     products_.assign(lags_ + 1, T(0.0));
   }
 
+  /// The next sample, one number a lane.
   void add(const T& x) {
     const T y = x - centre_;
     if (first_.size() < lags_) first_.push_back(y);
@@ -70,7 +73,7 @@ class autocovariance_along {
     if (++waiting_ == stretch) add_waiting(std::integral_constant<std::size_t, stretch>());
   }
 
-  /// Throws std::invalid_argument unless there are more samples than lags.
+  /// The sums of lane k. Throws std::invalid_argument unless there are more samples than lags.
   autocovariance_sums in_lane(int k) {
     if (!(samples_ > static_cast<double>(lags_))) {
       throw std::invalid_argument(fmt::format(

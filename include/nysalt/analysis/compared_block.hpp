@@ -19,9 +19,9 @@ namespace nysalt {
 
 /// How far methods may share noise with a reference: in how many parts of a step it is told, and whose.
 struct shared_noise {
-  int parts = 0;  // 0: there is none
-  std::uint64_t seed = 0;
-  std::int64_t first = 0;  // trajectory in lane 0
+  int parts = 0;           ///< 0: there is none
+  std::uint64_t seed = 0;  ///< of the noise
+  std::int64_t first = 0;  ///< number of the trajectory in lane 0
 };
 
 /// Methods of one type beside the reference, from the same starts and with its noise; one trajectory in each
@@ -29,12 +29,13 @@ struct shared_noise {
 template <Method M, SeparableSystem S, Reference<S> R>
 class compared_block {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
-  using measure_type = typename measures_type::measure_type;
-  using T = typename measure_type::T;
-  using state = phase_point<T, S::dimension>;
-  using errors_type = error_sum<S::dimension, lanes_of<S>>;
-  using path_type = recorded_path<T, S::dimension>;
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
+  using measure_type = typename measures_type::measure_type;         ///< one of them
+  using T = typename measure_type::T;          ///< double, or a pack of as many lanes as the system takes
+  using state = phase_point<T, S::dimension>;  ///< states of all lanes
+  using errors_type = error_sum<S::dimension, lanes_of<S>>;  ///< of one method by one measure
+  using path_type = recorded_path<T, S::dimension>;          ///< the reference's noise
+  /// What methods see of it.
   using noise_type = std::conditional_t<PathReference<R, S>, along_path<T, S::dimension>, no_noise>;
 
   /// Refers to all but the start, and partly to itself.
@@ -55,7 +56,7 @@ class compared_block {
   compared_block(const compared_block&) = delete;
   compared_block& operator=(const compared_block&) = delete;
 
-  /// All of them, a stretch after the other, so that no path is kept.
+  /// Follows the reference and all methods, a stretch after the other, so that no path is kept.
   void run(std::int64_t steps) {
     const auto read = [&](const state& x, std::span<T> numbers) { measures_.read(x, numbers); };
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
@@ -72,7 +73,8 @@ class compared_block {
     }
   }
 
-  const compared_reference<S, R>& reference() const { return reference_; }
+  const compared_reference<S, R>& reference() const { return reference_; }  ///< with its checks, after run()
+  /// The score of a method by a measure, in lane k; after run().
   run_score score(std::size_t measure, std::size_t method, int k) const {
     return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
   }

@@ -18,10 +18,10 @@ namespace nysalt {
 
 /// On how many of the trajectories at hand, from the first on, a reference is compared with itself.
 struct reference_checks {
-  int finer = 0;                            // with its finer self
-  int perturbed = 0;                        // with itself from perturbed starts
-  std::optional<double> perturbation = {};  // relative
-  bool null_model = false;                  // of all of them
+  int finer = 0;                            ///< with its finer self
+  int perturbed = 0;                        ///< with itself from perturbed starts
+  std::optional<double> perturbation = {};  ///< relative size, of every coordinate
+  bool null_model = false;                  ///< whether that is compared too, on all trajectories
 };
 
 /// What measures expect along trajectories side by side: the numbers of the reference, or those at the start.
@@ -30,12 +30,12 @@ struct reference_checks {
 template <SeparableSystem S, Reference<S> R>
 class compared_reference {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
-  using measure_type = typename measures_type::measure_type;
-  using T = typename measure_type::T;
-  using state = phase_point<T, S::dimension>;
-  using errors_type = error_sum<S::dimension, lanes_of<S>>;
-  using path_type = recorded_path<T, S::dimension>;
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
+  using measure_type = typename measures_type::measure_type;         ///< one of them
+  using T = typename measure_type::T;          ///< double, or a pack of as many lanes as the system takes
+  using state = phase_point<T, S::dimension>;  ///< states of all lanes
+  using errors_type = error_sum<S::dimension, lanes_of<S>>;  ///< of one run by one measure
+  using path_type = recorded_path<T, S::dimension>;          ///< the reference's noise
 
   /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
   compared_reference(const S& system, const R& reference, std::span<const measure_type> measures, double step,
@@ -68,7 +68,7 @@ class compared_reference {
   compared_reference(const compared_reference&) = delete;
   compared_reference& operator=(const compared_reference&) = delete;
 
-  /// The samples from + 1 .. to.
+  /// Goes on through the samples from + 1 .. to.
   void go_on(std::int64_t from, std::int64_t to) {
     from_ = from;
     if (reference_) reference_->go_on(step_, to - from);
@@ -84,13 +84,16 @@ class compared_reference {
     return measures_.reads(i) ? seen_by(*reference_, i, n) : std::span<const T>(at_start_[i]);
   }
 
+  /// See reference_along; `first` is the number of the trajectory in lane 0.
   void require_sound(std::int64_t first) const {
     if (reference_) reference_->require_sound(first);
     if (finer_) finer_->require_sound(first);
   }
-  /// By measure i in lane k, of what was wanted.
+  /// The reference's own error, against its finer self, by measure i in lane k, if it was wanted.
   double finer_error(std::size_t i, int k) const { return errors_[i].finer.score(k).value; }
+  /// The null model's error by measure i in lane k, if it was wanted.
   double null_error(std::size_t i, int k) const { return errors_[i].null_model.score(k).value; }
+  /// A time, by measure i in lane k, if it was wanted; infinite if it is beyond the end.
   double predictable_until(std::size_t i, int k) const {
     return errors_[i].predictable.until(k) * std::abs(step_);
   }

@@ -26,21 +26,22 @@ enum class averaging { mean, root_of_each, root_of_all };
 /// threads at once, and with lanes that hold no sound trajectory.
 template <int N, int W = default_lanes>
 struct error_measure {
-  static constexpr int lanes = W;
-  using T = scalar_of_lanes<W>;
-  using numbers = std::span<const T>;
+  static constexpr int lanes = W;      ///< trajectories at a time
+  using T = scalar_of_lanes<W>;        ///< double, or a pack of W
+  using numbers = std::span<const T>;  ///< those of one state, `width` of them
 
-  std::string name;
-  std::size_t width;  // numbers that are read of a state
+  std::string name;   ///< as reports call it
+  std::size_t width;  ///< numbers that are read of a state
+  /// Writes the `width` numbers of a state.
   std::function<void(const phase_point<T, N>& x, std::span<T> result)> read;
   /// The error of one sample.
   std::function<T(numbers seen, numbers reference)> error;
-  averaging how;
-  bool needs_reference = true;  // false: the reference is the start
+  averaging how;                ///< makes one number of all errors
+  bool needs_reference = true;  ///< false: the reference is the start
   /// What the error is relative to; where that is 0 there is none, which `no_scale` says. Not given:
   /// absolute.
   std::function<T(numbers reference)> scale = {};
-  std::string no_scale = {};
+  std::string no_scale = {};  ///< the sentence that is thrown where the scale is 0
 
   /// What a trajectory contributes whose `samples` errors add up to `sum`.
   double score(double sum, double samples) const {
@@ -69,6 +70,7 @@ struct error_measure {
     return result;
   }
 
+  /// What read() writes of a state.
   std::vector<T> numbers_of(const phase_point<T, N>& x) const {
     std::vector<T> result(width);
     read(x, result);

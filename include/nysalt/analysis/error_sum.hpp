@@ -15,21 +15,22 @@ namespace nysalt {
 
 /// What is left of a run: its score, or NaN and the step at which it diverged.
 struct run_score {
+  /// What the trajectory contributes, see error_measure::score(); NaN if it diverged.
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::int64_t> diverged_at = {};
+  std::optional<std::int64_t> diverged_at = {};  ///< the step, if it did
 };
 
 /// The errors of one trajectory in each lane, added up in the order of time. None is kept.
 template <int N, int W>
 class error_sum {
  public:
-  using T = scalar_of_lanes<W>;
-  using numbers = std::span<const T>;
+  using T = scalar_of_lanes<W>;        ///< double, or a pack of W
+  using numbers = std::span<const T>;  ///< those of one state
 
   /// Refers to the measure.
   explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}
 
-  /// Sample i = 1, 2, ..., in this order, of the lanes that are live.
+  /// Adds the errors of sample i = 1, 2, ..., in this order, in the lanes that are live.
   void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live) {
     sum_ = select(live, sum_ + measure_->error(seen, reference), sum_);
     samples_ = i;
@@ -41,10 +42,10 @@ class error_sum {
     }
   }
 
-  /// Of the samples so far.
+  /// The sum of the errors so far, in each lane.
   const T& sum() const { return sum_; }
 
-  /// That of lane k, which diverged where its state did, or where the error was no longer finite.
+  /// The score of lane k, which diverged where its state did, or where the error was no longer finite.
   run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
     const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
     if (lost_at) return {.diverged_at = lost_at};

@@ -21,17 +21,18 @@ namespace nysalt {
 
 /// What was not wanted is empty or NaN.
 struct gathered_statistics {
-  std::int64_t counted = 0;               // trajectories that reached their end
-  std::int64_t samples = 0;               // of each of them
-  std::vector<diverged_trajectory> lost;  // in the order of their numbers
-  std::optional<nysalt::histogram> histogram;
-  std::vector<nysalt::histogram> histogram_of_groups;  // 33 to 64 groups of trajectories, for a jackknife
-  std::optional<nysalt::autocovariance> autocovariance;
-  estimate mean;  // over independent trajectories, as the temperatures
-  double variance = std::numeric_limits<double>::quiet_NaN();               // of the observable
-  double effective_sample_size = std::numeric_limits<double>::quiet_NaN();  // variance / error of the mean^2
-  estimate kinetic_temperature;
-  estimate half_step_kinetic_temperature;
+  std::int64_t counted = 0;                              ///< trajectories that reached their end
+  std::int64_t samples = 0;                              ///< of each of them
+  std::vector<diverged_trajectory> lost;                 ///< in the order of their numbers
+  std::optional<nysalt::histogram> histogram;            ///< of the observable, all trajectories
+  std::vector<nysalt::histogram> histogram_of_groups;    ///< 33 to 64 groups of trajectories, for a jackknife
+  std::optional<nysalt::autocovariance> autocovariance;  ///< of the observable, with its error
+  estimate mean;                                         ///< of the observable, over independent trajectories
+  double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the observable
+  /// Independent samples that would know the mean as well: variance/(error of the mean)^2.
+  double effective_sample_size = std::numeric_limits<double>::quiet_NaN();
+  estimate kinetic_temperature;            ///< kT of the momenta at the steps
+  estimate half_step_kinetic_temperature;  ///< kT of those between the steps
 };
 
 /// Trajectories of one group of the jackknife, set by their number alone: 33 to 64 groups, if there are as
@@ -66,10 +67,11 @@ class gathering {
 
   /// Of how many consecutive trajectories one thread takes care.
   int trajectories_of_thread() const { return static_cast<int>(std::max<std::int64_t>(group_size_, 16)); }
+  /// Number of the first trajectory that this rank keeps, from 0.
   std::int64_t first() const { return first_of(ranks_->rank()); }
-  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
+  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }  ///< how many this rank keeps
 
-  /// Trajectory m, from 0 on, in lane k.
+  /// Keeps trajectory m, from 0 on, which is in lane k; of one that is lost, only where.
   template <class T>
   void keep(std::int64_t m, statistics_along<T>& along, int k, std::optional<std::int64_t> lost_at) {
     const auto slot = static_cast<std::size_t>(m);
@@ -85,7 +87,7 @@ class gathering {
     }
   }
 
-  /// Each rank has kept its own, and all get all.
+  /// Collective: each rank has kept its own trajectories, and all get all.
   void gather() {
     if (ranks_->is_alone()) return;
     gather(lost_at_, 1);
@@ -94,7 +96,7 @@ class gathering {
     if (wanted_->lags) gather_covariances();
   }
 
-  /// When all are kept and gathered; `first` is the number of trajectory 0.
+  /// The statistics, when all are kept and gathered; `first` is the number of trajectory 0.
   gathered_statistics result(std::int64_t first) {
     gathered_statistics all;
     all.samples = samples_;

@@ -21,19 +21,19 @@ namespace nysalt {
 /// `count` bins of equal width on [low, high]. A number on an edge belongs to the bin above it, to rounding;
 /// `high` itself to the last bin.
 struct equal_bins {
-  double low;
-  double high;
-  int count;
+  double low;   ///< where the first bin begins
+  double high;  ///< where the last bin ends
+  int count;    ///< number of bins
 
-  double width() const { return (high - low) / count; }
-  friend bool operator==(const equal_bins&, const equal_bins&) = default;
+  double width() const { return (high - low) / count; }                    ///< of a bin
+  friend bool operator==(const equal_bins&, const equal_bins&) = default;  ///< equal in all
 };
 
 /// Counts in equal bins, and in two further ones for what lies below and above. They are integers: the order
 /// of adding, lanes and threads change nothing.
 class histogram {
  public:
-  /// Throws std::invalid_argument unless low < high are finite and there are 1 to 10^5 bins.
+  /// Empty. Throws std::invalid_argument unless low < high are finite and there are 1 to 10^5 bins.
   explicit histogram(const equal_bins& bins) : bins_(bins), per_width_(1.0 / bins.width()) {
     constexpr int most = 100'000;  // one histogram a lane and a group of trajectories must fit into memory
     const bool sound = bins.low < bins.high && std::isfinite(per_width_) && per_width_ > 0.0;
@@ -55,12 +55,12 @@ class histogram {
     counts_.assign(counts.begin(), counts.end());
   }
 
-  /// Throws std::invalid_argument if x is NaN; infinities lie below and above.
+  /// Counts x; infinities lie below and above. Throws std::invalid_argument if x is NaN.
   void add(double x) {
     if (std::isnan(x)) throw std::invalid_argument("histogram: NaN lies in no bin");
     count(place(x));
   }
-  /// Throws std::invalid_argument if the bins differ.
+  /// Adds what the other counted. Throws std::invalid_argument if the bins differ.
   histogram& operator+=(const histogram& other) {
     require_bins_of(other);
     for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
@@ -73,12 +73,13 @@ class histogram {
     return *this;
   }
 
-  const equal_bins& bins() const { return bins_; }
-  /// Below, the bins from low to high, above.
+  const equal_bins& bins() const { return bins_; }  ///< where numbers are counted
+  /// How many lie below, in each of the bins from low to high, and above.
   std::span<const std::int64_t> counts() const { return counts_; }
+  /// How many numbers were added.
   std::int64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
-  /// Of all that was added, in the order of counts(). Throws std::invalid_argument if nothing was.
+  /// The counts over total(), in the same order. Throws std::invalid_argument if nothing was added.
   std::vector<double> fractions() const {
     const auto all = static_cast<double>(total());
     if (all == 0.0) throw std::invalid_argument("histogram: nothing was added, so it has no fractions");
@@ -93,6 +94,7 @@ class histogram {
     for (double& fraction : result) fraction /= bins_.width();
     return result;
   }
+  /// Throws std::invalid_argument if the bins differ.
   void require_bins_of(const histogram& other) const {
     if (bins_ == other.bins_) return;
     throw std::invalid_argument(fmt::format(
@@ -123,13 +125,15 @@ class histogram {
 template <class T>
 class histogram_along {
  public:
+  /// Empty. Throws like histogram.
   explicit histogram_along(const equal_bins& bins) : in_lanes_(lanes_in<T>, histogram(bins)) {}
 
+  /// One number in each lane.
   void add(const T& x) {
     const T places = in_lanes_.front().place(x);
     for (int k = 0; k < lanes_in<T>; ++k) in_lanes_[static_cast<std::size_t>(k)].count(lane(places, k));
   }
-  /// Of a lane that ever was NaN nothing is known but the total.
+  /// The histogram of lane k. Of a lane that ever was NaN nothing is known but the total.
   const histogram& in_lane(int k) const { return in_lanes_[static_cast<std::size_t>(k)]; }
 
  private:

@@ -11,10 +11,10 @@ namespace nysalt {
 
 /// In units of the interval between samples.
 struct integrated_time {
-  double tau = 1.0;        // 1 + 2 sum_{k=1..W} rho(k): so many samples count for one in a mean
-  double memory = 1.0;     // 1 + 2 sum_{k=1..W} |rho(k)|: how long an oscillating observable remembers
-  std::size_t window = 0;  // W
-  bool enough = false;     // else the lags end before the window does, or noise outweighs tau
+  double tau = 1.0;        ///< 1 + 2 sum_{k=1..W} rho(k): so many samples count for one in a mean
+  double memory = 1.0;     ///< 1 + 2 sum_{k=1..W} |rho(k)|: how long an oscillating observable remembers
+  std::size_t window = 0;  ///< W
+  bool enough = false;     ///< false: the lags end before the window does, or noise outweighs tau
 };
 
 /// From rho(0..L), rho(0) = 1, with Sokal's self-consistent window [sokal_1997]: the smallest W >= 5

@@ -13,8 +13,8 @@ namespace nysalt {
 template <int N, int W>
 class joined_measures {
  public:
-  using measure_type = error_measure<N, W>;
-  using T = typename measure_type::T;
+  using measure_type = error_measure<N, W>;  ///< one of them
+  using T = typename measure_type::T;        ///< double, or a pack of W
 
   /// All of them, or those alone that need a reference: of the others then nothing is read.
   enum class which { all, of_reference };
@@ -28,19 +28,20 @@ class joined_measures {
     }
   }
 
-  std::size_t size() const { return measures_.size(); }
-  const measure_type& operator[](std::size_t i) const { return measures_[i]; }
-  /// Of all numbers.
+  std::size_t size() const { return measures_.size(); }                         ///< number of measures
+  const measure_type& operator[](std::size_t i) const { return measures_[i]; }  ///< measure i
+  /// How many numbers are read of a state.
   std::size_t width() const { return begins_.back(); }
-  /// Is anything read for measure i?
+  /// Whether anything is read for measure i.
   bool reads(std::size_t i) const { return begins_[i + 1] > begins_[i]; }
 
+  /// Writes all width() numbers of a state.
   void read(const phase_point<T, N>& x, std::span<T> result) const {
     for (std::size_t i = 0; i < size(); ++i) {
       if (reads(i)) measures_[i].read(x, result.subspan(begins_[i], begins_[i + 1] - begins_[i]));
     }
   }
-  /// Those of measure i among all numbers.
+  /// The numbers of measure i among all of a state.
   std::span<const T> part(std::size_t i, std::span<const T> all) const {
     return all.subspan(begins_[i], begins_[i + 1] - begins_[i]);
   }

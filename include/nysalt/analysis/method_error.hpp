@@ -11,12 +11,13 @@
 
 namespace nysalt {
 
+/// How far off a method is, and what it costs.
 struct method_error {
-  estimate error;                                // over the trajectories that did not diverge
-  std::int64_t diverged = 0;                     // trajectories
-  std::vector<diverged_trajectory> diverged_at;  // in their order
-  double evaluations_per_time = 0.0;             // of force, for one whole trajectory, start-up included
-  std::vector<double> of_each{};                 // what each trajectory has in the error; NaN if it diverged
+  estimate error;                                ///< over the trajectories that did not diverge
+  std::int64_t diverged = 0;                     ///< number of trajectories that did
+  std::vector<diverged_trajectory> diverged_at;  ///< in their order
+  double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
+  std::vector<double> of_each{};  ///< what each trajectory has in the error; NaN if it diverged
 };
 
 /// From the runs of all trajectories, in their order. What a run cost is counted elsewhere.

@@ -11,9 +11,10 @@
 
 namespace nysalt {
 
+/// A point of a diagram of cost and error, in any units.
 struct cost_and_error {
-  double cost;
-  double error;
+  double cost;   ///< less is better
+  double error;  ///< less is better
 };
 
 /// Which of them are worth their cost: no other has less or as much of both. Of equals the first counts; what

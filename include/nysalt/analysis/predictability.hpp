@@ -35,11 +35,12 @@ phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t 
 template <int W>
 class predictable_samples {
  public:
-  using T = scalar_of_lanes<W>;
+  using T = scalar_of_lanes<W>;  ///< double, or a pack of W
 
+  /// `how` tells whether sums of errors are of squares: all but averaging::mean.
   explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
 
-  /// The sums over the samples up to i = 1, 2, ..., in this order.
+  /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.
   void add(std::int64_t i, const T& perturbed, const T& null_model) {
     const auto within = perturbed <= null_model * share_;  // not if it has gone to NaN
     for (int k = 0; k < W; ++k) {
@@ -52,7 +53,7 @@ class predictable_samples {
     }
   }
 
-  /// In lane k; infinite if it is within to the end.
+  /// That sample in lane k; infinite if the errors are within to the end.
   double until(int k) const {
     const auto& its = until_[static_cast<std::size_t>(k)];
     return its ? static_cast<double>(*its) : std::numeric_limits<double>::infinity();

@@ -23,10 +23,10 @@ namespace nysalt {
 template <SeparableSystem S, Reference<S> R>
 class reference_along {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;
-  using T = typename measures_type::T;
-  using state = phase_point<T, S::dimension>;
-  using path_type = recorded_path<T, S::dimension>;
+  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
+  using T = typename measures_type::T;         ///< double, or a pack of as many lanes as the system takes
+  using state = phase_point<T, S::dimension>;  ///< states of all lanes
+  using path_type = recorded_path<T, S::dimension>;  ///< noise, in parts of a step
 
   /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
   /// place's. The noise of each step is added to the path in so many parts.
@@ -41,7 +41,7 @@ class reference_along {
         path_(path),
         noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)) {}
 
-  /// The next `samples` of them, each a time `step` after the last. What is not sound is remembered.
+  /// Reads the next `samples`, each a time `step` after the last. What is not sound is remembered.
   void go_on(double step, std::int64_t samples) {
     const std::size_t width = measures_->width();
     numbers_.resize(static_cast<std::size_t>(samples) * width);
@@ -57,7 +57,7 @@ class reference_along {
     }
   }
 
-  /// Sample i of the last stretch.
+  /// The numbers of sample i of the last stretch.
   std::span<const T> at(std::int64_t i) const {
     const std::size_t width = measures_->width();
     return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);

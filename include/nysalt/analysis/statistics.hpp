@@ -13,8 +13,8 @@ namespace nysalt {
 
 /// A mean over independent trajectories and its standard error. NaN where there are too few.
 struct estimate {
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double standard_error = std::numeric_limits<double>::quiet_NaN();
+  double mean = std::numeric_limits<double>::quiet_NaN();            ///< over trajectories
+  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of the mean
 };
 
 /// One sample a trajectory, added up by tree_sum; NaN marks a trajectory that does not count.

@@ -16,22 +16,23 @@ namespace nysalt {
 
 /// What of an ensemble is wanted; what is not costs nothing.
 struct statistics_wanted {
-  std::optional<equal_bins> histogram = {};
-  std::optional<int> lags = {};  // of the autocovariance
-  bool moments = false;          // mean and variance, with the effective sample size
-  bool kinetic_temperature = false;
-  bool half_step_kinetic_temperature = false;  // a force a sample
-  std::int64_t from = 0;                       // the first step that counts
+  std::optional<equal_bins> histogram = {};    ///< bins for the observable
+  std::optional<int> lags = {};                ///< of the autocovariance
+  bool moments = false;                        ///< mean and variance, with the effective sample size
+  bool kinetic_temperature = false;            ///< that of the momenta at the steps
+  bool half_step_kinetic_temperature = false;  ///< that between steps; costs a force a sample
+  std::int64_t from = 0;                       ///< the first step that counts
 };
 
 /// What is left of one trajectory: its means over time.
 struct time_means {
-  double first = 0.0;    // of the observable less the centre
-  double second = 0.0;   // of its square
-  double kinetic = 0.0;  // temperature, as the next
-  double half_step = 0.0;
+  double first = 0.0;      ///< of the observable less the centre
+  double second = 0.0;     ///< of its square
+  double kinetic = 0.0;    ///< kinetic temperature at the steps
+  double half_step = 0.0;  ///< kinetic temperature between steps
 };
 
+/// How many numbers read_sample() writes, 1 to 3.
 inline std::size_t numbers_of_sample(const statistics_wanted& wanted) {
   return 1U + (wanted.kinetic_temperature ? 1U : 0U) + (wanted.half_step_kinetic_temperature ? 1U : 0U);
 }
@@ -58,7 +59,7 @@ class statistics_along {
     if (wanted.lags) autocovariance_.emplace(*wanted.lags, centre);
   }
 
-  /// The sample at step n. A lane in which it is not finite is lost there.
+  /// Takes the sample at step n. A lane in which it is not finite is lost there.
   void add(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
@@ -74,9 +75,13 @@ class statistics_along {
     if (wanted_->half_step_kinetic_temperature) half_step_ += numbers[i++];
   }
 
+  /// The first step at which lane k was not finite.
   std::optional<std::int64_t> lost_at(int k) const { return lost_at_[static_cast<std::size_t>(k)]; }
+  /// The histogram of lane k, where one is wanted.
   const histogram& histogram_in_lane(int k) const { return histogram_->in_lane(k); }
+  /// The autocovariance of lane k, where one is wanted. Throws like autocovariance_along::in_lane().
   autocovariance_sums autocovariance_in_lane(int k) { return autocovariance_->in_lane(k); }
+  /// The means of lane k over its samples; 0 for what is not wanted.
   time_means means_in_lane(int k) const {
     return {lane(first_, k) / samples_, lane(second_, k) / samples_, lane(kinetic_, k) / samples_,
             lane(half_step_, k) / samples_};

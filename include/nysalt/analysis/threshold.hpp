@@ -14,9 +14,9 @@ namespace nysalt {
 
 /// An error at a step, or at a cost; NaN or infinite where all diverged.
 struct error_at {
-  double x;
-  double error;
-  double standard_error;
+  double x;               ///< a step, or a cost
+  double error;           ///< at that step or cost
+  double standard_error;  ///< of the error
 };
 
 /// found             at x, between two errors that are known
@@ -27,11 +27,11 @@ enum class crossing_kind { found, bracketed, below_all, above_from_first };
 
 /// What is not known is NaN; if it is bracketed, x is the last that is below.
 struct threshold_crossing {
-  crossing_kind kind;
-  double x;
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  // of x, if it is found
-  double last_below = std::numeric_limits<double>::quiet_NaN();
-  double first_above = std::numeric_limits<double>::quiet_NaN();
+  crossing_kind kind;  ///< how well it is known
+  double x;            ///< the step or cost of the crossing, see crossing_kind
+  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of x, if it is found
+  double last_below = std::numeric_limits<double>::quiet_NaN();      ///< x of the last row below the level
+  double first_above = std::numeric_limits<double>::quiet_NaN();     ///< x of the first row at or above it
 };
 
 namespace detail {

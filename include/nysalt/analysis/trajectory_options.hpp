@@ -16,16 +16,18 @@
 
 namespace nysalt {
 
+/// Which trajectories are compared, for how long, and by whom.
 struct trajectory_options {
-  double step;                      // samples are at t_i = i step, i = 1..steps
-  std::int64_t steps;               // of each trajectory
-  std::int64_t trajectories = 400;  // independent starts
-  std::uint64_t seed = 1;
-  int threads = 1;
-  std::function<void(std::int64_t done)> progress = {};  // after some trajectories; never two calls at once
-  bool null_model = false;                               // what is left out costs nothing, as the next
-  std::optional<double> perturbation = {};  // relative, of starts: how long are trajectories predictable?
-  const communicator* ranks = &alone;       // who share the trajectories; changes no bit
+  double step;                                           ///< samples are at t_i = i step, i = 1..steps
+  std::int64_t steps;                                    ///< of each trajectory
+  std::int64_t trajectories = 400;                       ///< independent starts
+  std::uint64_t seed = 1;                                ///< of the starts and the noise
+  int threads = 1;                                       ///< changes no bit
+  std::function<void(std::int64_t done)> progress = {};  ///< after some trajectories; never two calls at once
+  bool null_model = false;  ///< whether to measure it; what is left out costs nothing
+  /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
+  std::optional<double> perturbation = {};
+  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit
 };
 
 /// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure

@@ -24,6 +24,7 @@ namespace nysalt {
 /// in pieces of `longest` bytes.
 class mpi_communicator final : public communicator {
  public:
+  /// Collective, as it makes the duplicate; `longest` must be below 2^31.
   explicit mpi_communicator(MPI_Comm ranks = MPI_COMM_WORLD, std::size_t longest = std::size_t{1} << 30U)
       : longest_(longest) {
     MPI_Comm_dup(ranks, &ranks_);

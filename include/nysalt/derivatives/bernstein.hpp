@@ -17,30 +17,35 @@ namespace nysalt {
 /// Cost: of all operations n, of halves n^2/2.
 class bernstein_polynomial {
  public:
+  /// A constant on [low, high].
   bernstein_polynomial(double low, double high, double constant) : low_(low), high_(high), c_{constant} {}
 
-  double low() const { return low_; }
-  double high() const { return high_; }
-  double at_low() const { return c_.front(); }
-  double at_high() const { return c_.back(); }
+  double low() const { return low_; }           ///< where the interval begins
+  double high() const { return high_; }         ///< where the interval ends
+  double at_low() const { return c_.front(); }  ///< the value at low()
+  double at_high() const { return c_.back(); }  ///< the value at high()
+  /// The least and the largest coefficient: no value on the interval lies outside them.
   std::pair<double, double> bounds() const {
     const auto [least, most] = std::minmax_element(c_.begin(), c_.end());
     return {*least, *most};
   }
 
+  /// The sum, of the higher degree of both; b must be on the same interval.
   bernstein_polynomial& operator+=(bernstein_polynomial b) {
     while (c_.size() < b.c_.size()) elevate();
     while (b.c_.size() < c_.size()) b.elevate();
     for (std::size_t i = 0; i < c_.size(); ++i) c_[i] += b.c_[i];
     return *this;
   }
+  /// Multiplies the values by a.
   bernstein_polynomial& operator*=(double a) {
     for (double& c : c_) c *= a;
     return *this;
   }
+  /// The polynomial whose values are a b(x).
   friend bernstein_polynomial operator*(double a, bernstein_polynomial b) { return b *= a; }
 
-  bernstein_polynomial times_x() const { return times_linear(low_, high_); }
+  bernstein_polynomial times_x() const { return times_linear(low_, high_); }  ///< x f(x), of one degree more
 
   /// On the lower and on the upper half of the interval [farouki_2012].
   std::pair<bernstein_polynomial, bernstein_polynomial> halves() const {

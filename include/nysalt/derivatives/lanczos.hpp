@@ -14,11 +14,11 @@ namespace nysalt {
 
 /// Where a spectrum ends, and the directions in which that was found.
 struct spectrum_ends {
-  double lowest;
-  double highest;
-  Eigen::VectorXd lowest_direction;
-  Eigen::VectorXd highest_direction;
-  int products;
+  double lowest;                      ///< a bound from below of the lowest eigenvalue found
+  double highest;                     ///< a bound from above of the highest eigenvalue found
+  Eigen::VectorXd lowest_direction;   ///< the Ritz vector of the lowest, of length 1
+  Eigen::VectorXd highest_direction;  ///< the Ritz vector of the highest, of length 1
+  int products;                       ///< how often the map was applied
 };
 
 namespace detail {

@@ -154,7 +154,7 @@ stability_chart chart_stability(const W& word,
   return chart;
 }
 
-/// The windows alone.
+/// The windows of chart_stability() alone.
 template <Word W>
 std::vector<stability_window> stability_windows(
     const W& word, const typename W::template coefficients<double>& coefficients) {
@@ -166,6 +166,7 @@ extern template stability_chart chart_stability<run_time_word>(const run_time_wo
                                                                const std::vector<double>&);
 #endif
 
+/// The windows of a method, at its own coefficients.
 template <Method M>
 std::vector<stability_window> stability_windows(const M& method) {
   return stability_windows(word_of(method), method.coefficients());

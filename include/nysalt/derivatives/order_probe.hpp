@@ -20,6 +20,7 @@ using taylor = series<highest_taylor_order>;
 /// Numbers with nothing special about them, always the same, between 1/4 and 1.
 class generic_numbers {
  public:
+  /// The next of them.
   double next() {  // the standard's distributions differ between libraries, its bits do not
     return 0.25 + 0.75 * (static_cast<double>(bits_() >> 11U) * 0x1p-53);
   }
@@ -33,6 +34,7 @@ class generic_numbers {
 /// the highest order contains.
 class generic_gradient {
  public:
+  /// Takes its directions and polynomials from the next 56 numbers.
   explicit generic_gradient(generic_numbers& numbers) {
     for (auto& [direction, polynomial] : ridges_) {
       for (double& a : direction) a = numbers.next();
@@ -44,6 +46,7 @@ class generic_gradient {
     }
   }
 
+  /// The gradient at x into `result`, over any scalar T.
   template <class T>
   void operator()(const vector<T, 3>& x, vector<T, 3>& result) const {
     for (T& entry : result) entry = T(0.0);
@@ -67,19 +70,23 @@ class generic_gradient {
 /// K is p.p/2 or generic. Three degrees of freedom: with one, orders hold by accident from the fifth on.
 class order_probe {
  public:
-  static constexpr int dimension = 3;
+  static constexpr int dimension = 3;  ///< degrees of freedom
+  /// Decided while running, see HasQuadraticKinetic.
   static constexpr bool may_have_quadratic_kinetic = true;
 
+  /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.
   explicit order_probe(bool quadratic_kinetic) : quadratic_kinetic_(quadratic_kinetic) {
     for (double& q : start_.q) q = numbers_.next();
     for (double& p : start_.p) p = numbers_.next();
   }
 
+  /// -h grad V(q), a series in h.
   template <class T>
   void force(const vector<T, 3>& q, vector<T, 3>& f) const {
     potential_gradient_(q, f);
     for (T& entry : f) entry = entry * -taylor::variable();
   }
+  /// h grad K(p), a series in h.
   template <class T>
   void velocity(const vector<T, 3>& p, vector<T, 3>& v) const {
     v = p;
@@ -87,7 +94,7 @@ class order_probe {
     for (T& entry : v) entry = entry * taylor::variable();
   }
 
-  phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }
+  phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
 
   /// Where the flow leads in the time h, by Picard's iteration x <- start + integral of x': each sweep gains
   /// an order. As h x' stands for x', integration divides the k-th coefficient by k.

@@ -29,8 +29,8 @@ inline double stability_margin(const std::vector<stability_window>& windows, dou
 
 /// Steps from low to high.
 struct step_range {
-  double low;
-  double high;
+  double low;   ///< the least step
+  double high;  ///< the largest step; may be infinite
 };
 
 /// Every step at which each band lies in a window, from small to large. Without bands all steps.

@@ -9,13 +9,13 @@ namespace nysalt {
 
 /// Stable for low <= z <= high, but for a single point where the matrix is a Jordan block.
 struct stability_window {
-  double low;
-  double high;
+  double low;   ///< the least z = h omega
+  double high;  ///< the largest z = h omega
 };
 
 /// All windows, from small z to large, and the z within them where two touch.
 struct stability_chart {
-  std::vector<stability_window> windows;
+  std::vector<stability_window> windows;  ///< disjoint, in order
   /// There the matrix is +-I: an oscillator is back after a step or two, and the errors that a nonlinear
   /// system makes at each add up.
   std::vector<double> touching;

@@ -20,11 +20,13 @@ namespace nysalt {
 /// Eigenvalues of -M^{-1/2} f'(q) M^{-1/2} over some states: squares of frequencies, or, where negative, of
 /// rates at which neighbours part.
 struct stiffness_range {
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity();  ///< least eigenvalue of all states
+  /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
-  std::int64_t states = 0;
-  std::int64_t evaluations = 0;  // of f'(q) v
+  std::int64_t states = 0;       ///< how many were looked at
+  std::int64_t evaluations = 0;  ///< of f'(q) v
 
+  /// sqrt(highest), 0 if that is negative.
   double highest_frequency() const { return std::sqrt(std::max(0.0, highest)); }
 };
 

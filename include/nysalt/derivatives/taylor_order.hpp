@@ -15,9 +15,9 @@ namespace nysalt {
 /// The orders of a method where K = p M^-1 p / 2, and where K(p) may be anything. 0: not consistent;
 /// highest_taylor_order: this or more.
 struct taylor_orders {
-  int quadratic_kinetic;
-  int any_kinetic;
-  friend bool operator==(const taylor_orders&, const taylor_orders&) = default;
+  int quadratic_kinetic;  ///< the order where K is quadratic in p
+  int any_kinetic;        ///< the order for every K(p)
+  friend bool operator==(const taylor_orders&, const taylor_orders&) = default;  ///< equal in both
 };
 
 namespace detail {
@@ -89,6 +89,7 @@ taylor_orders taylor_order(const W& word, const typename W::template coefficient
   });
 }
 
+/// The orders of a method, at its own coefficients.
 template <Method M>
 taylor_orders taylor_order(const M& method) {
   return taylor_order(word_of(method), method.coefficients());

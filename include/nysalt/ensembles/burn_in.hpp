@@ -22,6 +22,8 @@ namespace nysalt {
 template <NystromSystem S, Ensemble<S> E>
 class burn_in_search {
  public:
+  /// Of chains that start at states of `from`, of a system that comes without its bath; refers to both.
+  /// Throws std::invalid_argument if an option cannot be.
   burn_in_search(const S& alone, double temperature, const E& from, const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
     require(options);

@@ -19,18 +19,20 @@ namespace nysalt {
 template <NystromSystem S>
 class burn_in_chains {
  public:
-  static constexpr int dimension = S::dimension;
+  static constexpr int dimension = S::dimension;  ///< of the system
+  /// BAOAB on the system in its bath.
   using stepper_type = stepper<in_bath<S>, baoab::word, double, counter_noise>;
 
+  /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const S& alone, double temperature, double friction, double step, std::uint64_t seed)
       : system_(alone, bath::of_temperature(friction, temperature)),
         stepper_(make_stepper(system_, baoab{}, step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
 
-  const in_bath<S>& system() const { return system_; }
-  double step() const { return stepper_.step_size(); }
-  double temperature() const { return system_.bath().temperature(); }
+  const in_bath<S>& system() const { return system_; }                 ///< the system in the chains' bath
+  double step() const { return stepper_.step_size(); }                 ///< h of BAOAB
+  double temperature() const { return system_.bath().temperature(); }  ///< kT, an energy
 
   /// Chains under way in the lanes of T, from these positions; lane 0 sees the noise of chain `first`.
   template <class T>
@@ -39,7 +41,7 @@ class burn_in_chains {
     return {stepper_, start, count, first};
   }
 
-  /// Afresh at a step.
+  /// Draws momenta from Maxwell's law, with the noise of a step; lane 0 is chain `first`.
   template <class T>
   void draw_momenta(phase_point<T, dimension>& x, std::int64_t first, std::int64_t step) const {
     constexpr int after_the_letter = 1;

@@ -15,8 +15,8 @@ namespace nysalt {
 
 /// x_0 and y_0 of every pair.
 struct soft_motion {
-  double displacement = 1.0;
-  double velocity = 1.0;
+  double displacement = 1.0;  ///< x_0 of every pair
+  double velocity = 1.0;      ///< y_0 of every pair
 };
 
 /// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given, and x_1 = 1/omega +

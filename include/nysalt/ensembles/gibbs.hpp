@@ -38,8 +38,10 @@ class gibbs {
     report_ = burn_in_search<S, E>(alone_, temperature_, from_, options).find();
   }
 
+  /// How chains are burned in, and what was checked.
   const burn_in_report& report() const { return report_; }
 
+  /// The start of trajectory n. Throws std::runtime_error if its chain diverges.
   phase_point<double, S::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
     return block<double>(seed, static_cast<std::int64_t>(n), 1);
   }

@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-/// Of the system's bands; nothing where it says none.
+/// The highest frequency of the system's bands; nothing where it declares none.
 template <System S>
 std::optional<double> highest_frequency(const S& system) {
   double highest = 0.0;
@@ -21,8 +21,8 @@ std::optional<double> highest_frequency(const S& system) {
   return highest > 0.0 ? std::optional(highest) : std::nullopt;
 }
 
-/// z/omega at the highest frequency. Throws std::invalid_argument, in the name of who asks, where that is not
-/// known.
+/// The step h = z/omega at the highest frequency omega. Throws std::invalid_argument, in the name of who
+/// asks, where that is not known.
 template <System S>
 double step_of_frequency(const S& system, double z, const char* who) {
   if (const auto omega = highest_frequency(system)) return z / *omega;

@@ -40,7 +40,9 @@ class lennard_jones_law {
     for (const state& motion : rigid_motions_) remove(motion, p);
     return {rest_, p};
   }
-  std::string description() const { return fmt::format("lennard_jones_law(temperature={:.6g})", temperature_); }
+  std::string description() const {
+    return fmt::format("lennard_jones_law(temperature={:.6g})", temperature_);
+  }
 
  private:
   static double product(const state& x, const state& y) {

@@ -16,6 +16,7 @@ namespace nysalt {
 template <int N>
 class listed {
  public:
+  /// Trajectory n starts at states[n].
   explicit listed(std::vector<phase_point<double, N>> states) : states_(std::move(states)) {}
 
   /// Throws std::out_of_range beyond the last state.

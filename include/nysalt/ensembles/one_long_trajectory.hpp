@@ -20,12 +20,13 @@
 
 namespace nysalt {
 
+/// How long the trajectory is, and what is kept of it.
 struct long_trajectory_options {
-  double length = 25'000.0;            // a time, burn-in included
-  double burn_in = 0.0;                // of it, not used
-  double step = 0.0;                   // if 0, omega h = 0.1 at the highest frequency
-  std::int64_t most_states = 100'000;  // that are kept, evenly thinned
-  std::uint64_t seed = 1;              // of the start and the noise
+  double length = 25'000.0;            ///< a time, burn-in included
+  double burn_in = 0.0;                ///< a time at its beginning, of which no state is kept
+  double step = 0.0;                   ///< h of BAOAB; 0: omega h = 0.1 at the highest frequency
+  std::int64_t most_states = 100'000;  ///< that are kept, evenly thinned; at most 100000
+  std::uint64_t seed = 1;              ///< of the start and the noise
 };
 
 /// States picked at random, with repetition, from one trajectory of a system in its bath, by BAOAB from start
@@ -70,8 +71,9 @@ class one_long_trajectory {
     states_ = std::make_shared<const std::vector<phase_point<double, N>>>(std::move(kept));
   }
 
-  std::size_t states() const { return states_->size(); }
+  std::size_t states() const { return states_->size(); }  ///< how many are kept
 
+  /// The start of trajectory n: one of the states.
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     vector<double, 1> normal;
     standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normal);
@@ -103,8 +105,10 @@ class one_long_trajectory {
   std::shared_ptr<const std::vector<phase_point<double, N>>> states_;
 };
 
+/// Takes the dimension from the system.
 template <HasBath S, class E>
 one_long_trajectory(const S&, const E&) -> one_long_trajectory<S::dimension>;
+/// Takes the dimension from the system.
 template <HasBath S, class E>
 one_long_trajectory(const S&, const E&, const long_trajectory_options&) -> one_long_trajectory<S::dimension>;
 

@@ -53,7 +53,7 @@ struct aba_free : composition<2 * Kicks - 1> {
   }
 };
 
-using aba3_free = aba_free<3>;
-using aba4_free = aba_free<4>;
+using aba3_free = aba_free<3>;  ///< three kicks, five parameters
+using aba4_free = aba_free<4>;  ///< four kicks, seven parameters
 
 }  // namespace nysalt

@@ -24,7 +24,8 @@ struct nystrom {
   static constexpr bool symmetric = false;
   static constexpr bool requires_quadratic_kinetic = false;
 
-  /// [li_lu_tao_ye_2023, equation (3.3)]; Verlet lies on the bound beta1 = 1/2.
+  /// 0 < b1 < 1 and 0 <= beta1 <= 1/2 [li_lu_tao_ye_2023, equation (3.3)]; Verlet lies on the bound beta1 =
+  /// 1/2.
   static std::array<parameter_range, 2> ranges() { return {{{0.0, 1.0, true}, {0.0, 0.5, false}}}; }
   /// The optimum at small steps: beta1 = (1 - a)/2 with McLachlan's a [mclachlan_1995].
   static std::array<double, 2> start() { return {0.5, 0.5 * (1.0 - 0.19318332750378357396)}; }

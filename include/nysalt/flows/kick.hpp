@@ -30,7 +30,8 @@ struct kick_of {
     for (Eigen::Index i = 0; i < n; ++i) x.p[i] += x.f[i] * c;
   }
 
-  /// By the system's own kick, or with a force that is at home in registers if its dimension is fixed.
+  /// The same where nothing else needs the force: by the system's own kick, or with a force that is at home
+  /// in registers if its dimension is fixed.
   template <System S, Scalar T, CoefficientOf<T> C>
   static void evaluate_and_apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto& room) {
     if constexpr (Field == field::whole && HasKick<S, T, C>) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "nysalt/bath.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/noise.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -31,8 +30,8 @@ struct ornstein_uhlenbeck {
   /// e^{-gamma c h} and s. What damps alone (sigma = 0) may go back in time; noise cannot.
   template <Scalar C>
   struct prepared {
-    C decay{1.0};
-    C deviation{0.0};
+    C decay{1.0};      ///< e^{-gamma c h}
+    C deviation{0.0};  ///< s, for unit mass
   };
 
   /// Throws std::invalid_argument where noise would have to go back in time.
@@ -40,7 +39,7 @@ struct ornstein_uhlenbeck {
   static prepared<C> prepare(const C& c, double h, const bath& its) {
     const C time = c * h;
     if (its.sigma() > 0.0 && any(time < C(0.0))) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "a letter O cannot go back in time: its coefficient and the step ({}) must have the same sign", h));
     }
     return {its.decay(time), its.deviation(time)};

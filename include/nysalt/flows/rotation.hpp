@@ -24,12 +24,13 @@ struct rotation {
   template <System S, Scalar T>
   static constexpr bool serves = HasQuadraticPart<S>;
 
+  /// The turn of each mode over t = c h.
   template <Scalar C, int N>
   struct prepared {
-    std::shared_ptr<const quadratic_part> part;
-    vector<C, N> cosine;
-    vector<C, N> of_y_in_x;
-    vector<C, N> of_x_in_y;
+    std::shared_ptr<const quadratic_part> part;  ///< basis and frequencies
+    vector<C, N> cosine;                         ///< cos(omega t)
+    vector<C, N> of_y_in_x;                      ///< sin(omega t)/omega, or t where omega = 0
+    vector<C, N> of_x_in_y;                      ///< -omega sin(omega t)
   };
 
   template <int N, Scalar C>

@@ -33,6 +33,7 @@ class compressed_cost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(parameters);
   }
 
+  /// What Ceres calls: false where the point is rejected. Cost: a pass with derivatives at a new point.
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Eigen::Index count = num_residuals() - 1;
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(blocks[0], count);

@@ -18,14 +18,16 @@ namespace nysalt {
 
 /// What each trajectory, or other block of data, adds to the gradient of a loss: those of this rank.
 struct trajectory_scores {
-  std::vector<Eigen::VectorXd> of_each;
-  shard share;
+  std::vector<Eigen::VectorXd> of_each;  ///< one gradient for each block of this rank
+  shard share;                           ///< which blocks this rank has
 
+  /// All blocks are here.
   trajectory_scores(std::vector<Eigen::VectorXd> all) : of_each(std::move(all)), share(std::ssize(of_each)) {}
+  /// This rank's blocks of those that ranks share.
   trajectory_scores(std::vector<Eigen::VectorXd> ours, const shard& whose)
       : of_each(std::move(ours)), share(whose) {}
 
-  double blocks() const { return static_cast<double>(share.total()); }
+  double blocks() const { return static_cast<double>(share.total()); }  ///< B, of all ranks
 };
 
 /// The full Hessian (not Gauss-Newton's: residuals do not vanish at the minimum) by central differences of
@@ -45,6 +47,7 @@ inline Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& the
   return 0.5 * (result + result.transpose());
 }
 
+/// The same of a loss over data.
 template <class Loss>
   requires requires(const Loss& loss) { loss.residuals(); }
 Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
@@ -54,6 +57,7 @@ Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
 /// A Hessian restricted to the free parameters, in its eigenvectors.
 class curvature {
  public:
+  /// The Hessian is by all parameters; `free` numbers those that are free.
   curvature(const Eigen::MatrixXd& hessian, std::vector<Eigen::Index> free)
       : size_(hessian.rows()), free_(std::move(free)) {
     if (free_.empty()) return;
@@ -76,9 +80,10 @@ class curvature {
     }
     return 1.0;
   }
+  /// Whether the loss falls along no direction, but for the error of the Hessian.
   bool is_minimum() const { return count() == 0 || solver_.eigenvalues()[0] > -flat_below * largest(); }
 
-  /// H^+ v: the inverse on what is free and not flat.
+  /// H^+ v, the inverse of the Hessian on what is free and not flat.
   Eigen::VectorXd solve(const Eigen::VectorXd& v) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index k = 0; k < count(); ++k) {

@@ -22,19 +22,19 @@ namespace nysalt {
 /// than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT log(M + 1) wide. Chance is
 /// left aside if it would do this once in a thousand times.
 struct energies_outside {
-  static constexpr double chance = 1e-3;
+  static constexpr double chance = 1e-3;  ///< a probability below which chance is left aside
 
-  energy_range seen;
-  std::size_t trajectories = 0;  // M
-  std::size_t looked_at = 0;     // n
-  std::size_t outside = 0;
-  double farthest = 0.0;
-  energy_range energies{};  // of these starts
+  energy_range seen;             ///< the energies of the data
+  std::size_t trajectories = 0;  ///< M, of the data
+  std::size_t looked_at = 0;     ///< n, starts
+  std::size_t outside = 0;       ///< how many of n are
+  double farthest = 0.0;         ///< distance of the farthest energy from the range, an energy
+  energy_range energies{};       ///< the energies of these starts
 
-  /// There are too many, or one is too far.
+  /// Whether there are too many, or one is too far.
   bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
 
-  /// That so many of n, or more, are outside by chance.
+  /// The probability that so many of n, or more, are outside by chance.
   double probability() const {
     const auto m = static_cast<double>(trajectories);
     const auto n = static_cast<double>(looked_at);
@@ -48,8 +48,8 @@ struct energies_outside {
     return rest;
   }
 
-  /// What none of n starts passes the range by, but by a chance of one in a thousand. Infinite from one
-  /// trajectory, which tells no range.
+  /// The distance that none of n starts is beyond the range, but by a chance of one in a thousand. Infinite
+  /// from one trajectory, which tells no range.
   double far() const {
     const double m = static_cast<double>(trajectories) + 1.0;
     if (trajectories < 2) return std::numeric_limits<double>::infinity();
@@ -57,6 +57,7 @@ struct energies_outside {
            std::max(0.0, std::log(static_cast<double>(looked_at) / (m * chance)) / std::log(m));
   }
 
+  /// A sentence with the numbers.
   std::string report() const {
     return fmt::format(
         "{} of {} starts have energies outside {:.6g} to {:.6g}, on which it was learned (they go from "

@@ -5,9 +5,10 @@
 
 namespace nysalt {
 
+/// What learning a run_time_family gives.
 struct fit {
-  Eigen::VectorXd theta;
-  fit_summary summary;
+  Eigen::VectorXd theta;  ///< the learned parameters
+  fit_summary summary;    ///< its `usable` says whether to use them
 };
 
 // No type of a system is in it: a project may compile learning/solve.hpp apart, once.

@@ -11,77 +11,83 @@
 
 namespace nysalt {
 
+/// One entry of theta.
 struct fitted_parameter {
-  std::string name;
-  double value;
-  double standard_error;  // NaN from a single trajectory, infinite where the loss is flat, 0 if not free
-  bool free;              // false: fixed by the user, or held at its bound
+  std::string name;       ///< as the family calls it
+  double value;           ///< learned, or fixed
+  double standard_error;  ///< NaN from a single trajectory, infinite where the loss is flat, 0 if not free
+  bool free;              ///< false: fixed by the user, or held at its bound
 };
 
+/// Everything about a fit: where it comes from, how good it is, and whether to use it.
 struct fit_summary {
-  std::string family;
-  std::string system;
-  std::string reference;
-  std::string ensemble;
-  std::string coordinates;
-  std::string derivatives;  // where the force's derivatives come from
-  double step = 0.0;
-  std::uint64_t seed = 0;
-  std::uint64_t held_out_seed = 0;
-  bool held_out_is_new = true;  // false: the held-out data are those that were learned from
-  std::string loss_name;        // see loss_choice
-  bool is_of_data = true;       // false: the loss asks no data, and these only judge
+  std::string family;               ///< name of the family
+  std::string system;               ///< description of the system
+  std::string reference;            ///< description of the reference that made the data
+  std::string ensemble;             ///< description of the ensemble that the data start from
+  std::string coordinates;          ///< qp, modes or energy: those of the metric
+  std::string derivatives;          ///< where the force's derivatives come from
+  double step = 0.0;                ///< h that it was learned for
+  std::uint64_t seed = 0;           ///< of the data
+  std::uint64_t held_out_seed = 0;  ///< of the held-out data
+  bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
+  std::string loss_name;            ///< see loss_choice
+  bool is_of_data = true;           ///< false: the loss asks no data, and these only judge
 
-  std::vector<fitted_parameter> parameters;
+  std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
+  /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
   double loss = 0.0;                 // one-step: mean over pairs of the sum over coordinates of r^2/Sigma
-  double held_out_loss = 0.0;        // the same on data that was not learned from
-  double held_out_start_loss = 0.0;  // and with the parameters that the search began with
-  double held_out_noise = 0.0;       // standard error of the difference of these two; 0 from one trajectory
-  std::size_t samples = 0;           // pairs
-  std::size_t trajectories = 0;
-  std::size_t held_out_samples = 0;
+  double held_out_loss = 0.0;        ///< the same on data that was not learned from
+  double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
+  double held_out_noise = 0.0;       ///< standard error of the difference of these two; 0 from one trajectory
+  std::size_t samples = 0;           ///< number of pairs of the data
+  std::size_t trajectories = 0;      ///< number of trajectories of the data
+  std::size_t held_out_samples = 0;  ///< number of pairs of the held-out data
 
-  // What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single trajectory,
-  // and where the guard holds them.
+  /// What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single
+  /// trajectory, and where the guard holds them.
   double expected_excess = 0.0;
-  double deciding_trajectories = 0.0;  // on how many that and the standard errors rest
+  double deciding_trajectories = 0.0;  ///< on how many that and the standard errors rest
 
-  double condition = 1.0;                            // of the Hessian, flat directions apart
-  std::vector<std::vector<double>> flat_directions;  // along which the data say nothing
-  std::int64_t coordinates_used = 0;                 // that the loss sums over
-  std::vector<std::string> dropped;                  // coordinates that never move
-  int starts_tried = 1;
-  std::string from;  // the start that led here
-  int iterations = 0;
-  std::string guard;              // on which frequencies stability was asked for
-  std::string unguarded;          // what the guard had against the optimum; empty: nothing
-  bool is_in_valley = false;      // further iterations hardly lower the loss: other parameters do as well
-  bool is_at_no_bound = true;     // false: a search ended at farthest_parameter
-  bool is_held_by_guard = false;  // no minimum was admitted: this is as far as the guard lets go
+  double condition = 1.0;  ///< of the Hessian: largest over smallest curvature, flat directions apart
+  std::vector<std::vector<double>> flat_directions;  ///< of theta, along which the data say nothing
+  std::int64_t coordinates_used = 0;                 ///< number of coordinates that the loss sums over
+  std::vector<std::string> dropped;                  ///< coordinates that never move
+  int starts_tried = 1;                              ///< number of searches
+  std::string from;                                  ///< name of the start that led here
+  int iterations = 0;                                ///< of the search that led here
+  std::string guard;                                 ///< on which frequencies stability was asked for
+  std::string unguarded;          ///< what the guard had against the optimum; empty: nothing
+  bool is_in_valley = false;      ///< further iterations hardly lower the loss: other parameters do as well
+  bool is_at_no_bound = true;     ///< false: a search ended at farthest_parameter
+  bool is_held_by_guard = false;  ///< no minimum was admitted: this is as far as the guard lets go
+  /// A range of z = h omega.
   struct gap {
-    double low;
-    double high;
+    double low;   ///< where it begins
+    double high;  ///< where it ends
   };
-  std::vector<gap> gaps;           // of z, between the bands, where it is unstable
-  double one_step_error = 0.0;     // root of the one-step loss on held-out data
-  double trajectory_error = 0.0;   // the same at the end of the held-out trajectories
-  double reference_error = 0.0;    // the reference's own, in the same measure
-  bool reference_checked = false;  // false: the data hold no finishes by a finer reference
+  std::vector<gap> gaps;           ///< of z, between the bands, where it is unstable
+  double one_step_error = 0.0;     ///< root of the one-step loss on held-out data
+  double trajectory_error = 0.0;   ///< the same at the end of the held-out trajectories
+  double reference_error = 0.0;    ///< of the reference itself, in the measure of one_step_error
+  bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
-  double data_seconds = 0.0;
-  double fit_seconds = 0.0;
-  std::int64_t learning_evaluations = 0;  // force evaluations of data and fit
+  double data_seconds = 0.0;              ///< wall time that the data took
+  double fit_seconds = 0.0;               ///< wall time that the fit took
+  std::int64_t learning_evaluations = 0;  ///< force evaluations of data and fit
 
-  bool usable = false;
-  std::string reason;  // why not
+  bool usable = false;  ///< whether the method may be used
+  std::string reason;   ///< why it is not usable; else empty
 
   /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
   double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }
 
   /// From fewer it is too small more often than not: one trajectory in hundreds may outweigh the rest.
   static constexpr double too_few_decide = 10.0;
+  /// Whether the uncertainty rests on too few trajectories to rely on.
   bool is_decided_by_few() const { return loss > 1e-24 && deciding_trajectories < too_few_decide; }
 
+  /// A sentence about expected_excess.
   std::string uncertainty() const {
     if (std::isnan(expected_excess)) return "not known";
     return fmt::format(
@@ -91,6 +97,7 @@ struct fit_summary {
                             : "");
   }
 
+  /// One line: parameters, losses, and whether it is usable.
   std::string brief() const {
     std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
     for (const auto& p : parameters) {
@@ -105,6 +112,7 @@ struct fit_summary {
     return text;
   }
 
+  /// All of it, a line each.
   std::string full() const {
     std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
     for (const auto& p : parameters) {

@@ -10,11 +10,12 @@
 
 namespace nysalt {
 
+/// A learned method, and how many trajectories it took.
 template <Family F>
 struct learned_enough {
-  tuned_method<F> method;
-  fit_summary summary;
-  enough_course course;
+  tuned_method<F> method;  ///< carries its step and system, and refuses others
+  fit_summary summary;     ///< of the last fit
+  enough_course course;    ///< of all fits
 };
 
 /// learn() with as many trajectories as it takes, see until_enough(): from first.trajectories on, at most as

@@ -16,14 +16,15 @@
 
 namespace nysalt {
 
+/// Where a search ended.
 struct minimum {
-  Eigen::VectorXd theta;
-  double loss = 0.0;
-  Eigen::MatrixXd hessian{};
-  int iterations = 0;
-  bool converged = false;
-  bool has_ended = false;  // the search by itself, and not cut short
-  bool in_valley = false;  // not converged, but further iterations hardly lower the loss
+  Eigen::VectorXd theta;      ///< all parameters, those that are not free too
+  double loss = 0.0;          ///< the loss at theta
+  Eigen::MatrixXd hessian{};  ///< of the loss at theta, by all parameters
+  int iterations = 0;         ///< of Ceres and of Newton's method together
+  bool converged = false;     ///< another Newton step would lower the loss by less than 1e-6 of itself
+  bool has_ended = false;     ///< whether Ceres ended by itself, and was not cut short
+  bool in_valley = false;     ///< it did not converge, but further iterations hardly lower the loss
 };
 
 namespace detail {

@@ -2,6 +2,8 @@
 // All that a search must know of a system, its data and a family; no type of any of them is left.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,36 +29,38 @@ namespace nysalt {
 
 /// How to search. What is empty is the family's own.
 struct fit_options {
-  nysalt::coordinates coordinates = nysalt::coordinates::qp;
-  loss_choice loss{};
-  std::optional<Eigen::VectorXd> start{};          // instead of the family's own starts
-  std::vector<named_parameters> further_starts{};  // beside them, such as the optimum at a smaller step
-  int random_starts = 0;                           // beside all these
-  std::vector<std::optional<double>> fixed{};      // a value for each parameter that is not to be learned
-  bool guarded = true;      // false: an unstable optimum is found, and said not to be usable
-  bool check_force = true;  // before learn() begins, as what is learned from a wrong force is wrong
-  std::uint64_t seed = 1;
-  int max_iterations = 200;
-  int threads = 1;  // changes no bit of what is learned
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the error counts
+  loss_choice loss{};                                         ///< what is minimised
+  std::optional<Eigen::VectorXd> start{};                     ///< instead of the family's own starts
+  std::vector<named_parameters> further_starts{};  ///< beside them, such as the optimum at a smaller step
+  int random_starts = 0;                           ///< beside all these, normal around the first
+  std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
+  bool guarded = true;       ///< false: an unstable optimum is found, and said not to be usable
+  bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
+  std::uint64_t seed = 1;    ///< of the random starts
+  int max_iterations = 200;  ///< of the search from each start
+  int threads = 1;           ///< changes no bit of what is learned
 };
 
 /// What learn() makes of system and data, and solve() of this. Refers to the system. Where ranks share the
 /// data each has its own part, and the functions are collective: all ranks search together, and find the
 /// same.
 struct learning_problem {
-  run_time_family family;
-  fit_options options;
-  double step;
-  objective loss;                              // of the data; not there if a covariance is
-  std::optional<stationary_covariance> law{};  // the loss without data
+  run_time_family family;                      ///< what is fitted
+  fit_options options;                         ///< as they were given
+  double step;                                 ///< h of the data
+  objective loss;                              ///< over the data; not asked where there is a law
+  std::optional<stationary_covariance> law{};  ///< the loss that asks no data
+  /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
-  shard held_out;
-  std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;  // by trajectory of this rank
-  std::function<double(const Eigen::VectorXd&)> one_step_loss;                 // on held-out data
-  std::function<double(const Eigen::VectorXd&)> loss_at_end;                   // of held-out trajectories
-  std::function<std::int64_t()> evaluations;                                   // so far
-  stability_guard guard;
-  fit_summary facts;  // what is known before a search
+  shard held_out;  ///< which held-out trajectories this rank has
+  /// What each held-out trajectory of this rank adds to the loss.
+  std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;
+  std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
+  std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
+  std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
+  stability_guard guard;                      ///< knows the frequencies of the system
+  fit_summary facts;                          ///< what is known before a search
 };
 
 namespace detail {
@@ -125,7 +129,7 @@ int shortest_of(const flow_map_data<N>& data) {
 
 }  // namespace detail
 
-/// Throws what learn() does.
+/// The problem of fitting the family's word to the data. Refers to the system. Throws what learn() does.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 learning_problem make_learning_problem(const run_time_family& family, const S& system,
                                        const flow_map_data<S::dimension>& data,

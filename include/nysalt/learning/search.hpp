@@ -19,28 +19,28 @@ namespace nysalt {
 
 /// Where a search ended, and what the judge thinks of it.
 struct candidate {
-  std::string from;  // the start, by name
-  Eigen::VectorXd theta;
-  Eigen::MatrixXd hessian;
-  std::vector<Eigen::Index> free;  // neither fixed nor held at a bound
-  double loss = std::numeric_limits<double>::infinity();
-  double judged = std::numeric_limits<double>::infinity();
-  int iterations = 0;
-  bool converged = false;
-  bool in_valley = false;  // of almost equal losses, where the search was given up
-  bool admitted = true;    // by the guard
-  bool is_held = false;    // by the guard, at the edge of what it admits
+  std::string from;                ///< name of the start
+  Eigen::VectorXd theta;           ///< where it ended
+  Eigen::MatrixXd hessian;         ///< of the loss at theta; empty where the guard holds it
+  std::vector<Eigen::Index> free;  ///< neither fixed nor held at a bound
+  double loss = std::numeric_limits<double>::infinity();    ///< the loss at theta
+  double judged = std::numeric_limits<double>::infinity();  ///< what the judge says of theta; less is better
+  int iterations = 0;                                       ///< of all descents from this start
+  bool converged = false;                                   ///< see `minimum`
+  bool in_valley = false;  ///< of almost equal losses, where the search was given up
+  bool admitted = true;    ///< whether the guard lets it
+  bool is_held = false;    ///< whether the guard held it, at the edge of what it admits
 };
 
 /// What a search is told.
 struct search_task {
-  const run_time_family* family;
-  objective loss;
-  std::function<double(const Eigen::VectorXd&)> judge;  // what is least for the best
-  std::function<bool(const Eigen::VectorXd&)> admits;   // the guard
-  std::vector<Eigen::Index> free;
-  int max_iterations;
-  std::optional<named_parameters> refuge{};  // the member that is stable farthest, for where the guard acts
+  const run_time_family* family;                        ///< its ranges and where it is defined
+  objective loss;                                       ///< what is minimised
+  std::function<double(const Eigen::VectorXd&)> judge;  ///< what is least for the best
+  std::function<bool(const Eigen::VectorXd&)> admits;   ///< the guard
+  std::vector<Eigen::Index> free;                       ///< numbers of the parameters that may change
+  int max_iterations;                                   ///< of each descent
+  std::optional<named_parameters> refuge{};  ///< the member that is stable farthest, for where the guard acts
 };
 
 /// Theta normal around a start, with the deviation .3 as coefficients are of order one: number n of a seed.
@@ -101,9 +101,9 @@ inline const candidate* best_of(const std::vector<candidate>& all, auto may_be_u
 
 /// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
-  candidate best;
-  std::optional<candidate> unguarded;
-  int tried = 0;
+  candidate best;                      ///< what is to be used
+  std::optional<candidate> unguarded;  ///< the best of all, if the guard refused it
+  int tried = 0;                       ///< number of searches
 };
 
 /// From each start to its minimum; the judge takes the best that the guard admits, of those that converged or

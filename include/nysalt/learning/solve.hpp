@@ -2,6 +2,8 @@
 // From a problem of learning to a fit, judged.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -82,7 +84,8 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
 
 }  // namespace detail
 
-/// Throws std::invalid_argument for options that the family cannot take. Cost: see learn().
+/// Searches from all starts, and judges the best. Throws std::invalid_argument for options that the family
+/// cannot take. Cost: see learn().
 fit solve(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
   const run_time_family& family = problem.family;

@@ -32,7 +32,7 @@ std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eige
   return result;
 }
 
-/// Some hundred of them, evenly spread.
+/// The starts of some hundred pairs, evenly spread: at all ranks.
 template <int N>
 std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data, Eigen::Index dimension) {
   constexpr std::size_t most = 128;

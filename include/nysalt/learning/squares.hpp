@@ -18,23 +18,25 @@ namespace nysalt {
 /// Of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J, which is
 /// half of Gauss-Newton's Hessian.
 struct squares {
-  double value = 0.0;
-  Eigen::VectorXd half_gradient;
-  Eigen::MatrixXd normal_matrix;
+  double value = 0.0;             ///< r^T r
+  Eigen::VectorXd half_gradient;  ///< J^T r
+  Eigen::MatrixXd normal_matrix;  ///< J^T J
 
-  Eigen::VectorXd gradient() const { return 2.0 * half_gradient; }
+  Eigen::VectorXd gradient() const { return 2.0 * half_gradient; }  ///< of the loss: 2 J^T r
+  /// Whether all numbers are.
   bool is_finite() const {
     return std::isfinite(value) && half_gradient.allFinite() && normal_matrix.allFinite();
   }
 };
 
-/// theta as families hold it, and as linear algebra does.
+/// theta as families hold it.
 template <std::size_t N>
 std::array<double, N> array_of(const Eigen::VectorXd& theta) {
   std::array<double, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
   return result;
 }
+/// theta as linear algebra holds it.
 template <std::size_t N>
 Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
@@ -96,6 +98,7 @@ std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& t
   for (const auto& sum : loss.sums(theta, false, zero, of_stretch)) result.push_back(sum[0]);
   return result;
 }
+/// The loss, of all ranks. Cost: one pass over the data.
 template <class Loss>
 double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
   return loss.share().sum(trajectory_losses(loss, theta));
@@ -111,14 +114,15 @@ std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen:
   }
   return result;
 }
-/// Of all ranks. They pass on 1 + P + P (P + 1)/2 numbers for P parameters, however many the data.
+/// The loss and its derivatives, of all ranks. They pass on 1 + P + P (P + 1)/2 numbers for P parameters,
+/// however many the data.
 template <class Loss>
 squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
   const auto by_trajectory = detail::squares_by_trajectory(loss, theta);
   const auto sum = loss.share().sum(by_trajectory, detail::zero_column(loss.parameters()));
   return detail::from_column(sum, loss.parameters());
 }
-/// Refers to the loss.
+/// A loss over data as a function of theta alone. Refers to the loss.
 template <class Loss>
 objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };

@@ -59,6 +59,7 @@ class stability_guard {
     }
   }
 
+  /// Whether there is no objection() to the word with these coefficients at this step.
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step) const {
     return objection(word, coefficients, step).empty();
   }
@@ -83,9 +84,10 @@ class stability_guard {
                       highest);
   }
 
+  /// A mode, and how much it grows.
   struct magnified_mode {
-    double frequency;
-    double factor;
+    double frequency;  ///< omega
+    double factor;     ///< largest |M^n|, see magnification()
   };
   /// The mode that a word with rotations magnifies most, or the first that it magnifies by more than is
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.
@@ -104,11 +106,12 @@ class stability_guard {
     return worst;
   }
 
-  const std::vector<frequency_band>& frequencies() const { return bands_; }
+  const std::vector<frequency_band>& frequencies() const { return bands_; }  ///< with 2 % more on either side
+  /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// Over which words with rotations are watched.
+  /// Number of steps over which words with rotations are watched.
   std::int64_t steps() const { return steps_; }
-  const std::string& description() const { return description_; }
+  const std::string& description() const { return description_; }  ///< what it knows, and where from
 
  private:
   static constexpr double margin = 0.02;

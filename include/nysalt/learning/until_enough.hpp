@@ -16,21 +16,24 @@
 
 namespace nysalt {
 
+/// When to stop.
 struct enough_options {
-  double share = 0.01;          // of the loss, that the uncertainty of the parameters may add to it
-  std::int64_t most = 100'000;  // trajectories
+  double share = 0.01;          ///< of the loss, that the uncertainty of the parameters may add to it
+  std::int64_t most = 100'000;  ///< number of trajectories beyond which it does not go
 };
 
 /// How a fit came to its number of trajectories.
 struct enough_course {
+  /// One fit on the way.
   struct stop {
-    std::int64_t trajectories;
-    double share;
-    double deciding;  // trajectories, on which the share rests
+    std::int64_t trajectories;  ///< how many it had
+    double share;               ///< its fit_summary::excess_share()
+    double deciding;            ///< trajectories that the share rests on
   };
-  bool is_reached = false;
-  std::vector<stop> stops;  // the last is that of the fit
+  bool is_reached = false;  ///< whether the last fit is good enough
+  std::vector<stop> stops;  ///< the last is that of the fit
 
+  /// A sentence with the numbers.
   std::string report() const {
     const auto& [trajectories, share, deciding] = stops.back();
     if (is_reached) return fmt::format("{} trajectories are enough", trajectories);

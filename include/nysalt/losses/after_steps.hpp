@@ -20,20 +20,22 @@
 
 namespace nysalt {
 
+/// Of which error the loss is, and after how many steps.
 struct after_steps_options {
-  int steps = 1;
-  bool energy = false;  // that of the energy, instead of the state's
-  bool overlap = true;  // a stretch begins at each pair, else where the last one ended
-  int threads = 1;      // changes no bit
+  int steps = 1;        ///< K, steps of a stretch
+  bool energy = false;  ///< that of the energy, instead of the state's
+  bool overlap = true;  ///< a stretch begins at each pair, else where the last one ended
+  int threads = 1;      ///< changes no bit
 };
 
 /// The residuals of one stretch, and their derivatives by theta.
 template <Scalar R>
 struct residuals_of_stretch {
-  std::size_t parameters;
-  std::vector<R> values;
-  std::vector<R> slopes;  // of residual k by parameter i at [k parameters + i]
+  std::size_t parameters;  ///< how many there are
+  std::vector<R> values;   ///< r_k, in the lanes of R
+  std::vector<R> slopes;   ///< of residual k by parameter i at [k parameters + i]
 
+  /// The derivative of residual k by parameter i.
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
 };
 
@@ -52,7 +54,7 @@ class after_steps {
   static constexpr int N = S::dimension;
 
  public:
-  using scalar = R;
+  using scalar = R;  ///< carries the stretches
 
   /// Refers to system and metric, and copies the data. Throws std::invalid_argument if no trajectory is so
   /// long, if the energy is asked for and not known, or if the system is in a noisy bath and the data do not
@@ -78,10 +80,10 @@ class after_steps {
     if (options.energy) energy_scale_ = scale_of_energy(data);
   }
 
-  Eigen::Index parameters() const { return family_.parameters(); }
-  std::size_t trajectories() const { return starts_.first_of.size() - 1; }  // of this rank
-  const shard& share() const { return share_; }
-  /// Of each stretch.
+  Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
+  std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
+  const shard& share() const { return share_; }  ///< which trajectories this rank has
+  /// Number of residuals of a stretch: those of the metric, or 1 for the energy.
   std::size_t residuals() const {
     return options_.energy ? 1 : static_cast<std::size_t>(metric_->residuals());
   }

@@ -11,13 +11,13 @@ namespace nysalt {
 /// (x, y) <- (xx x + xy y, yx x + yy y); the identity unless told.
 template <Scalar T>
 struct plane_map {
-  T xx{1.0};
-  T xy{0.0};
-  T yx{0.0};
-  T yy{1.0};
+  T xx{1.0};  ///< to x from x
+  T xy{0.0};  ///< to x from y
+  T yx{0.0};  ///< to y from x
+  T yy{1.0};  ///< to y from y
 
-  T trace() const { return xx + yy; }
-  T determinant() const { return xx * yy - xy * yx; }
+  T trace() const { return xx + yy; }                  ///< sum of the eigenvalues
+  T determinant() const { return xx * yy - xy * yx; }  ///< product of the eigenvalues
 };
 
 /// First a, then b: the matrix b a.
@@ -30,19 +30,21 @@ plane_map<T> then(const plane_map<T>& a, const plane_map<T>& b) {
 /// A symmetric matrix.
 template <Scalar T>
 struct plane_covariance {
-  T xx{0.0};
-  T xy{0.0};
-  T yy{0.0};
+  T xx{0.0};  ///< variance of x
+  T xy{0.0};  ///< covariance of x and y
+  T yy{0.0};  ///< variance of y
 
+  /// Entry by entry.
   friend plane_covariance operator+(const plane_covariance& a, const plane_covariance& b) {
     return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
   }
+  /// Every entry times c.
   friend plane_covariance operator*(const plane_covariance& a, const T& c) {
     return {a.xx * c, a.xy * c, a.yy * c};
   }
 };
 
-/// M C M^T
+/// The covariance C after the map M: M C M^T.
 template <Scalar T>
 plane_covariance<T> carried(const plane_map<T>& M, const plane_covariance<T>& C) {
   const T to_x_x = M.xx * C.xx + M.xy * C.xy;
@@ -64,7 +66,7 @@ plane_covariance<T> excess_of_turn(const plane_map<T>& S) {
   return {(sum + difference) * 0.5, S.xx * S.yx + S.xy * S.yy, (sum - difference) * 0.5};
 }
 
-/// Both eigenvalues lie inside the unit circle (Schur, Cohn and Jury).
+/// Whether both eigenvalues lie inside the unit circle (Schur, Cohn and Jury).
 template <Scalar T>
 bool forgets(const plane_map<T>& M) {
   const T d = M.determinant();
@@ -72,7 +74,7 @@ bool forgets(const plane_map<T>& M) {
   return d < T(1.0) && d > T(-1.0) && t < d + 1.0 && -t < d + 1.0;
 }
 
-/// Where there is no such covariance.
+/// Infinite: what stands where there is no such covariance.
 template <Scalar T>
 plane_covariance<T> no_covariance() {
   const T infinity(std::numeric_limits<double>::infinity());

@@ -15,12 +15,14 @@ namespace nysalt {
 /// energy      the energy's error after K steps
 /// covariance  of a thermostatted word, that of its stationary covariance: no data are asked
 struct loss_choice {
+  /// What a loss is of, see above.
   enum class kind { state, energy, covariance };
-  kind of = kind::state;
-  int steps = 1;
+  kind of = kind::state;  ///< what the loss is of
+  int steps = 1;          ///< K; of no account for a covariance
 
-  friend bool operator==(const loss_choice&, const loss_choice&) = default;
+  friend bool operator==(const loss_choice&, const loss_choice&) = default;  ///< equal in both
 
+  /// The text that loss_named() reads, such as "state:1".
   std::string description() const {
     if (of == kind::covariance) return "covariance";
     return fmt::format("{}:{}", of == kind::state ? "state" : "energy", steps);

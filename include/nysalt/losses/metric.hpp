@@ -20,6 +20,7 @@ namespace nysalt {
 /// energy  omega_k x_k and y_k with one common weight: the energy norm of the quadratic part
 enum class coordinates { qp, modes, energy };
 
+/// The name: qp, modes or energy.
 inline std::string to_string(coordinates c) {
   return c == coordinates::qp ? "qp" : c == coordinates::modes ? "modes" : "energy";
 }
@@ -37,9 +38,9 @@ class metric {
     weigh(data, which);
   }
 
-  /// Coordinates that count: 2 N less those that never move.
+  /// Number of coordinates that count: 2 N less those that never move.
   Eigen::Index residuals() const { return static_cast<Eigen::Index>(active_.size()); }
-  /// Coordinates without motion, which have no scale and are left out.
+  /// Names of coordinates without motion, which have no scale and are left out.
   const std::vector<std::string>& dropped() const { return dropped_; }
 
   /// The weights are estimates too. Row k, column m: what trajectory m adds to the relative error of the

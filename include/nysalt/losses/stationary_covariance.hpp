@@ -59,7 +59,7 @@ struct mode_alone {
 /// not quadratic.
 class stationary_covariance {
  public:
-  /// The word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
+  /// Of the word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
   /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
   /// step is not positive and finite.
   template <System S>
@@ -189,7 +189,7 @@ class stationary_covariance {
   std::vector<piece> pieces_;
 };
 
-/// As a function of theta alone, for a family with the letters of the loss.
+/// The loss as a function of theta alone, for a family with the letters of the loss.
 inline objective objective_of(const stationary_covariance& loss, const run_time_family& family) {
   return [=](const Eigen::VectorXd& theta) {
     return loss.at(family.coefficients(theta), family.jacobian(theta));

@@ -31,25 +31,28 @@ using scalar_of_passes =
 /// is left of the last entry.
 template <Scalar R, int N>
 struct stretches_in_lanes {
+  /// One stretch in each lane.
   struct entry {
-    phase_point<R, N> start;
-    phase_point<R, N> finish;
-    std::vector<vector<R, N>> noise;  // that of each letter O of the word, step after step
+    phase_point<R, N> start;          ///< where the stretches begin
+    phase_point<R, N> finish;         ///< where the data end them
+    std::vector<vector<R, N>> noise;  ///< that of each letter O of the word, step after step
   };
-  std::size_t first_trajectory;
-  std::size_t begin;  // of the numbers of its stretches
-  std::size_t end;
-  std::vector<entry> entries;
+  std::size_t first_trajectory;  ///< that of the first stretch, at this rank
+  std::size_t begin;             ///< number of the first stretch, as in stretch_starts
+  std::size_t end;               ///< one more than that of the last
+  std::vector<entry> entries;    ///< all stretches, lane by lane
 };
 
 /// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the
 /// entries.
 template <Scalar R, int N>
 struct noise_of_entries {
-  static constexpr bool draws_freely = false;
+  static constexpr bool draws_freely = false;  ///< the numbers are those of the data
+  /// Entry m has the noise of trajectory m.
   const std::vector<typename stretches_in_lanes<R, N>::entry>* entries = nullptr;
-  std::int64_t letters = 0;
+  std::int64_t letters = 0;  ///< letters O of a step
 
+  /// The numbers of one letter O of one step into xi; T carries R, or derivatives over it.
   template <class T>
   void normals(const noise_place& at, vector<T, N>& xi) const {
     const auto& all = (*entries)[static_cast<std::size_t>(at.trajectory)].noise;
@@ -60,16 +63,17 @@ struct noise_of_entries {
 
 /// What the letters O of a word need of the noise in data.
 struct wanted_noise {
-  noise_intervals intervals;   // in the parts of the data
-  double damping_of_part = 0;  // gamma times the length of a part
+  noise_intervals intervals;   ///< in the parts of the data
+  double damping_of_part = 0;  ///< gamma times the length of a part
 };
 
 /// The pairs with which stretches of a number of steps begin, trajectory by trajectory: every pair, or each
 /// one where the last ended. first_of is as in flow_map_data.
 struct stretch_starts {
-  std::vector<std::size_t> pairs;
-  std::vector<std::size_t> first_of{0};
+  std::vector<std::size_t> pairs;        ///< where stretches begin
+  std::vector<std::size_t> first_of{0};  ///< trajectory m has stretches first_of[m] .. first_of[m + 1] - 1
 
+  /// Of all stretches of so many steps that fit into trajectories of the data.
   template <int N>
   stretch_starts(const flow_map_data<N>& data, std::size_t steps, bool overlap) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "nysalt/methods/palindromic.hpp"
 #include "nysalt/requirements.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -73,15 +72,15 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   static constexpr int order = 2;
   static std::string name() { return "s_aia2"; }
 
-  /// Throws std::invalid_argument unless 0 < highest_z < 4. Cost: some 30 microseconds; a is right to
-  /// rounding.
+  /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.
+  /// Cost: some 30 microseconds; a is right to rounding.
   explicit s_aia2(double highest_z) : highest_z_(highest_z) {
     if (!(highest_z > 0.0) || !std::isfinite(highest_z)) {
       throw std::invalid_argument(
-          fmt::format("s_aia2: z = step * highest frequency must be positive and finite, got {}", highest_z));
+          sentence("s_aia2: z = step * highest frequency must be positive and finite, got {}", highest_z));
     }
     if (highest_z >= 4.0) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "s_aia2: no method of two stages is stable up to z = step * highest frequency = {}; take a smaller "
           "step, such that z < 4",
           highest_z));
@@ -90,7 +89,7 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   }
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
-  double highest_z() const { return highest_z_; }
+  double highest_z() const { return highest_z_; }  ///< as it was given
 
  private:
   double highest_z_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -10,14 +8,15 @@
 #include <vector>
 
 #include "nysalt/method.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
 /// What a method promises beside its coefficients.
 struct method_properties {
-  int order;
-  bool symmetric;
-  bool requires_quadratic_kinetic;
+  int order;                        ///< in h, as declared
+  bool symmetric;                   ///< whether a step back undoes a step
+  bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
 
 /// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
@@ -27,7 +26,8 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// Throws std::invalid_argument unless there is a finite coefficient for each slot.
+  /// From letters, one coefficient for each of their slots, and promises. Throws std::invalid_argument unless
+  /// there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),
@@ -35,14 +35,14 @@ class tabulated : public method_properties {
         letters_(std::move(letters)),
         coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != letters_.slots) {
-      throw std::invalid_argument(fmt::format("{}: {} coefficients for the {} letters {}{}", name_,
-                                              coefficients_.size(), letters_.length, letters_.letters(),
-                                              letters_.slots > letters_.length ? " (G and H take two)" : ""));
+      throw std::invalid_argument(sentence("{}: {} coefficients for the {} letters {}{}", name_,
+                                           coefficients_.size(), letters_.length, letters_.letters(),
+                                           letters_.slots > letters_.length ? " (G and H take two)" : ""));
     }
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;
       throw std::invalid_argument(
-          fmt::format("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
+          sentence("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
     }
   }
 

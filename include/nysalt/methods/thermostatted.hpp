@@ -8,6 +8,7 @@
 
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -16,22 +17,27 @@ template <placement P, Method M>
   requires TypeLevelWord<typename M::word>
 class thermostatted_method {
  public:
-  using word = thermostatted_word<typename M::word, P>;
+  using word = thermostatted_word<typename M::word, P>;  ///< with letters O
+  /// Where the bath damps alone: 2 at most.
   static constexpr int order = thermostatted_order(P, M::order, M::symmetric);
-  static constexpr bool symmetric = P != placement::end && M::symmetric;
-  static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;
+  static constexpr bool symmetric = P != placement::end && M::symmetric;  ///< not with O at the end
+  static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;  ///< as without the bath
 
+  /// Holds a copy of the method.
   explicit thermostatted_method(const M& plain) : plain_(plain) {}
 
+  /// Those of the method with those of the letters O, in the order of the word.
   typename word::template coefficients<double> coefficients() const {
     return thermostatted_coefficients<word>(P, plain_.coefficients());
   }
-  std::string name() const { return fmt::format("{}_{}", plain_.name(), to_string(P)); }
+  /// METHOD_PLACEMENT, as in verlet_end.
+  std::string name() const { return sentence("{}_{}", plain_.name(), to_string(P)); }
 
  private:
   M plain_;
 };
 
+/// The method in a bath. A tuned one does not compile: take its anywhere().
 template <placement P, Method M>
   requires TypeLevelWord<typename M::word> thermostatted_method<P, M> thermostat(const M& method) {
     static_assert(

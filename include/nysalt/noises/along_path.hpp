@@ -9,6 +9,7 @@
 
 #include "nysalt/noise_intervals.hpp"
 #include "nysalt/noises/recorded_path.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -19,20 +20,22 @@ class along_path {
  public:
   static constexpr bool draws_freely = false;
 
-  /// Throws std::invalid_argument unless the parts of a step are whole intervals of the path.
+  /// For a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the parts of
+  /// a step are whole intervals of the path.
   along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
       : path_(&path), intervals_(std::move(intervals)) {
     if (intervals_.parts == 0) return;
     const double part = step / intervals_.parts / path.interval();
     per_part_ = std::llround(part);
     if (per_part_ >= 1 && std::abs(part - static_cast<double>(per_part_)) <= 1e-9 * part) return;
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "the step {} in {} parts, as the letters O need them, does not consist of whole intervals {} of the "
         "recorded path",
         step, intervals_.parts, path.interval()));
   }
 
-  /// Throws std::invalid_argument where the path is too short, or is another trajectory's.
+  /// The noise of the path over one letter O of one step. Throws std::invalid_argument where the path is too
+  /// short, or is another trajectory's.
   template <class U>
   void normals(const noise_place& at, vector<U, N>& xi) const {
     const auto [begin, end] = intervals_.of_letters[static_cast<std::size_t>(at.flow)];
@@ -43,8 +46,8 @@ class along_path {
     static_assert(all_lanes || std::is_same_v<U, double>, "nysalt: a path is for all its lanes or one");
     const std::uint64_t lane_of = at.trajectory - path_->trajectory();
     if (lane_of >= (all_lanes ? 1 : lanes_in<T>)) {
-      throw std::invalid_argument(fmt::format("the recorded path is that of trajectory {}, not of {}",
-                                              path_->trajectory(), at.trajectory));
+      throw std::invalid_argument(sentence("the recorded path is that of trajectory {}, not of {}",
+                                           path_->trajectory(), at.trajectory));
     }
     if constexpr (all_lanes) {
       path_->over(from, to, xi);

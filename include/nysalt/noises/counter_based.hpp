@@ -2,8 +2,6 @@
 // Normal numbers without a state: each is a function of where it is used.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,19 +15,20 @@
 #include "nysalt/noises/box_muller.hpp"
 #include "nysalt/noises/philox.hpp"
 #include "nysalt/phase_point.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
 /// What a random number is for, so that no two uses share one.
 enum class noise_purpose : std::uint8_t {
-  initial_state = 1,
-  bath = 2,         // of a run
-  bath_halves = 3,  // which tell the two halves of a letter O apart
-  finer_path = 4,   // which tell the halves of a step of a path apart
-  burn_in = 5,      // of the run that makes an initial state
-  burn_in_halves = 6,
-  search = 7,       // from where one begins
-  perturbation = 8  // of a start
+  initial_state = 1,   ///< of a trajectory
+  bath = 2,            ///< of a run
+  bath_halves = 3,     ///< which tell the two halves of a letter O apart
+  finer_path = 4,      ///< which tell the halves of a step of a path apart
+  burn_in = 5,         ///< of the run that makes an initial state
+  burn_in_halves = 6,  ///< as bath_halves, of that run
+  search = 7,          ///< from where one begins
+  perturbation = 8     ///< of a start
 };
 
 /// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives
@@ -38,7 +37,7 @@ struct noise_counter {
   std::uint64_t trajectory = 0;  ///< below 2^48
   std::int64_t step = 0;         ///< from 0 to below 2^48
   std::uint64_t slot = 0;        ///< below 2^24
-  noise_purpose purpose{};
+  noise_purpose purpose{};       ///< what the numbers are for
 };
 
 /// How many slots hold so many numbers.
@@ -51,15 +50,15 @@ inline void check_counter(const noise_counter& first, std::uint64_t trajectories
   constexpr std::uint64_t two_to_48 = std::uint64_t{1} << 48U;
   constexpr std::uint64_t two_to_24 = std::uint64_t{1} << 24U;
   if (first.trajectory > two_to_48 - trajectories) {
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "standard_normals: trajectory {} is too large, trajectories are below 2^48", first.trajectory));
   }
   if (first.step < 0 || first.step >= static_cast<std::int64_t>(two_to_48)) {
     throw std::invalid_argument(
-        fmt::format("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
+        sentence("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
   }
   if (slots > two_to_24 || first.slot > two_to_24 - slots) {
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "standard_normals: {} slots from slot {} are too many, slots of a step are below 2^24: use fewer "
         "numbers a step",
         slots, first.slot));

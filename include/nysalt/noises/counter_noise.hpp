@@ -14,14 +14,17 @@ class counter_noise {
  public:
   static constexpr bool draws_freely = true;
 
+  /// `purpose` keeps it apart from all other noise of the same seed.
   explicit counter_noise(std::uint64_t seed, noise_purpose purpose = noise_purpose::bath)
       : seed_(seed), purpose_(purpose) {}
 
-  /// Throws std::invalid_argument if the place is beyond what can be counted (2^48 trajectories and steps).
+  /// The standard normal numbers of a place. Throws std::invalid_argument if the place is beyond what can be
+  /// counted (2^48 trajectories and steps).
   template <class T, int N>
   void normals(const noise_place& at, vector<T, N>& xi) const {
     draw(purpose_, at, xi);
   }
+  /// Further numbers of a place, independent of the first. Throws as normals does.
   template <class T, int N>
   void halving(const noise_place& at, vector<T, N>& zeta) const {
     const bool is_burn_in = purpose_ == noise_purpose::burn_in;

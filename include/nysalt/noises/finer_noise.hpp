@@ -16,7 +16,8 @@ class finer_noise {
  public:
   static constexpr bool draws_freely = false;
 
-  /// `damping` is gamma times the step that is not halved.
+  /// Noise of that seed for steps that were halved so often. `damping` is gamma times the step that is not
+  /// halved.
   finer_noise(std::uint64_t seed, double damping, int halvings)
       : whole_(seed), halves_(seed, noise_purpose::finer_path), damping_(damping), halvings_(halvings) {}
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -14,6 +12,7 @@
 
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -24,7 +23,7 @@ namespace nysalt {
 /// exponent that does not reverse time].
 class coarse_graining {
  public:
-  /// gamma tau of one interval.
+  /// `damping` is gamma tau of one interval.
   explicit coarse_graining(double damping) : damping_(damping), decay_(std::exp(-damping)) {}
 
   /// Interval by interval: first() clears the sum, next() adds, and last() brings that of n to unit variance.
@@ -32,10 +31,12 @@ class coarse_graining {
   static void first(vector<T, N>& sum) {
     for (T& x : sum) x = T(0.0);
   }
+  /// sum <- a sum + xi.
   template <class T, int N>
   void next(vector<T, N>& sum, const vector<T, N>& xi) const {
     for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] = sum[i] * decay_ + xi[i];
   }
+  /// Scales the sum of n intervals; one or none is left as it is.
   template <class T, int N>
   void last(vector<T, N>& sum, std::int64_t n) const {
     if (n <= 1) return;  // of none, for a letter O that does nothing, there is no noise
@@ -46,6 +47,7 @@ class coarse_graining {
     for (T& x : sum) x = x * scale;
   }
 
+  /// All intervals in one, in their order; 0 if there are none.
   template <class T, int N>
   void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
     first(xi);
@@ -63,32 +65,34 @@ class coarse_graining {
 template <class T, int N>
 class recorded_path {
  public:
-  /// Throws std::invalid_argument unless the interval is positive and the friction not negative, and finite.
+  /// An empty path, in a bath of that friction. Throws std::invalid_argument unless the interval is positive
+  /// and the friction not negative, and finite.
   recorded_path(double interval, double friction, std::uint64_t trajectory = 0)
       : interval_(interval), trajectory_(trajectory), coarse_(friction * interval) {
     if (interval > 0.0 && std::isfinite(interval) && friction >= 0.0 && std::isfinite(friction)) return;
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "recorded_path: needs a positive interval and a friction >= 0, got {} and {}", interval, friction));
   }
 
-  double interval() const { return interval_; }
-  std::uint64_t trajectory() const { return trajectory_; }
-  /// Number of the first interval that is held, and of the one after the last.
+  double interval() const { return interval_; }             ///< length of each in time
+  std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
+  /// Number of the first interval that is held.
   std::int64_t begin() const { return begin_; }
-  std::int64_t end() const { return begin_ + std::ssize(normals_); }
+  std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< number of the one after the last
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }
-  /// Whoever goes along the path in stretches keeps little of it.
+  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of interval end()
+  /// Forgets the intervals before that number: whoever goes along the path in stretches keeps little of it.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());
     normals_.erase(normals_.begin(), normals_.begin() + (known - begin_));
     begin_ = known;
   }
 
-  /// Those of intervals from .. to - 1 in one. Throws std::invalid_argument if they are not held.
+  /// The numbers of intervals from .. to - 1 made those of one. Throws std::invalid_argument if they are not
+  /// held.
   void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
     if (from < begin_ || to > end()) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "the recorded path holds the intervals {} to {} of length {}, but the run needs {} to {}: record a "
           "longer one",
           begin_, end(), interval_, from, to));

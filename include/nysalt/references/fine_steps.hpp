@@ -26,7 +26,8 @@ class fine_steps {
     }
   }
 
-  /// Throws std::invalid_argument unless t is a multiple of the step, to 1e-9 relative.
+  /// x becomes the state a time t later. Throws std::invalid_argument unless t is a multiple of the step, to
+  /// 1e-9 relative.
   template <SeparableSystem S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t) const {
     const double ratio = t / step_;
@@ -41,7 +42,7 @@ class fine_steps {
     x = fine.synchronous(run);
   }
 
-  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }
+  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
   std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
  private:

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
@@ -13,6 +11,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -25,11 +24,11 @@ class odeint_reference {
   explicit odeint_reference(double tolerance) : tolerance_(tolerance) {
     if (!(tolerance > 0.0 && tolerance < 1.0)) {
       throw std::invalid_argument(
-          fmt::format("odeint_reference: the tolerance must lie in (0, 1), got {}", tolerance));
+          sentence("odeint_reference: the tolerance must lie in (0, 1), got {}", tolerance));
     }
   }
 
-  /// Throws std::invalid_argument if the system is in a noisy bath.
+  /// x becomes the state a time t later. Throws std::invalid_argument if the system is in a noisy bath.
   template <SeparableSystem S>
   void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     namespace odeint = boost::numeric::odeint;
@@ -60,10 +59,11 @@ class odeint_reference {
     }
   }
 
-  double tolerance() const { return tolerance_; }
+  double tolerance() const { return tolerance_; }  ///< of a step's error, absolute and relative
+  /// With a hundredth of the tolerance.
   odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
   std::string description() const {
-    return fmt::format("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);
+    return sentence("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);
   }
 
  private:
@@ -73,8 +73,8 @@ class odeint_reference {
       const bath& its = system.bath();
       if (its.sigma() == 0.0) return its.friction();
       throw std::invalid_argument(
-          fmt::format("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
-                      its.description()));
+          sentence("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
+                   its.description()));
     }
     return 0.0;
   }

@@ -29,7 +29,7 @@ inline void put_folder_on_disk(const std::filesystem::path& file) {
 /// mix, as the writer is the process.
 class atomic_file {
  public:
-  /// Throws std::runtime_error if it cannot be made.
+  /// Makes NAME.WRITER.part. Throws std::runtime_error if it cannot be made.
   explicit atomic_file(std::filesystem::path path, const std::string& writer = std::to_string(getpid()))
       : path_(std::move(path)), part_(path_) {
     part_ += fmt::format(".{}.part", writer);
@@ -45,13 +45,14 @@ class atomic_file {
   atomic_file(const atomic_file&) = delete;
   atomic_file& operator=(const atomic_file&) = delete;
 
-  /// Throws std::runtime_error if it cannot be written.
+  /// Appends the text. Throws std::runtime_error if it cannot be written.
   void write(std::string_view text) {
     if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
   }
 
-  /// Throws std::runtime_error if what was written did not arrive; then an older file is as it was. If it is
-  /// to be `durable`, it outlasts the machine's power too, which costs some milliseconds.
+  /// Gives the file its name. Throws std::runtime_error if what was written did not arrive; then an older
+  /// file is as it was. If it is to be `durable`, it outlasts the machine's power too, which costs some
+  /// milliseconds.
   void commit(bool durable = false) {
     stream_.close();
     std::error_code failure;

@@ -83,7 +83,7 @@ inline std::vector<std::string_view> without_empty(const std::vector<std::string
 
 /// Without the prolog, which only a file may have, named for those who cannot see it, and with ids of its
 /// own: gnuplot gives the same ones to each picture, and the first in a page would serve all. `name` is that
-/// prefix, `label` is escaped already. Empty if there is no such file, or no whole <svg> in it.
+/// prefix, `label` is escaped already. Empty if there is no such file, or no whole svg element in it.
 inline std::string inline_svg(const std::filesystem::path& file, const std::string& name,
                               const std::string& label) {
   std::ifstream stream(file, std::ios::binary);

@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// Sentences (titles, paragraphs, items, captions) have `code`, **bold** and [text](link) and nothing else:
+/// Sentences (titles, paragraphs, items, captions) have `` `code` ``, `**bold**` and `[text](link)`, no more:
 /// every other character stands for itself, also `<`. Cells of tables and commands have no markup at all.
 ///
 ///     page report("Speed against error");
@@ -29,12 +29,17 @@ namespace nysalt {
 ///     write_file(folder / "report.html", report.html(folder));
 class page {
  public:
-  explicit page(std::string title) : title_(std::move(title)) {}
+  explicit page(std::string title) : title_(std::move(title)) {}  ///< empty but for its title
 
+  /// Begins a section.
   void heading(std::string text) { blocks_.push_back(heading_block{2, std::move(text)}); }
+  /// Begins a part of a section.
   void subheading(std::string text) { blocks_.push_back(heading_block{3, std::move(text)}); }
+  /// A paragraph: a sentence or several.
   void text(std::string paragraph) { blocks_.push_back(text_block{std::move(paragraph)}); }
+  /// A list with a dot before each item.
   void list(std::vector<std::string> items) { blocks_.push_back(list_block{std::move(items)}); }
+  /// A table; words of its cells are set as they are.
   void table(nysalt::table its) { blocks_.push_back(table_block{std::move(its)}); }
   /// A command or an output, as it is.
   void code(std::string text) { blocks_.push_back(code_block{std::move(text)}); }
@@ -50,7 +55,7 @@ class page {
     figures_.push_back(std::move(its));
   }
 
-  /// GitHub's Markdown; a picture is ![caption](PICTURES/NAME.svg) and its caption below.
+  /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which stands below again.
   std::string markdown(const std::string& pictures = "") const {
     return page_markdown(title_, blocks_, pictures);
   }
@@ -59,7 +64,7 @@ class page {
   std::string html(const std::filesystem::path& pictures) const {
     return page_html(title_, blocks_, pictures);
   }
-  /// In the order of the page.
+  /// The pictures, in the order of the page.
   const std::vector<figure>& figures() const { return figures_; }
 
  private:

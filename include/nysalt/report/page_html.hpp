@@ -136,6 +136,7 @@ inline std::string html_contents(const std::vector<page_block>& blocks) {
 
 }  // namespace detail
 
+/// See page::html().
 inline std::string page_html(const std::string& title, const std::vector<page_block>& blocks,
                              const std::filesystem::path& pictures) {
   std::string result = fmt::format(

@@ -74,6 +74,7 @@ struct markdown_of_block {
 
 }  // namespace detail
 
+/// See page::markdown().
 inline std::string page_markdown(const std::string& title, const std::vector<page_block>& blocks,
                                  const std::string& pictures) {
   std::string result = fmt::format("# {}\n", detail::markdown_sentence(title));

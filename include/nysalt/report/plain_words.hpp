@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The little markup that the sentences of a report have: `code`, **bold** and [text](link).
+// The little markup that the sentences of a report have: `` `code` ``, `**bold**` and `[text](link)`.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,13 @@
 
 namespace nysalt {
 
+/// Words of one style.
 struct styled_words {
+  /// How words are set.
   enum class kind { plain, code, bold, link };
-  kind is = kind::plain;
-  std::string text;
-  std::string address{};  // of a link
+  kind is = kind::plain;  ///< their style
+  std::string text;       ///< the words, without marks
+  std::string address{};  ///< of a link
 };
 
 namespace detail {

@@ -20,7 +20,7 @@ class table {
   explicit table(std::vector<std::string> columns, std::size_t left = 1)
       : columns_(std::move(columns)), left_(left) {}
 
-  /// Throws std::invalid_argument unless there is a cell for each column.
+  /// Adds a row. Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells) {
     if (cells.size() != columns_.size()) {
       throw std::invalid_argument(
@@ -29,9 +29,11 @@ class table {
     rows_.push_back(std::move(cells));
   }
 
-  bool empty() const { return rows_.empty(); }
+  bool empty() const { return rows_.empty(); }  ///< whether there is no row
 
+  /// Columns aligned by blanks, with a rule below their names.
   std::string text() const { return lay_out("", "  ", "", '-'); }
+  /// GitHub's Markdown, aligned too; cells are escaped.
   std::string markdown() const {
     table safe(*this);
     for (auto& cell : safe.columns_) cell = markdown_escaped(cell);
@@ -41,7 +43,7 @@ class table {
     return safe.lay_out("| ", " | ", " |", '-');
   }
 
-  /// Numbers are of class n.
+  /// An HTML table; cells of numbers are of class n.
   std::string html() const {
     std::string result = "<table>\n<thead>\n";
     const auto line = [&](const std::vector<std::string>& cells, const char* tag) {

@@ -19,20 +19,22 @@
 
 namespace nysalt {
 
+/// A method at a step: what it costs, and how far it errs.
 struct work_precision_row {
-  std::string method;
-  double step;
-  double evaluations_per_time;  // force evaluations of a trajectory per unit time, counted
-  double seconds_per_time;      // measured
-  estimate error;               // NaN if every trajectory diverged
-  std::int64_t diverged;
-  std::int64_t trajectories;
-  std::optional<double> floor = {};  // of sampling: what the error would be of a method without any
-  bool learned = false;
-  bool counts = true;  // false where the error says nothing: beyond a limit; drawn hollow
+  std::string method;                ///< name; rows of one name make a curve
+  double step;                       ///< h
+  double evaluations_per_time;       ///< force evaluations of a trajectory per unit time, counted
+  double seconds_per_time;           ///< measured, of a trajectory per unit time
+  estimate error;                    ///< NaN if every trajectory diverged
+  std::int64_t diverged;             ///< number of trajectories that did
+  std::int64_t trajectories;         ///< number of all
+  std::optional<double> floor = {};  ///< of sampling: what the error would be of a method without any
+  bool learned = false;              ///< whether it is to be emphasised
+  bool counts = true;                ///< false where the error says nothing: beyond a limit; drawn hollow
 };
 
-/// `value` is what the errors are called, if they are others.
+/// A row each: evaluations and nanoseconds per unit time, error and its standard error, how many diverged,
+/// and the floor if there is one. `value` is what the errors are called, if they are others.
 inline table work_precision_table(const std::vector<work_precision_row>& rows,
                                   const std::string& value = "error") {
   std::vector<std::string> columns{"method", "step",           "evaluations/time", "ns/time",

@@ -24,13 +24,13 @@ namespace nysalt {
 /// Cost: a sum is 7 operations instead of 1, of which the next step waits for 2.
 template <Scalar T>
 struct compensated {
-  T value{};
-  T carry{};
+  T value{};  ///< the sum, rounded to T
+  T carry{};  ///< what rounding took from it: goes into the next sum
 
   compensated() = default;
-  compensated(double x) : value(x), carry(0.0) {}
-  compensated(const T& x) requires(!std::same_as<T, double>) : value(x), carry(0.0) {}
-  explicit operator T() const { return value; }
+  compensated(double x) : value(x), carry(0.0) {}                                       ///< nothing carried
+  compensated(const T& x) requires(!std::same_as<T, double>) : value(x), carry(0.0) {}  ///< nothing carried
+  explicit operator T() const { return value; }                                         ///< without the carry
 
   compensated& operator+=(const compensated& b) {
     const T summand = b.value + carry;
@@ -58,6 +58,7 @@ struct compensated {
   friend auto operator!=(const compensated& a, const compensated& b) { return a.value != b.value; }
 };
 
+/// a where the condition holds, else b, carries included.
 template <class T>
 compensated<T> select(const auto& condition, const compensated<T>& a, const compensated<T>& b) {
   compensated<T> result;
@@ -127,7 +128,7 @@ compensated<T> abs(const compensated<T>& a) {
   using std::abs;
   return T(abs(a.value));
 }
-/// The exponent is a constant.
+/// Of the value; the exponent is a constant.
 template <class T>
 compensated<T> pow(const compensated<T>& a, double exponent) {
   using std::pow;

@@ -16,13 +16,14 @@ namespace nysalt {
 /// Cost: an operation on dual<T, N> is N + 1 to 2 N + 1 operations on T.
 template <Scalar T, int N>
 struct dual {
-  using value_type = T;
-  static constexpr int derivatives = N;
+  using value_type = T;                  ///< which may be a dual or a pack itself
+  static constexpr int derivatives = N;  ///< how many are carried
 
-  T value{};
-  std::array<T, N> derivative{};
+  T value{};                      ///< of the function
+  std::array<T, N> derivative{};  ///< of the function by each variable
 
   dual() = default;
+  /// Its derivatives are 0.
   dual(double constant) : value(constant) { derivative.fill(T(0.0)); }
   dual(const T& constant) requires(!std::same_as<T, double>) : value(constant) { derivative.fill(T(0.0)); }
 
@@ -104,12 +105,14 @@ dual<T, N> select(const auto& condition, const dual<T, N>& a, const dual<T, N>& 
   return result;
 }
 
+/// Whether a type is dual<T, N> for some T and N.
 template <class T>
 inline constexpr bool is_dual = false;
 template <class T, int N>
-inline constexpr bool is_dual<dual<T, N>> = true;
+inline constexpr bool is_dual<dual<T, N>> = true;  ///< it is
 
 // Elementary functions: unqualified calls find libm for double and these for duals.
+/// (sqrt a)' = a'/(2 sqrt a), which is not finite at 0.
 template <class T, int N>
 dual<T, N> sqrt(const dual<T, N>& a) {
   using std::sqrt;
@@ -122,6 +125,7 @@ dual<T, N> exp(const dual<T, N>& a) {
   const T value = exp(a.value);
   return a.chain(value, value);
 }
+/// e^a - 1, accurate near 0.
 template <class T, int N>
 dual<T, N> expm1(const dual<T, N>& a) {
   using std::exp;
@@ -174,14 +178,14 @@ dual<T, N> tanh(const dual<T, N>& a) {
   const T value = tanh(a.value);
   return a.chain(value, T(1.0) - value * value);
 }
-/// The exponent is a constant.
+/// (a^c)' = c a^(c - 1) a'; the exponent is a constant.
 template <class T, int N>
 dual<T, N> pow(const dual<T, N>& a, double exponent) {
   using std::pow;
   const T slope = exponent == 0.0 ? T(0.0) : T(exponent * pow(a.value, exponent - 1.0));
   return a.chain(pow(a.value, exponent), slope);
 }
-/// The derivative at 0 is taken from the right.
+/// Absolute value. The derivative at 0 is taken from the right.
 template <class T, int N>
 dual<T, N> abs(const dual<T, N>& a) {
   return select(a.value < 0.0, -a, a);

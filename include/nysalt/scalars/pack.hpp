@@ -21,16 +21,18 @@ template <class T, int W = default_lanes>
   requires(std::same_as<T, double> && 1 <= W && W <= 16)
 class pack {
  public:
-  static constexpr int lanes = W;
-  static constexpr int of_part = detail::lanes_of_part(W);
-  using part = typename detail::native_vector<of_part>::type;
-  using mask = lane_mask<W>;
+  static constexpr int lanes = W;                              ///< how many numbers
+  static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
+  using part = typename detail::native_vector<of_part>::type;  ///< a register
+  using mask = lane_mask<W>;                                   ///< what comparing two packs gives
 
   pack() = default;
+  /// The same number in all lanes, with its sign if it is zero.
   pack(double all) {
     for (part& mine : parts) mine = all - part{};  // - keeps the sign of zero
   }
 
+  /// The number in lane 0 <= lane < W; not checked.
   double operator[](int lane) const {
     if constexpr (of_part == 1) {
       return parts[static_cast<std::size_t>(lane)];
@@ -38,6 +40,7 @@ class pack {
       return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part];
     }
   }
+  /// Puts a number into lane 0 <= lane < W; not checked.
   void set(int lane, double value) {
     if constexpr (of_part == 1) {
       parts[static_cast<std::size_t>(lane)] = value;
@@ -91,6 +94,7 @@ class pack {
         a, b, [](part x, part y) __attribute__((always_inline)) { return x != y; });
   }
 
+  /// a in the lanes `which`, b in the others; both have been evaluated.
   friend pack select(const mask& which, const pack& a, const pack& b) {
     pack result;
     for (std::size_t i = 0; i < a.parts.size(); ++i) {
@@ -99,7 +103,7 @@ class pack {
     return result;
   }
 
-  std::array<part, W / of_part> parts;
+  std::array<part, W / of_part> parts;  ///< lane k is in parts[k / of_part]
 
  private:
   [[gnu::always_inline]] static pack each(const pack& a, const pack& b, auto f) {
@@ -119,12 +123,13 @@ static_assert(
     alignof(pack<double>) <= EIGEN_DEFAULT_ALIGN_BYTES || alignof(pack<double>) <= 16,
     "nysalt: Eigen aligns for less than a register of this target: define EIGEN_MAX_ALIGN_BYTES=64");
 
+/// Whether a type is a pack of any width.
 template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
-inline constexpr bool is_pack<pack<T, W>> = true;
+inline constexpr bool is_pack<pack<T, W>> = true;  ///< it is
 
-/// Rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
+/// Square root, rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
 template <int W>
 pack<double, W> sqrt(const pack<double, W>& a) {
   pack<double, W> result;
@@ -186,7 +191,7 @@ template <int W>
 pack<double, W> tanh(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::tanh(x); });
 }
-/// The exponent is a constant.
+/// libm's, lane by lane; the exponent is a constant.
 template <int W>
 pack<double, W> pow(const pack<double, W>& a, double exponent) {
   return detail::by_lane(a, [&](double x) { return std::pow(x, exponent); });

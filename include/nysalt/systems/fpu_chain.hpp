@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -22,22 +21,23 @@ class fpu_chain {
  public:
   static constexpr int dimension = Pairs == Eigen::Dynamic ? Eigen::Dynamic : 2 * Pairs;
 
-  /// Throws std::invalid_argument unless omega is positive and finite.
+  /// Stiff springs of frequency omega. Throws std::invalid_argument unless omega is positive and finite.
   explicit fpu_chain(double omega) requires(Pairs != Eigen::Dynamic) : fpu_chain(Pairs, omega) {}
 
-  /// Throws std::invalid_argument unless pairs >= 1 (and fits Pairs), omega positive and finite.
+  /// `pairs` stiff springs of frequency omega. Throws std::invalid_argument unless pairs >= 1 (and fits
+  /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
-      throw std::invalid_argument(fmt::format("fpu_chain: cannot have {} pairs of masses", pairs));
+      throw std::invalid_argument(sentence("fpu_chain: cannot have {} pairs of masses", pairs));
     }
     if (!(omega > 0.0) || !std::isfinite(omega)) {
-      throw std::invalid_argument(fmt::format("fpu_chain: omega must be positive and finite, got {}", omega));
+      throw std::invalid_argument(sentence("fpu_chain: omega must be positive and finite, got {}", omega));
     }
   }
 
-  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }
+  Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }  ///< m, stiff springs
   Eigen::Index size() const { return 2 * pairs(); }
-  double omega() const { return omega_; }
+  double omega() const { return omega_; }  ///< of the stiff springs
 
   template <class T>
   T potential(const vector<T, dimension>& q) const {
@@ -73,7 +73,7 @@ class fpu_chain {
     }
   }
 
-  /// That of the soft bonds alone.
+  /// The force of the soft bonds alone.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     T left = quartic_pull(q[0]);
@@ -138,7 +138,7 @@ class fpu_chain {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
   }
-  std::string description() const { return fmt::format("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
+  std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
 
  private:
   template <class T>

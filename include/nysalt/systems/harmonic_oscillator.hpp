@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -21,7 +20,7 @@ class harmonic_oscillator {
   explicit harmonic_oscillator(double omega) : omega_(omega) {
     if (!(omega > 0.0) || !std::isfinite(omega)) {
       throw std::invalid_argument(
-          fmt::format("harmonic_oscillator: omega must be positive and finite, got {}", omega));
+          sentence("harmonic_oscillator: omega must be positive and finite, got {}", omega));
     }
   }
 
@@ -34,12 +33,12 @@ class harmonic_oscillator {
     f[0] = q[0] * (-omega_ * omega_);
   }
 
-  double omega() const { return omega_; }
+  double omega() const { return omega_; }  ///< angular frequency
   normal_modes modes() const {
     return {Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Constant(1, omega_)};
   }
   std::vector<frequency_band> frequency_bands() const { return {{omega_, omega_}}; }
-  std::string description() const { return fmt::format("harmonic_oscillator(omega={})", omega_); }
+  std::string description() const { return sentence("harmonic_oscillator(omega={})", omega_); }
 
  private:
   double omega_;

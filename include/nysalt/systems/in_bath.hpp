@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -15,15 +16,16 @@ template <NystromSystem S>
   requires(!std::is_final_v<S> && !HasBath<S>)
 class in_bath : public S {
  public:
+  /// The bath may be one that does not act.
   in_bath(S system, nysalt::bath its_bath) : S(std::move(system)), bath_(std::move(its_bath)) {}
 
   const nysalt::bath& bath() const { return bath_; }
-  const S& alone() const { return *this; }
+  const S& alone() const { return *this; }  ///< without the bath
 
-  /// A bath that does not act goes without saying.
+  /// The system, and the bath that it is in; one that does not act goes without saying.
   std::string description() const {
     if (!bath_.acts()) return describe(alone());
-    return fmt::format("{} in {}", describe(alone()), bath_.description());
+    return sentence("{} in {}", describe(alone()), bath_.description());
   }
 
  private:

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -31,15 +30,15 @@ class lennard_jones {
   /// Throws std::invalid_argument unless space is 2 or 3 and atoms >= 2 (and both fit the type).
   lennard_jones(Eigen::Index space, Eigen::Index atoms) : space_(space), atoms_(atoms) {
     if ((space != 2 && space != 3) || (Space != Eigen::Dynamic && space != Space)) {
-      throw std::invalid_argument(fmt::format("lennard_jones: space has 2 or 3 dimensions, not {}", space));
+      throw std::invalid_argument(sentence("lennard_jones: space has 2 or 3 dimensions, not {}", space));
     }
     if (atoms < 2 || (Atoms != Eigen::Dynamic && atoms != Atoms)) {
-      throw std::invalid_argument(fmt::format("lennard_jones: cannot be of {} atoms", atoms));
+      throw std::invalid_argument(sentence("lennard_jones: cannot be of {} atoms", atoms));
     }
   }
 
-  Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }
-  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }
+  Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }  ///< 2 or 3 dimensions
+  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }  ///< at least 2
   Eigen::Index size() const { return space() * atoms(); }
 
   template <class T>
@@ -52,7 +51,7 @@ class lennard_jones {
     return sum * 4.0;
   }
 
-  /// On the first of a pair at distance d: (48 r^-14 - 24 r^-8) d.
+  /// f = -grad V(q): (48 r^-14 - 24 r^-8) d on the first of a pair, d being the way to it from the second.
   template <class T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (auto& entry : f) entry = T(0.0);
@@ -67,9 +66,7 @@ class lennard_jones {
     });
   }
 
-  std::string description() const {
-    return fmt::format("lennard_jones(space={}, atoms={})", space(), atoms());
-  }
+  std::string description() const { return sentence("lennard_jones(space={}, atoms={})", space(), atoms()); }
 
  private:
   /// Calls f(first, second, d, 1/r^2) for each pair of atoms: where the coordinates of each begin, and the

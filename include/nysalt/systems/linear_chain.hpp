@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/stiffness_modes.hpp"
 
 namespace nysalt {
@@ -32,12 +31,12 @@ class linear_chain {
     if (inverse_masses_.size() == 0) inverse_masses_ = Eigen::VectorXd::Ones(n);
     if (n > 0 && (inverse_masses_.size() != n || !(inverse_masses_.minCoeff() > 0.0) ||
                   !inverse_masses_.allFinite())) {
-      throw std::invalid_argument(fmt::format("linear_chain: {} positive, finite masses are needed", n));
+      throw std::invalid_argument(sentence("linear_chain: {} positive, finite masses are needed", n));
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
     modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
-    description_ = fmt::format("linear_chain(masses={}, omega_max={}, fingerprint={:016x})", n,
-                               modes_.frequencies.maxCoeff(), fingerprint());
+    description_ = sentence("linear_chain(masses={}, omega_max={}, fingerprint={})", n,
+                            modes_.frequencies.maxCoeff(), in_hexadecimal(fingerprint()));
   }
 
   /// Equal masses in a row, each joined to its neighbours and the walls by springs of one stiffness.
@@ -45,11 +44,11 @@ class linear_chain {
   static linear_chain between_walls(Eigen::Index masses, double spring, double mass = 1.0) {
     if (masses < 1) {
       throw std::invalid_argument(
-          fmt::format("linear_chain: at least one mass must be between the walls, got {}", masses));
+          sentence("linear_chain: at least one mass must be between the walls, got {}", masses));
     }
     if (!(spring > 0.0) || !(mass > 0.0) || !std::isfinite(spring) || !std::isfinite(mass)) {
-      throw std::invalid_argument(fmt::format(
-          "linear_chain: spring and mass must be positive and finite, got {} and {}", spring, mass));
+      throw std::invalid_argument(
+          sentence("linear_chain: spring and mass must be positive and finite, got {} and {}", spring, mass));
     }
     Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses, masses);
     stiffness.diagonal().setConstant(2.0 * spring);
@@ -77,7 +76,7 @@ class linear_chain {
     }
   }
 
-  /// All of it is quadratic.
+  /// Zero: all of V is quadratic.
   template <class T>
   void soft_force(const vector<T, dimension>&, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = T(0.0);
@@ -102,6 +101,12 @@ class linear_chain {
     for (const double x : stiffness_.reshaped()) add(x);
     for (const double x : inverse_masses_) add(x);
     return hash;
+  }
+
+  static std::string in_hexadecimal(std::uint64_t x) {
+    std::string digits(16, '0');
+    for (auto digit = digits.rbegin(); x != 0; ++digit, x >>= 4) *digit = "0123456789abcdef"[x & 0xfU];
+    return digits;
   }
 
   Eigen::MatrixXd stiffness_;

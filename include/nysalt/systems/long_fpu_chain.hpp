@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt {
@@ -20,15 +19,16 @@ class long_fpu_chain {
  public:
   static constexpr int dimension = Eigen::Dynamic;
 
-  /// Throws std::invalid_argument unless pairs >= 1, omega positive and finite.
+  /// `pairs` stiff springs of frequency omega. Throws std::invalid_argument unless pairs >= 1, omega positive
+  /// and finite.
   long_fpu_chain(Eigen::Index pairs, double omega) : in_turn_(pairs, omega) {}
 
-  Eigen::Index pairs() const { return in_turn_.pairs(); }
+  Eigen::Index pairs() const { return in_turn_.pairs(); }  ///< m, stiff springs
   Eigen::Index size() const { return in_turn_.size(); }
-  double omega() const { return in_turn_.omega(); }
+  double omega() const { return in_turn_.omega(); }  ///< of the stiff springs
 
-  /// Positions or momenta from the order of fpu_chain, mass after mass, to that of this chain; and back.
-  /// Throw std::invalid_argument if there are not 2 m of them.
+  /// Positions or momenta from the order of fpu_chain, mass after mass, to that of this chain. Throws
+  /// std::invalid_argument if there are not 2 m of them.
   template <class T>
   vector<T, dimension> ends_apart(const vector<T, dimension>& in_turn) const {
     require_size(in_turn.size());
@@ -39,6 +39,7 @@ class long_fpu_chain {
     }
     return apart;
   }
+  /// From the order of this chain to that of fpu_chain. Throws likewise.
   template <class T>
   vector<T, dimension> ends_in_turn(const vector<T, dimension>& apart) const {
     require_size(apart.size());
@@ -50,7 +51,7 @@ class long_fpu_chain {
     return in_turn;
   }
 
-  /// Cost: that of fpu_chain, and a copy of q.
+  /// V(q). Cost: that of fpu_chain, and a copy of q.
   template <class T>
   T potential(const vector<T, dimension>& q) const {
     return in_turn_.potential(ends_in_turn(q));
@@ -92,9 +93,7 @@ class long_fpu_chain {
   std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
     return in_turn_.frequency_bands(soft_energy);
   }
-  std::string description() const {
-    return fmt::format("long_fpu_chain(pairs={}, omega={})", pairs(), omega());
-  }
+  std::string description() const { return sentence("long_fpu_chain(pairs={}, omega={})", pairs(), omega()); }
 
  private:
   /// use(i, stiff, left, right) for stiff springs i = 0..m-1: its own pull and those of the soft ones on
@@ -123,7 +122,7 @@ class long_fpu_chain {
 
   void require_size(Eigen::Index n) const {
     if (n == size()) return;
-    throw std::invalid_argument(fmt::format("long_fpu_chain: {} masses have no {} coordinates", size(), n));
+    throw std::invalid_argument(sentence("long_fpu_chain: {} masses have no {} coordinates", size(), n));
   }
 
   fpu_chain<> in_turn_;

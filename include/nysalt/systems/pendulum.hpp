@@ -24,7 +24,7 @@ struct pendulum {
     f[0] = -sin(q[0]);
   }
 
-  /// At the bottom; oscillations grow slower with their amplitude.
+  /// Up to 1, that at the bottom: oscillations grow slower with their amplitude.
   std::vector<frequency_band> frequency_bands() const { return {{0.0, 1.0}}; }
   std::string description() const { return "pendulum()"; }
 };

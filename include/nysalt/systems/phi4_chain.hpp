@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -27,7 +26,7 @@ class phi4_chain {
   /// Throws std::invalid_argument unless masses >= 1 (and fits Masses).
   explicit phi4_chain(Eigen::Index masses) : masses_(masses) {
     if (masses >= 1 && (Masses == Eigen::Dynamic || masses == Masses)) return;
-    throw std::invalid_argument(fmt::format("phi4_chain: cannot have {} masses", masses));
+    throw std::invalid_argument(sentence("phi4_chain: cannot have {} masses", masses));
   }
 
   Eigen::Index size() const { return Masses == Eigen::Dynamic ? masses_ : Masses; }
@@ -55,14 +54,14 @@ class phi4_chain {
     }
   }
 
-  /// That of the wells alone, -q_i^3.
+  /// The force of the wells alone, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
   }
 
-  /// Of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of each
-  /// but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
+  /// Modes of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of
+  /// each but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
   normal_modes modes() const {
     const Eigen::Index n = size();
     normal_modes result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
@@ -85,7 +84,7 @@ class phi4_chain {
   std::vector<frequency_band> frequency_bands(double well_energy = 2.0) const {
     return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
   }
-  std::string description() const { return fmt::format("phi4_chain(masses={})", size()); }
+  std::string description() const { return sentence("phi4_chain(masses={})", size()); }
 
  private:
   Eigen::Index next(Eigen::Index i) const { return i + 1 < size() ? i + 1 : 0; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nysalt/force.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stiffness_modes.hpp"
 
 namespace nysalt {
@@ -15,8 +16,8 @@ template <NystromSystem S>
   requires(!std::is_final_v<S>)
 class with_quadratic_part : public S {
  public:
-  /// Throws std::invalid_argument unless K is square, of the system's size, finite, symmetric, and no
-  /// eigenvalue is negative.
+  /// K is `stiffness`, N x N. Throws std::invalid_argument unless K is square, of the system's size, finite,
+  /// symmetric, and no eigenvalue is negative.
   with_quadratic_part(S system, Eigen::MatrixXd stiffness)
       : S(std::move(system)), stiffness_(std::move(stiffness)) {
     Eigen::VectorXd inverse_masses = Eigen::VectorXd::Ones(nysalt::size(alone()));
@@ -26,10 +27,10 @@ class with_quadratic_part : public S {
     modes_ = stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
   }
 
-  const S& alone() const { return *this; }
+  const S& alone() const { return *this; }  ///< as it was given
   normal_modes modes() const { return modes_; }
 
-  /// f + K q. Cost: a force and N^2 products.
+  /// The rest of the force, f + K q. Cost: a force and N^2 products.
   template <class T>
     requires SystemOver<S, T>
   void soft_force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
@@ -42,8 +43,8 @@ class with_quadratic_part : public S {
   }
 
   std::string description() const {
-    return fmt::format("{} with a quadratic part of frequencies up to {}", describe(alone()),
-                       modes_.frequencies.maxCoeff());
+    return sentence("{} with a quadratic part of frequencies up to {}", describe(alone()),
+                    modes_.frequencies.maxCoeff());
   }
 
  private:

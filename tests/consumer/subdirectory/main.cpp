@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A pendulum in a project that holds the sources of nysalt.
-#include <fmt/format.h>
+#include <cstdio>
 
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/mclachlan.hpp"
@@ -10,7 +10,7 @@ int main() {
   using namespace nysalt;
   const phase_point<double, 1> start{vector<double, 1>(1.0), vector<double, 1>(0.0)};
   const auto end = integrate(pendulum{}, mclachlan2{}, 0.1, start, 1000);
-  fmt::print("{}\n", end.diverged_at ? "diverged" : "still swinging");
+  std::puts(end.diverged_at ? "diverged" : "still swinging");
 }
 
 // Expected output:

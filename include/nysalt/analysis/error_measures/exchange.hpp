@@ -18,6 +18,7 @@ concept HasStiffEnergiesOver = System<S> &&
   { system.pairs() } -> std::convertible_to<Eigen::Index>;
   { system.stiff_energy(x, j) } -> std::same_as<T>;
 };
+/// The same over double.
 template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "arrays.hpp"
+
+#include "../src/refusal.hpp"
+
+namespace nysalt::python {
+
+namespace py = pybind11;
+using program::refuse;
+
+std::string shape_text(const std::vector<std::int64_t>& shape) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < shape.size(); ++i) text += fmt::format("{}{}", i > 0 ? ", " : "", shape[i]);
+  return text + (shape.size() == 1 ? ",)" : ")");
+}
+
+std::vector<std::int64_t> shape_of(const py::array& array) {
+  return {array.shape(), array.shape() + array.ndim()};
+}
+
+std::span<double> writable(const py::handle& given, const std::string& name,
+                           const std::vector<std::int64_t>& shape) {
+  if (!py::isinstance<py::array>(given)) {
+    refuse("{} must be a NumPy array of float64 to be filled, got {}", name, Py_TYPE(given.ptr())->tp_name);
+  }
+  auto array = py::reinterpret_borrow<py::array>(given);
+  if (!py::isinstance<py::array_t<double>>(given)) {
+    refuse("{} must hold float64 to be filled, it holds {}", name,
+           py::str(array.dtype()).cast<std::string>());
+  }
+  if (shape_of(array) != shape) {
+    refuse("{} must have the shape {}, it has {}", name, shape_text(shape), shape_text(shape_of(array)));
+  }
+  if ((array.flags() & py::array::c_style) == 0) {
+    refuse("{} must lie one row after the other to be filled: np.ascontiguousarray makes such a copy", name);
+  }
+  if (!array.writeable()) refuse("{} is read-only and cannot be filled", name);
+  return {static_cast<double*>(array.mutable_data()), static_cast<std::size_t>(array.size())};
+}
+
+numbers_array numbers_of(const py::handle& given, const std::string& name) {
+  auto array = numbers_array::ensure(given);
+  if (!array) refuse("{} must hold numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
+  return array;
+}
+
+std::span<const double> numbers_in(const numbers_array& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+}  // namespace nysalt::python

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "commands.hpp"
+
+#include <string>
+
+#include "../src/comparison.hpp"
+#include "../src/lesson.hpp"
+#include "../src/listing.hpp"
+#include "../src/method_file.hpp"
+#include "../src/recommendation.hpp"
+#include "build_info.hpp"
+#include "computing.hpp"
+#include "given.hpp"
+#include "nysalt/report/write_file.hpp"
+#include "refused.hpp"
+#include "systems.hpp"
+
+namespace nysalt::python {
+
+namespace py = pybind11;
+using program::json;
+
+namespace {
+
+std::string dumped(const json& document) {
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+py::tuple learn(const held_system& system, const py::dict& arguments) {
+  const given its(arguments);
+  const auto common = common_of(its, system.calls_python());
+  const auto command = learn_of(its, system.settings);
+  std::string document;
+  std::string file;
+  compute(system.calls_python(), [&] {
+    program::lesson lesson(command, common);
+    lesson.learn();
+    document = dumped(lesson.document());
+    file = lesson.scheme();
+  });
+  return py::make_tuple(document, file);
+}
+
+std::string compare(const held_system& system, const py::dict& arguments) {
+  const given its(arguments);
+  const auto common = common_of(its, system.calls_python());
+  const auto command = compare_of(its, system.settings);
+  std::string document;
+  compute(system.calls_python(), [&] {
+    program::comparison all(command, common);
+    program::journal nowhere;
+    all.learn_and_measure(nowhere);
+    document = dumped(document_of(all));
+  });
+  return document;
+}
+
+py::tuple recommend(const held_system& system, const py::dict& arguments) {
+  const given its(arguments);
+  const auto common = common_of(its, system.calls_python());
+  const auto command = recommend_of(its, system.settings);
+  std::string document;
+  py::object file = py::none();
+  std::optional<std::string> scheme;
+  compute(system.calls_python(), [&] {
+    program::recommendation all(command, common);
+    all.learn_and_rank();
+    document = dumped(all.document());
+    scheme = all.scheme();
+  });
+  if (scheme) file = py::str(*scheme);
+  return py::make_tuple(document, file);
+}
+
+/// What a file of a method says, and whether it is one. Of a scheme at a step, or at that with which it
+/// begins.
+py::dict method(const std::string& text, const std::string& name, const py::object& step) {
+  const auto its = program::method_file_in(text, name);
+  double at = its.learned ? its.learned->curve.steps().front() : 0.0;
+  py::dict arguments;
+  arguments["step"] = step;
+  given(arguments).take("step", at);
+  const tabulated found = its.learned ? its.learned->at(at) : *its.table;
+  py::list coefficients;
+  for (const double c : found.coefficients()) coefficients.append(c);
+  py::dict all;
+  all["is_learned"] = its.learned.has_value();
+  all["letters"] = found.letters().letters();
+  all["coefficients"] = coefficients;
+  all["order"] = found.order;
+  all["symmetric"] = found.symmetric;
+  all["evaluations_per_step"] = found.letters().evaluations_per_step;
+  return all;
+}
+
+void save(const std::string& path, const std::string& text) {
+  try {
+    write_file(path, text);
+  } catch (const std::runtime_error& problem) {
+    PyErr_SetString(PyExc_OSError, problem.what());
+    throw py::error_already_set();
+  }
+}
+
+}  // namespace
+
+void add_commands(py::module_& module) {
+  module.attr("version") = program::version;
+  module.def("learn", &learn);
+  module.def("compare", &compare);
+  module.def("recommend", &recommend);
+  module.def("listing", [] { return dumped(program::listing()); });
+  module.def("method", &method);
+  module.def("save", &save);
+  module.def("in_words_of_python", &in_words_of_python);
+}
+
+}  // namespace nysalt::python

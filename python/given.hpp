@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+// The keyword arguments of a call, as the commands take them: what is None is left as it is.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../src/settings.hpp"
+
+namespace nysalt::python {
+
+class given {
+ public:
+  explicit given(pybind11::dict arguments) : arguments_(std::move(arguments)) {}
+
+  bool has(const char* name) const { return arguments_.contains(name) && !arguments_[name].is_none(); }
+  pybind11::object operator[](const char* name) const { return arguments_[name]; }
+
+  // Each throws refusal, naming the argument, for what is of another kind. A list may be one thing alone.
+  void take(const char* name, double& to) const;
+  void take(const char* name, std::int64_t& to) const;
+  void take(const char* name, bool& to) const;
+  void take(const char* name, std::string& to) const;
+  void take(const char* name, std::vector<double>& to) const;
+  void take(const char* name, std::vector<std::string>& to) const;
+  void take(const char* name, program::held_methods& to) const;
+  template <class T>
+  void take(const char* name, std::optional<T>& to) const {
+    if (has(name)) take(name, to.emplace());
+  }
+
+ private:
+  pybind11::dict arguments_;
+};
+
+/// seed, threads and force; a system that calls Python has one thread.
+program::common_settings common_of(const given& arguments, bool calls_python);
+program::system_settings system_of(const given& arguments);
+program::learn_command learn_of(const given& arguments, const program::system_settings& system);
+program::run_command run_of(const given& arguments, const program::system_settings& system);
+program::compare_command compare_of(const given& arguments, const program::system_settings& system);
+program::recommend_command recommend_of(const given& arguments, const program::system_settings& system);
+
+}  // namespace nysalt::python

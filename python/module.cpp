@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <pybind11/pybind11.h>
+
+#include "commands.hpp"
+#include "refused.hpp"
+#include "systems.hpp"
+
+/// What nysalt/__init__.py is made of. Its arguments are those of the program, in a dict; documents are JSON.
+PYBIND11_MODULE(_nysalt, module) {
+  nysalt::python::tell_refusals();
+  nysalt::python::add_systems(module);
+  nysalt::python::add_commands(module);
+  nysalt::python::add_trajectories(module);
+}

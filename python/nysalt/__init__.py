@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Learned symplectic integrators.
+
+    import nysalt
+
+    chain = nysalt.system("fpu", omega=50)
+    scheme = nysalt.learn(chain, step=0.02)
+    run = nysalt.run(chain, scheme, step=0.02, horizon=100, trajectories=8)
+    run["stiff_energy"]          # trajectories x samples
+
+The functions are those of the program `nysalt`, with its defaults and its numbers to the last bit; an argument
+that is None is left to its default. Bad input is a ValueError of one sentence. Long calls release the
+interpreter's lock, except for a Hamiltonian of your own, and end upon Ctrl-C.
+"""
+
+import json as _json
+import os as _os
+import warnings as _warnings
+from dataclasses import dataclass as _dataclass
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _nysalt
+
+__version__: str = _nysalt.version
+__all__ = ["Run", "Scheme", "System", "Table", "compare", "families", "hamiltonian", "integrate", "learn", "load",
+           "methods", "metrics", "recommend", "run", "system", "systems"]
+
+Texts = Union[str, Sequence[str]]
+Numbers = Union[float, Sequence[float]]
+
+
+# ---- What there is by name.
+
+def _listed(kind: str) -> Dict[str, Dict[str, Any]]:
+    return {one.pop("name"): one for one in _json.loads(_nysalt.listing())[kind]}
+
+
+def systems() -> Dict[str, Dict[str, Any]]:
+    """The bundled systems: by name their options with defaults, Hamiltonian, starts and observables."""
+    return _listed("systems")
+
+
+def methods() -> Dict[str, Dict[str, Any]]:
+    """The classical methods: by name letters, order, evaluations a step, stability limit, and source."""
+    return _listed("methods")
+
+
+def families() -> Dict[str, Dict[str, Any]]:
+    """What can be learned: by name letters, parameters with their ranges, order, evaluations a step."""
+    return _listed("families")
+
+
+def metrics() -> Dict[str, Dict[str, Any]]:
+    """What `compare` judges by: by name its meaning."""
+    return _listed("metrics")
+
+
+# ---- Systems.
+
+class System:
+    """A Hamiltonian H(q, p) = K(p) + V(q), perhaps in a bath, and the law of its starts.
+
+    Made by `system` or `hamiltonian`. q and p are arrays of shape (dimension,), or (trajectories, dimension).
+    """
+
+    def __init__(self, held: Any) -> None:
+        self._held = held
+        facts = held.facts()
+        #: By which a scheme knows it.
+        self.description: str = facts["description"]
+        #: Degrees of freedom.
+        self.dimension: int = facts["dimension"]
+        #: What `run` can sample; "q1..q6" stands for q1, q2, ... q6.
+        self.observables: List[str] = facts["observables"]
+        self.default_observable: str = facts["default_observable"]
+        #: Angular frequencies (low, high) that motion has; empty where they have no bound.
+        self.frequency_bands: List[Tuple[float, float]] = facts["frequency_bands"]
+        #: The highest that a motion from its law of starts meets, rare starts included.
+        self.highest_frequency: float = facts["highest_frequency"]
+        #: As scheme files hold them.
+        self.parameters: Dict[str, Any] = _json.loads(facts["parameters"])
+        #: Whether its functions are yours: one thread then, and the slow path.
+        self.calls_python: bool = facts["calls_python"]
+
+    def __repr__(self) -> str:
+        return f"<nysalt system {self.description}>"
+
+    def energy(self, q: Any, p: Any) -> Union[float, np.ndarray]:
+        """H(q, p): a number, or one for each trajectory."""
+        return self._held.energy(q, p)
+
+    def force(self, q: Any) -> np.ndarray:
+        """-grad V(q), in the shape of q."""
+        return self._held.force(q)
+
+    def starts(self, trajectories: int = 1, *, seed: int = 1, role: str = "test") -> Tuple[np.ndarray, np.ndarray]:
+        """q and p where trajectories start, of shape (trajectories, dimension).
+
+        With a seed `run` and `compare` begin at those of the role "test"; `learn` learns from "training" and
+        judges on "held_out".
+        """
+        return self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
+
+
+def system(name: str = "fpu", *, pairs: Optional[int] = None, omega: Optional[float] = None,
+           masses: Optional[int] = None, spring: Optional[float] = None, atoms: Optional[int] = None,
+           space: Optional[int] = None, eccentricity: Optional[float] = None, spread: Optional[float] = None,
+           friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
+           start: Optional[str] = None) -> System:
+    """A bundled system; `systems()` names them, with the options that each takes.
+
+    friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts it into a bath; `start` says where
+    trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the deviations of the law.
+    """
+    return System(_nysalt.bundled(dict(locals())))
+
+
+def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
+                force: Callable[[np.ndarray], Any], starts: Callable[[int, int], Tuple[Any, Any]],
+                inverse_mass: Numbers = 1.0, frequency: Optional[float] = None, friction: Optional[float] = None,
+                sigma: Optional[float] = None, temperature: Optional[float] = None) -> System:
+    """H = sum_i inverse_mass_i p_i^2/2 + V(q) of your own, by functions of Python.
+
+    potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
+    checked against differences of the potential at four starts. starts(seed, n) is the start (q, p) of
+    trajectory n: a function of these two numbers alone, such as one of np.random.default_rng([seed, n]).
+    `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
+    is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters.
+
+    This is the slow path. Every force is a call of Python, some microseconds instead of some nanoseconds;
+    one trajectory goes at a time, on one thread, with the interpreter's lock. Derivatives for learning are
+    central differences of the force, with an error of eps^(2/3) relative to |f|/|q|: two more calls for each
+    parameter. What the functions raise comes through. There are no modes and no bands of frequencies, hence no
+    coordinates but qp, no rotations, no s_aia2, and starts in a bath are those of the function.
+    """
+    return System(_nysalt.own(dict(locals())))
+
+
+# ---- Methods that are learned, or come from files.
+
+class _FromFile:
+    def __init__(self, text: str, name: str) -> None:
+        facts = _nysalt.method(text, name, None)
+        self._text = text
+        #: Under which rows of `compare` have it; change it where two would have the same.
+        self.name: str = name
+        #: What the file holds.
+        self.document: Dict[str, Any] = _json.loads(text)
+        #: A for drifts, B for kicks, ...
+        self.letters: str = facts["letters"]
+        self.order: int = facts["order"]
+        self.symmetric: bool = facts["symmetric"]
+        self.evaluations_per_step: int = facts["evaluations_per_step"]
+
+    def __repr__(self) -> str:
+        return f"<nysalt {type(self).__name__.lower()} {self.name}: {self.letters}>"
+
+    def coefficients(self, step: Optional[float] = None) -> np.ndarray:
+        """Of the letters, in their order; of a curve of schemes at a step."""
+        return np.array(_nysalt.method(self._text, self.name, step)["coefficients"])
+
+
+class Table(_FromFile):
+    """Coefficients of one's own, from a file; checked for consistency, order and stability."""
+
+
+class Scheme(_FromFile):
+    """A family's parameters that were learned for a system and a step (or a curve of steps).
+
+    It holds there, and is refused elsewhere unless force=True is given.
+    """
+
+    def __init__(self, text: str, name: str, fit: Optional[Dict[str, Any]] = None) -> None:
+        super().__init__(text, name)
+        self.family: str = self.document["family"]
+        #: theta by name: a number, or of a curve a list with one for each step; to the last bit.
+        self.parameters: Dict[str, Any] = self.document["parameters"]
+        self.standard_errors: Dict[str, Any] = self.document["standard_errors"]
+        #: theta as an array: (parameters,), or (parameters, steps).
+        self.theta: np.ndarray = np.array(list(self.parameters.values()), dtype=float)
+        #: A number, or of a curve a list.
+        self.step: Any = self.document.get("steps", self.document.get("step"))
+        #: The loss on what was learned from, and on trajectories that were not.
+        self.loss: Any = self.document["loss"]
+        self.held_out_loss: Any = self.document["held_out_loss"]
+        self.usable: bool = self.document["usable"]
+        #: Why it is not; None if it is.
+        self.reason: Optional[str] = self.document["reason"] or None
+        #: What `nysalt learn --json` prints; None of a scheme that comes from a file.
+        self.fit: Optional[Dict[str, Any]] = fit
+
+    def save(self, path: Union[str, "_os.PathLike[str]"], *, force: bool = False) -> None:
+        """Writes the scheme file, whole or not at all; one that is not usable with force=True alone."""
+        if not self.usable and not force:
+            raise ValueError(f"the fit is not usable: {self.reason}; force=True saves it all the same")
+        _nysalt.save(_os.fspath(path), self._text)
+
+
+Method = Union[str, Scheme, Table]
+
+
+def learn(system: System, family: str = "nystrom", *, step: Optional[float] = None,
+          steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
+          horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
+          coordinates: Optional[str] = None, placement: Optional[str] = None,
+          fix: Optional[Mapping[str, float]] = None, fine_step: Optional[float] = None,
+          random_starts: Optional[int] = None, enough: Optional[float] = None,
+          threads: Optional[int] = None) -> Scheme:
+    """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
+
+    It learns from trajectories [100] of a length `horizon` [0.5], and is judged on as many others. loss:
+    "state" [it], "state:K", "energy:K" after K steps, or "covariance"; coordinates: "qp" [they], "modes" or
+    "energy"; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
+    parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
+    A fit that cannot be trusted is returned with usable = False and the reason.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    if fix is not None:
+        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    fit, text = _nysalt.learn(system._held, asked)
+    return Scheme(text, f"scheme:{family}", _json.loads(fit))
+
+
+def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
+    """A scheme or a table from a file, of this package or of the program."""
+    name = _os.fspath(path)
+    with open(name, encoding="utf-8") as file:
+        text = file.read()
+    return (Scheme if _nysalt.method(text, name, None)["is_learned"] else Table)(text, name)
+
+
+def _held_by_name(given: Sequence[Method]) -> Tuple[List[Any], Dict[str, str]]:
+    """The names under which methods go, and the files of those that have one."""
+    held: Dict[str, str] = {}
+    for one in given:
+        if not isinstance(one, _FromFile):
+            continue
+        if held.get(one.name, one._text) != one._text:
+            raise ValueError(f"two methods are named {one.name}: give one another name, scheme.name = ...")
+        held[one.name] = one._text
+    return [one.name if isinstance(one, _FromFile) else one for one in given], held
+
+
+def _warn(texts: Sequence[str]) -> None:
+    for text in texts:
+        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=3)
+
+
+# ---- What is done with them.
+
+@_dataclass(frozen=True)
+class Run:
+    """Samples of trajectories: values[trajectory, sample, observable] at times t[sample].
+
+    From where a trajectory diverged on its values are NaN; `diverged` is that step, or -1. run["energy"] is a
+    view of one observable. `evaluations` are of a trajectory, `seconds` of all.
+    """
+
+    t: np.ndarray
+    values: np.ndarray
+    diverged: np.ndarray
+    observables: List[str]
+    system: str
+    starts: str
+    steps: int
+    evaluations: int
+    seconds: float
+    warnings: List[str]
+
+    def __getitem__(self, observable: str) -> np.ndarray:
+        if observable not in self.observables:
+            raise KeyError(f"{observable} was not sampled: {', '.join(self.observables)} were")
+        return self.values[:, :, self.observables.index(observable)]
+
+
+def run(system: System, method: Method, step: float, horizon: float, *, trajectories: Optional[int] = None,
+        observables: Optional[Texts] = None, sample_every: Optional[int] = None, seed: int = 1,
+        placement: Optional[str] = None, force: bool = False, out: Optional[np.ndarray] = None,
+        threads: Optional[int] = None) -> Run:
+    """Trajectories of a method from the starts of a system, sampled every so many steps.
+
+    The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
+    shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
+    force=True runs a scheme where it was not learned.
+    """
+    asked = dict(locals())
+    for name in ("system", "out"):
+        asked.pop(name)
+    (asked["method"],), asked["held"] = _held_by_name([method])
+    found = Run(**_nysalt.run(system._held, asked, out))
+    _warn(found.warnings)
+    return found
+
+
+def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps: int, *,
+              out: Optional[Tuple[np.ndarray, np.ndarray]] = None, seed: int = 1,
+              placement: Optional[str] = None, force: bool = False,
+              threads: Optional[int] = None) -> Tuple[np.ndarray, np.ndarray]:
+    """Takes states so many steps on: q and p of shape (dimension,), or (trajectories, dimension).
+
+    Returns new arrays, or those of `out`, filled; out=(q, p) goes on in place, without a copy. They must be
+    writable arrays of float64 in the shape of q. A trajectory that diverges ends as NaN, and so do all in
+    `out` where the call is interrupted. Each call is a run of its own: the numbers are those of `run` from the
+    same states, and in a bath the noise begins anew, so that each call needs another seed.
+    """
+    if out is None:
+        q = np.array(q, dtype=float, order="C")
+        p = np.array(p, dtype=float, order="C")
+        out = (q, p)
+    to_q, to_p = out
+    (name,), held = _held_by_name([method])
+    asked = dict(method=name, held=held, step=step, steps=steps, seed=seed, placement=placement, force=force,
+                 threads=threads)
+    _warn(_nysalt.integrate(system._held, asked, q, p, to_q, to_p))
+    return to_q, to_p
+
+
+def compare(system: System, methods: Union[Method, Sequence[Method]], steps: Numbers, *,
+            equal_cost: bool = False, horizon: Optional[float] = None, trajectories: Optional[int] = None,
+            metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
+            range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
+            longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
+            placement: Optional[str] = None, fine_step: Optional[float] = None,
+            learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+            learn_loss: Optional[str] = None, learn_random_starts: Optional[int] = None,
+            coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
+            threads: Optional[int] = None) -> Dict[str, Any]:
+    """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
+
+    Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
+    against, `rankings`, `fits` of "learned:FAMILY". metrics() tells what there is to judge by [path].
+    equal_cost=True: steps are per force evaluation.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    if fix is not None:
+        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    asked["methods"], asked["held"] = _held_by_name([methods] if isinstance(methods, (str, _FromFile)) else methods)
+    found = _json.loads(_nysalt.compare(system._held, asked))
+    _warn(found["warnings"])
+    return found
+
+
+def recommend(system: System, horizon: float, *, budget: Optional[float] = None, error: Optional[float] = None,
+              trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
+              hmc_temperature: Optional[float] = None, reversible: bool = False,
+              families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
+              learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+              learn_loss: Optional[str] = None, learn_random_starts: Optional[int] = None,
+              coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
+              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+    """The best method at `budget` evaluations per unit time, or the cheapest that errs less than `error`.
+
+    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    if fix is not None:
+        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    document, text = _nysalt.recommend(system._held, asked)
+    found = _json.loads(document)
+    _warn(found["warnings"])
+    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")

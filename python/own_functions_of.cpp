@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "own_functions_of.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../src/refusal.hpp"
+#include "arrays.hpp"
+
+namespace nysalt::python {
+
+namespace py = pybind11;
+using program::refuse;
+
+namespace {
+
+py::object function_in(const given& arguments, const char* name, const char* what) {
+  if (!arguments.has(name)) refuse("a Hamiltonian needs {}: give {}", what, name);
+  py::object function = arguments[name];
+  if (PyCallable_Check(function.ptr()) == 0) {
+    refuse("{} must be a function, got {}", name, py::repr(function).cast<std::string>());
+  }
+  return function;
+}
+
+/// A copy, which the function may keep.
+py::array_t<double> column(std::span<const double> q) {
+  return py::array_t<double>(static_cast<py::ssize_t>(q.size()), q.data());
+}
+
+void require_no_signal() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+void put(const py::handle& found, const std::string& what, std::span<double> to) {
+  if (found.is_none()) refuse("{} returned None: does it lack a return?", what);
+  const numbers_array numbers = numbers_of(found, what);
+  const std::vector<std::int64_t> wanted{static_cast<std::int64_t>(to.size())};
+  if (shape_of(numbers) != wanted) {
+    refuse("{} must have the shape {}, it has {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
+  }
+  std::ranges::copy(numbers_in(numbers), to.begin());
+}
+
+double number_in(const py::object& found) {
+  const double number = PyFloat_AsDouble(found.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  refuse("potential(q) must be a number, got {}", py::repr(found).cast<std::string>());
+}
+
+std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimension) {
+  std::vector<double> all{1.0};
+  arguments.take("inverse_mass", all);
+  if (all.size() == 1) all.resize(static_cast<std::size_t>(dimension), all.front());
+  if (std::ssize(all) != dimension) {
+    refuse("inverse_mass must be one number or {}, got {}", dimension, all.size());
+  }
+  for (const double one : all) {
+    if (!(one > 0.0)) refuse("inverse_mass must be positive, got {}", one);
+  }
+  return all;
+}
+
+}  // namespace
+
+own_functions own_functions_of(const given& arguments) {
+  own_functions its{};
+  arguments.take("name", its.name);
+  if (its.name.empty()) refuse("a Hamiltonian needs a name, by which schemes know it");
+  arguments.take("dimension", its.dimension);
+  if (its.dimension < 1) refuse("dimension must be at least 1, got {}", its.dimension);
+  its.inverse_masses = inverse_masses_in(arguments, its.dimension);
+  arguments.take("frequency", its.frequency);
+  if (arguments.has("frequency") && !(its.frequency > 0.0)) {
+    refuse("frequency must be positive, got {}", its.frequency);
+  }
+  const py::object potential = function_in(arguments, "potential", "V");
+  const py::object force = function_in(arguments, "force", "-grad V");
+  const py::object starts = function_in(arguments, "starts", "to know where trajectories start");
+  its.potential = [potential](std::span<const double> q) {
+    const double found = number_in(potential(column(q)));
+    require_no_signal();
+    return found;
+  };
+  its.force = [force](std::span<const double> q, std::span<double> f) {
+    put(force(column(q)), "force(q)", f);
+    require_no_signal();
+  };
+  its.start = [starts](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
+    const py::object found = starts(seed, n);
+    if (PySequence_Check(found.ptr()) == 0 || py::len(found) != 2) {
+      refuse("starts(seed, n) must be a pair (q, p), got {}", py::repr(found).cast<std::string>());
+    }
+    put(found[py::int_(0)], "q of starts(seed, n)", q);
+    put(found[py::int_(1)], "p of starts(seed, n)", p);
+  };
+  return its;
+}
+
+}  // namespace nysalt::python

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+// A Hamiltonian that somebody tells by functions of numbers: for the commands a system like any other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../src/bundled_systems.hpp"
+
+namespace nysalt::python {
+
+/// H = sum p_i^2 / (2 m_i) + V(q), known over double alone: derivatives of the force are differences.
+struct own_functions {
+  std::string name;
+  std::int64_t dimension;
+  std::vector<double> inverse_masses;
+  std::function<double(std::span<const double> q)> potential;
+  std::function<void(std::span<const double> q, std::span<double> f)> force;
+  /// The start of trajectory n: a function of both numbers alone.
+  std::function<void(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p)> start;
+  double frequency = 0.0;  // the highest of its motion; 0: not known yet
+};
+
+/// Looks for a force that is not -grad V at four starts, and where the frequency is not known for that of 64
+/// starts. Throws refusal for what is found. Cost: some hundred forces for each degree of freedom.
+void examine(own_functions& its);
+
+/// One trajectory at a time. The functions are called by the thread that computes.
+std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
+                                                  const program::surroundings& in);
+
+}  // namespace nysalt::python

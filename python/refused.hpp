@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is refused, as Python tells it.
+#pragma once
+
+#include <string>
+
+namespace nysalt::python {
+
+/// The sentence with the names of arguments instead of those of options: --sample-every becomes sample_every,
+/// and --force becomes force=True. A command line that a sentence proposes stays.
+std::string in_words_of_python(const std::string& text);
+
+/// What the library and the program refuse is a ValueError, once this was called; what fails on the way is a
+/// RuntimeError.
+void tell_refusals();
+
+}  // namespace nysalt::python

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "systems.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "../src/bundled_system.hpp"
+#include "../src/json.hpp"
+#include "../src/learning.hpp"
+#include "../src/refusal.hpp"
+#include "../src/seeds.hpp"
+#include "arrays.hpp"
+#include "computing.hpp"
+#include "given.hpp"
+#include "own_functions_of.hpp"
+
+namespace nysalt::python {
+
+namespace py = pybind11;
+using program::refuse;
+
+std::int64_t states_in(const held_system& system, const std::vector<std::int64_t>& shape, const char* name) {
+  const std::int64_t n = system.its->dimension();
+  if (shape == std::vector<std::int64_t>{n}) return 1;
+  if (shape.size() == 2 && shape[0] >= 1 && shape[1] == n) return shape[0];
+  refuse("{} must have the shape ({},) or (trajectories, {}), it has {}", name, n, n, shape_text(shape));
+}
+
+namespace {
+
+std::unique_ptr<held_system> bundled(const py::dict& arguments) {
+  auto made = std::make_unique<held_system>();
+  made->settings = system_of(given(arguments));
+  made->its = make_system(made->settings);
+  return made;
+}
+
+std::unique_ptr<held_system> own(const py::dict& arguments) {
+  const given its(arguments);
+  auto functions = std::make_shared<own_functions>(own_functions_of(its));
+  examine(*functions);
+  auto made = std::make_unique<held_system>();
+  made->settings = system_of(its);
+  made->settings.start = "law";
+  made->settings.own = [functions](const program::surroundings& in) { return make_own(functions, in); };
+  made->its = make_system(made->settings);
+  return made;
+}
+
+/// f(m) for each of the states in q, which must have the shape of p.
+void for_states(const held_system& system, const numbers_array& q, const auto& f) {
+  const std::int64_t count = states_in(system, shape_of(q), "q");
+  if (system.calls_python()) {
+    for (std::int64_t m = 0; m < count; ++m) f(m);
+    return;
+  }
+  const py::gil_scoped_release released;
+  for (std::int64_t m = 0; m < count; ++m) f(m);
+}
+
+py::object energy(const held_system& system, const py::object& of_q, const py::object& of_p) {
+  const numbers_array q = numbers_of(of_q, "q");
+  const numbers_array p = numbers_of(of_p, "p");
+  const auto count = static_cast<std::size_t>(states_in(system, shape_of(q), "q"));
+  if (shape_of(p) != shape_of(q)) {
+    refuse("p must have the shape of q, {}, it has {}", shape_text(shape_of(q)), shape_text(shape_of(p)));
+  }
+  py::array_t<double> result(static_cast<py::ssize_t>(count));
+  double* to = result.mutable_data();
+  const auto n = static_cast<std::size_t>(system.its->dimension());
+  const auto all_q = numbers_in(q);
+  const auto all_p = numbers_in(p);
+  for_states(system, q, [&](std::int64_t m) {
+    const auto first = static_cast<std::size_t>(m) * n;
+    to[m] = system.its->energy(all_q.subspan(first, n), all_p.subspan(first, n));
+  });
+  if (q.ndim() == 1) return py::float_(result.at(0));
+  return result;
+}
+
+py::array force(const held_system& system, const py::object& of_q) {
+  const numbers_array q = numbers_of(of_q, "q");
+  states_in(system, shape_of(q), "q");
+  py::array_t<double> result(std::vector<py::ssize_t>(q.shape(), q.shape() + q.ndim()));
+  const std::span<double> to(result.mutable_data(), static_cast<std::size_t>(result.size()));
+  const auto n = static_cast<std::size_t>(system.its->dimension());
+  const auto all = numbers_in(q);
+  for_states(system, q, [&](std::int64_t m) {
+    const auto first = static_cast<std::size_t>(m) * n;
+    system.its->force(all.subspan(first, n), to.subspan(first, n));
+  });
+  return result;
+}
+
+program::role role_named(const std::string& name) {
+  if (name == "training") return program::role::training;
+  if (name == "held_out") return program::role::held_out;
+  if (name == "test") return program::role::test;
+  refuse("unknown role '{}': it is one of training, held_out, test", name);
+}
+
+py::tuple starts(const held_system& system, const py::dict& arguments) {
+  const given its(arguments);
+  std::int64_t count = 1;
+  its.take("trajectories", count);
+  if (count < 1) refuse("trajectories must be at least 1, got {}", count);
+  std::string role = "test";
+  its.take("role", role);
+  const auto common = common_of(its, system.calls_python());
+  const std::uint64_t seed = seed_for(role_named(role), common.seed);
+  const std::int64_t n = system.its->dimension();
+  py::array_t<double> q({count, n});
+  py::array_t<double> p({count, n});
+  const std::span<double> to_q(q.mutable_data(), static_cast<std::size_t>(q.size()));
+  const std::span<double> to_p(p.mutable_data(), static_cast<std::size_t>(p.size()));
+  compute(system.calls_python(), [&] {
+    const auto made = make_system(system.settings);
+    program::progress shown;
+    prepare_starts(*made, common, shown);
+    for (std::int64_t m = 0; m < count; ++m) {
+      const auto first = static_cast<std::size_t>(m * n);
+      const auto width = static_cast<std::size_t>(n);
+      made->start_state(seed, static_cast<std::uint64_t>(m), to_q.subspan(first, width),
+                        to_p.subspan(first, width));
+    }
+  });
+  return py::make_tuple(q, p);
+}
+
+py::dict facts(const held_system& system) {
+  const program::bundled_system& its = *system.its;
+  py::list bands;
+  for (const auto& band : its.frequency_bands()) bands.append(py::make_tuple(band.low, band.high));
+  py::list observables;
+  for (const auto& name : its.observables()) observables.append(name);
+  py::dict all;
+  all["description"] = its.description();
+  all["dimension"] = its.dimension();
+  all["observables"] = observables;
+  all["default_observable"] = its.default_observable();
+  all["frequency_bands"] = bands;
+  all["highest_frequency"] = its.frequency_of_law();
+  all["starts"] = its.starts();
+  all["parameters"] = its.parameters().dump();
+  all["calls_python"] = system.calls_python();
+  return all;
+}
+
+}  // namespace
+
+void add_systems(py::module_& module) {
+  py::class_<held_system>(module, "held_system")
+      .def("facts", &facts)
+      .def("energy", &energy)
+      .def("force", &force)
+      .def("starts", &starts);
+  module.def("bundled", &bundled);
+  module.def("own", &own);
+}
+
+}  // namespace nysalt::python

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+// A system as Python holds it.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "../src/bundled_system.hpp"
+
+namespace nysalt::python {
+
+struct held_system {
+  program::system_settings settings;             // of which each command makes its own
+  std::unique_ptr<program::bundled_system> its;  // for what is asked of it here; its starts are not prepared
+
+  bool calls_python() const { return static_cast<bool>(settings.own); }
+};
+
+/// How many states of the system an array holds. Throws refusal unless its shape is (dimension,) or
+/// (trajectories, dimension).
+std::int64_t states_in(const held_system& system, const std::vector<std::int64_t>& shape, const char* name);
+
+void add_systems(pybind11::module_& module);
+
+}  // namespace nysalt::python

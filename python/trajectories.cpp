@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "../src/checks.hpp"
+#include "../src/learning.hpp"
+#include "../src/method_source.hpp"
+#include "../src/planned_run.hpp"
+#include "../src/stretches.hpp"
+#include "arrays.hpp"
+#include "commands.hpp"
+#include "computing.hpp"
+#include "given.hpp"
+#include "systems.hpp"
+
+namespace nysalt::python {
+
+namespace py = pybind11;
+using program::refuse;
+
+namespace {
+
+py::list list_of(const std::vector<std::string>& texts) {
+  py::list all;
+  for (const auto& text : texts) all.append(text);
+  return all;
+}
+
+bool overlap(std::span<const double> a, std::span<const double> b) {
+  return a.data() < b.data() + b.size() && b.data() < a.data() + a.size();
+}
+bool lies_across(std::span<const double> a, std::span<const double> b) {
+  return overlap(a, b) && a.data() != b.data();
+}
+
+/// The samples of a run are written where NumPy has them: in a new array, or in the one that is given.
+py::dict run(const held_system& system, const py::dict& arguments, const py::object& out) {
+  const given asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = run_of(asked, system.settings);
+  std::unique_ptr<program::planned_run> planned;
+  compute(system.calls_python(), [&] { planned = std::make_unique<program::planned_run>(command, common); });
+  const auto& observables = planned->command().observables;
+  const auto plan = planned->plan();
+  const std::int64_t every = command.sample_every;
+  const std::int64_t samples = plan.steps / every + 1;
+  const std::vector<std::int64_t> shape{plan.count, samples, std::ssize(observables)};
+
+  const py::object values = out.is_none() ? py::object(py::array_t<double>(shape)) : out;
+  const std::span<double> to = writable(values, "out", shape);
+  py::array_t<double> t(samples);
+  for (std::int64_t i = 0; i < samples; ++i) t.mutable_at(i) = static_cast<double>(i * every) * plan.step;
+  py::array_t<std::int64_t> diverged(plan.count);
+  std::int64_t* const lost = diverged.mutable_data();
+  std::fill_n(lost, plan.count, -1);
+
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<std::string> warnings;
+  std::int64_t evaluations = 0;
+  compute(system.calls_python(), [&] {
+    std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
+    program::progress shown;
+    auto& its = planned->system();
+    prepare_starts(its, common, shown);
+    warnings = planned->warnings();
+    for (const auto& text : planned->warnings_of_starts()) warnings.push_back(text);
+    const program::sampled_plan sampled{.trajectories = plan,
+                                        .observables = observables,
+                                        .every = every,
+                                        .stretch = program::short_stretch(its.dimension()),
+                                        .reached = [](const program::standing&) {}};
+    const auto take = [&](std::int64_t m, const program::record& one) {
+      const std::int64_t row = m * samples + one.first / every;
+      std::ranges::copy(one.values, to.begin() + row * std::ssize(observables));
+      if (one.diverged_at) lost[m] = *one.diverged_at;
+    };
+    its.run(planned->method(), sampled, take, shown.counter(1000));
+    evaluations = its.count_evaluations(planned->method(), plan);
+  });
+  py::dict result;
+  result["t"] = t;
+  result["values"] = values;
+  result["diverged"] = diverged;
+  result["observables"] = list_of(observables);
+  result["system"] = planned->system().description();
+  result["starts"] = planned->system().starts();
+  result["steps"] = plan.steps;
+  result["evaluations"] = evaluations;
+  result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  result["warnings"] = list_of(warnings);
+  return result;
+}
+
+/// From q and p into arrays that are given, which may be the same. Returns warnings.
+py::list integrate(const held_system& system, const py::dict& arguments, const py::object& from_q,
+                   const py::object& from_p, const py::object& to_q, const py::object& to_p) {
+  const given asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = run_of(asked, system.settings);
+  program::require_positive("--step", command.step);
+  std::int64_t steps = 0;
+  asked.take("steps", steps);
+  if (steps < 0) refuse("steps must not be negative, got {}", steps);
+  const numbers_array q = numbers_of(from_q, "q");
+  const numbers_array p = numbers_of(from_p, "p");
+  const auto shape = shape_of(q);
+  const std::int64_t count = states_in(system, shape, "q");
+  if (shape_of(p) != shape) {
+    refuse("p must have the shape of q, {}, it has {}", shape_text(shape), shape_text(shape_of(p)));
+  }
+  const std::span<double> all_q = writable(to_q, "q of out", shape);
+  const std::span<double> all_p = writable(to_p, "p of out", shape);
+  if (overlap(all_q, all_p)) refuse("q and p of out share memory: give two arrays");
+  if (overlap(all_q, numbers_in(p)) || overlap(all_p, numbers_in(q)) || lies_across(all_q, numbers_in(q)) ||
+      lies_across(all_p, numbers_in(p))) {
+    refuse("out shares memory with q or p otherwise than being these themselves: give other arrays");
+  }
+  if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
+  if (p.data() != all_p.data()) std::ranges::copy(numbers_in(p), all_p.begin());
+
+  std::vector<std::string> warnings;
+  compute(system.calls_python(), [&] {
+    const auto source = program::find_method(command.method, command.held);
+    const auto method = coefficients_at(source, *system.its, command.step, common.force,
+                                        program::placement_asked(command.placement), warnings);
+    if (steps == 0) return;
+    const program::trajectories_plan plan{command.step, steps, count,
+                                          seed_for(program::role::test, common.seed), common.threads};
+    program::progress shown;
+    system.its->integrate(method, plan, all_q, all_p, shown.counter(1000));
+  });
+  return list_of(warnings);
+}
+
+}  // namespace
+
+void add_trajectories(py::module_& module) {
+  module.def("run", &run);
+  module.def("integrate", &integrate);
+}
+
+}  // namespace nysalt::python

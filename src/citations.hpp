@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+// Which works a set-up rests on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nysalt::program {
+
+/// What is run, as far as it decides what to cite. What is empty was not said.
+struct cited_setup {
+  std::string system;                // a name of `list`
+  std::vector<std::string> methods;  // names of `list`, learned:FAMILY, with @PLACEMENT or without
+  std::vector<std::string> metrics;  // of compare
+  bool in_bath = false;
+};
+
+/// A work of the bibliography, and what it is cited for.
+struct citation {
+  std::string key;
+  std::vector<std::string> reasons;
+};
+
+/// Each work once, in the order in which they are met. Throws refusal for what has no such name.
+std::vector<citation> citations_for(const std::vector<cited_setup>& setups);
+
+}  // namespace nysalt::program

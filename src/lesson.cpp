@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "lesson.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+#include "learning.hpp"
+#include "method_file.hpp"
+#include "method_source.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "progress.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// With --enough: from fewer its own estimate is too rough.
+constexpr std::int64_t first_trajectories = 50;
+
+std::vector<double> steps_of(const learn_command& command) {
+  if (command.step.has_value() == !command.steps.empty()) {
+    refuse("give --step, or --steps for a curve, and not both");
+  }
+  std::vector<double> steps = command.steps;
+  if (command.step) steps.push_back(*command.step);
+  for (const double step : steps) {
+    require_positive(command.step ? "--step" : "--steps", step);
+    steps_within("--horizon", command.learning.horizon, step);
+    const auto is_same = [&](double other) { return std::abs(other - step) <= 1e-8 * step; };
+    if (std::count_if(steps.begin(), steps.end(), is_same) > 1) refuse("--steps names {} twice", step);
+  }
+  return steps;
+}
+
+json document_of(const learned_scheme& learned, const bundled_system& system,
+                 std::optional<placement> where) {
+  const fit_summary& fit = learned.fit;
+  json result = fit_json(fit);
+  result["system"] = system.description();
+  result["coordinates"] = fit.coordinates;
+  result["held_out_samples"] = fit.held_out_samples;
+  result["trajectories"] = fit.trajectories;
+  result["reference"] = fit.reference;
+  result["reference_error"] = fit.reference_checked ? json(fit.reference_error) : json(nullptr);
+  result["condition"] = fit.condition;
+  result["flat_directions"] = fit.flat_directions;
+  result["dropped_coordinates"] = fit.dropped;
+  result["iterations"] = fit.iterations;
+  result["starts_tried"] = fit.starts_tried;
+  result["in_valley"] = fit.is_in_valley;
+  result["guard"] = fit.guard;
+  result["held_by_guard"] = fit.is_held_by_guard;
+  result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
+  result["gaps"] = json::array();
+  for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
+  result["starts"] = fit.ensemble;
+  result["enough"] = nullptr;
+  if (learned.course) {
+    json stops = json::array();
+    for (const auto& [trajectories, share, deciding] : learned.course->stops) {
+      stops.push_back(
+          {{"trajectories", trajectories}, {"excess_share", share}, {"deciding_trajectories", deciding}});
+    }
+    result["enough"] = {{"reached", learned.course->is_reached}, {"stops", stops}};
+  }
+  result["energy_range"] =
+      learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
+  result["seed"] = fit.seed;
+  result["placement"] = where ? json(to_string(*where)) : json(nullptr);
+  return result;
+}
+
+}  // namespace
+
+lesson::lesson(const learn_command& command, const common_settings& common)
+    : command_(command), common_(common), steps_(steps_of(command)) {
+  require_sound(command.learning, "--");
+  if (command.enough) {
+    require_positive("--enough", *command.enough);
+    if (loss_named(command.learning.loss).of == loss_choice::kind::covariance) {
+      refuse("--enough says how many trajectories to learn from, and the covariance loss asks none");
+    }
+  }
+  system_ = make_system(command.system);
+  method_source source;
+  source.typed = source.family.emplace(command.family);
+  const auto where = placement_in(source, *system_, placement_asked(command.placement));
+  plan_ = plan_for(command.family, where, steps_.front(), command.learning, common);
+  if (command.enough) {
+    plan_.enough = enough_options{.share = *command.enough};
+    plan_.how.trajectories = first_trajectories;
+  }
+  for (const double step : steps_) system_->require_learnable(plan_.family, plan_.where, plan_.how, step);
+}
+
+void lesson::learn() {
+  progress shown;
+  prepare_starts(*system_, common_, shown);
+  learned_ = learn_curve(*system_, plan_, steps_, shown);
+}
+
+const learned_scheme* lesson::unusable() const {
+  const auto bad = std::ranges::find_if(learned_, [](const auto& one) { return !one.fit.usable; });
+  return bad == learned_.end() ? nullptr : &*bad;
+}
+
+json lesson::document() const {
+  if (command_.step) return document_of(learned_.front(), *system_, plan_.where);
+  json result;
+  result["fits"] = json::array();
+  for (const auto& one : learned_) result["fits"].push_back(document_of(one, *system_, plan_.where));
+  return result;
+}
+
+std::string lesson::scheme() const { return scheme_text(learned_, *system_, plan_); }
+
+}  // namespace nysalt::program

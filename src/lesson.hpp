@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+// A family fitted to a system, at a step or along a curve of steps: what `learn` is asked, and what it finds.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bundled_system.hpp"
+#include "json.hpp"
+#include "settings.hpp"
+
+namespace nysalt::program {
+
+class lesson {
+ public:
+  /// Throws refusal for whatever cannot be, before any work is done.
+  lesson(const learn_command& command, const common_settings& common);
+
+  void learn();
+
+  const bundled_system& system() const { return *system_; }
+  /// Where the letters O are; nothing without a bath.
+  const std::optional<placement>& where() const { return plan_.where; }
+  /// At each of the steps, in their order; one if no curve is asked for.
+  const std::vector<learned_scheme>& learned() const { return learned_; }
+  /// The first that is not usable; null if all are.
+  const learned_scheme* unusable() const;
+
+  /// What was learned, for machines.
+  json document() const;
+  /// The scheme file.
+  std::string scheme() const;
+
+ private:
+  learn_command command_;
+  common_settings common_;
+  std::vector<double> steps_;
+  std::unique_ptr<bundled_system> system_;
+  learn_plan plan_{};
+  std::vector<learned_scheme> learned_;
+};
+
+}  // namespace nysalt::program

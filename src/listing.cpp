@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "listing.hpp"
+
+#include <array>
+
+#include "bundled_system.hpp"
+#include "catalogue.hpp"
+#include "nysalt/methods/s_aia.hpp"
+#include "stability.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr std::array metrics{
+    std::array{"path", "average relative RMS error of the observable along trajectories"},
+    std::array{"state", "RMS error of the state in the energy norm, absolute"},
+    std::array{"exchange", "mean error of the stiff springs' energies, relative to their sum (fpu)"},
+    std::array{"energy", "RMS of (H - H_0)/|H_0|"},
+    std::array{"acceptance", "mean of min(1, exp(-(H_end - H_0)/kT)), of reversible methods; 1 is best"},
+    std::array{"distribution", "total variation of the observable's law from the reference's"},
+    std::array{"acf", "RMS error of the observable's normalised autocovariance"}};
+
+json systems_json() {
+  json all = json::array();
+  for (const auto& entry : system_entries()) {
+    system_settings settings;
+    settings.name = entry.name;
+    const auto system = make_system(settings);
+    all.push_back({{"name", entry.name},
+                   {"options", entry.options},
+                   {"hamiltonian", entry.hamiltonian},
+                   {"starts", system->starts()},
+                   {"observables", system->observables()},
+                   {"default_observable", system->default_observable()}});
+  }
+  return all;
+}
+
+json methods_json() {
+  json all = json::array();
+  for (const auto& [method, source] : classical_methods()) {
+    const int evaluations = method.letters().evaluations_per_step;
+    json limit = nullptr;  // of words that rotate it depends on the system
+    if (!has_rotation(method.letters())) limit = limit_of(method) / evaluations;
+    all.push_back({{"name", method.name()},
+                   {"letters", method.letters().letters()},
+                   {"order", method.order},
+                   {"evaluations_per_step", evaluations},
+                   {"limit_per_evaluation", limit},
+                   {"source", source}});
+  }
+  all.push_back({{"name", adaptive_method},
+                 {"letters", s_aia2::word::letters()},
+                 {"order", s_aia2::order},
+                 {"evaluations_per_step", s_aia2::word::evaluations_per_step},
+                 {"limit_per_evaluation", nullptr},
+                 {"source", adaptive_source}});
+  return all;
+}
+
+json families_json() {
+  json all = json::array();
+  for (const auto& family : families()) {
+    json parameters = json::array();
+    for (std::size_t k = 0; k < family.ranges.size(); ++k) {
+      const auto& [low, high, open] = family.ranges[k];
+      parameters.push_back(
+          {{"name", family.parameter_names[k]}, {"low", low}, {"high", high}, {"open", open}});
+    }
+    all.push_back({{"name", family.name},
+                   {"letters", family.letters.letters()},
+                   {"order", family.order},
+                   {"symmetric", family.symmetric},
+                   {"evaluations_per_step", family.letters.evaluations_per_step},
+                   {"parameters", parameters}});
+  }
+  return all;
+}
+
+}  // namespace
+
+json listing() {
+  json all{{"systems", systems_json()}, {"methods", methods_json()}, {"families", families_json()}};
+  for (const auto& [name, meaning] : metrics)
+    all["metrics"].push_back({{"name", name}, {"meaning", meaning}});
+  return all;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Every link of the documents leads somewhere, on a forge and on the site; one that does not is noticed."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+root = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(root / "docs" / "site"))
+import links
+import markdown
+
+
+class Documents(unittest.TestCase):
+    def test_point_at_what_is_there(self):
+        self.assertGreater(sum(1 for page in markdown.documents(root) for _ in markdown.links(page.read_text())), 100)
+        self.assertEqual(list(links.wrong_in_markdown(root)), [])
+
+    def test_are_listed_on_the_first_page(self):
+        self.assertEqual(list(links.unlisted(root)), [])
+
+
+class InAFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name).resolve()
+        (self.root / "docs").mkdir()
+        (self.root / "docs/README.md").write_text("# All\n\n- [one](one.md)\n- [two](../two.md#b--c)\n")
+        (self.root / "docs/one.md").write_text("# One\n\n## With `code`, and more\n\n## Twice\n\n## Twice\n")
+        (self.root / "two.md").write_text("# Two\n\n## b & *c*\n")
+
+    def wrong_with(self, text):
+        (self.root / "two.md").write_text("# Two\n\n## b & c\n\n" + text)
+        return list(links.wrong_in_markdown(self.root))
+
+
+class Markdown(InAFolder):
+    def test_that_is_right_is_left_in_peace(self):
+        self.assertEqual(self.wrong_with("[a](docs/one.md#with-code-and-more) [b](#b--c) [c](docs/one.md#twice-1)\n"
+                                         "[d](https://example.org/nothing) `docs/one.md`\n"), [])
+
+    def test_that_points_nowhere_is_told(self):
+        self.assertEqual(self.wrong_with("[a](docs/three.md)\n")[0], "two.md: there is no docs/three.md")
+        self.assertEqual(self.wrong_with("![a](picture.svg)\n"), ["two.md: there is no picture.svg"])
+        self.assertEqual(self.wrong_with("[a](docs/one.md#two)\n"), ["two.md: docs/one.md has no heading #two"])
+        self.assertEqual(self.wrong_with("[a](#a)\n"), ["two.md: two.md has no heading #a"])
+        self.assertEqual(self.wrong_with("[a\nb](c.md)\n"), ["two.md: there is no c.md"])
+        self.assertEqual(self.wrong_with("`a\nb` [c](d.md) `e`\n"), ["two.md: there is no d.md"])
+        self.assertEqual(self.wrong_with("see `examples/none.cpp`\n"), ["two.md: there is no examples/none.cpp"])
+        self.assertEqual(self.wrong_with("[a](../outside.md)\n"), ["two.md: there is no ../outside.md"])
+
+    def test_in_code_is_no_link(self):
+        self.assertEqual(self.wrong_with("`[a](b.md)`\n\n```text\n[a](b.md)\n## c\n```\n"), [])
+
+    def test_that_the_first_page_does_not_list_is_told(self):
+        self.assertEqual(list(links.unlisted(self.root)), [])
+        (self.root / "docs/three.md").write_text("# Three\n")
+        self.assertEqual(list(links.unlisted(self.root)), ["docs/README.md does not list docs/three.md"])
+
+
+class Site(InAFolder):
+    def wrong_with(self, text):
+        (self.root / "index.html").write_text(f'<html><p id="here">{text}</p></html>')
+        (self.root / "page.html").write_text('<html><a name="there">x</a></html>')
+        self.external = set()
+        return list(links.wrong_on_site(self.root, self.external))
+
+    def test_that_is_right_is_left_in_peace(self):
+        self.assertEqual(self.wrong_with('<a href="page.html#there">a</a><a href="#here">b</a><a href="https://c.org">c</a>'), [])
+        self.assertEqual(self.external, {"https://c.org"})
+
+    def test_that_points_nowhere_is_told(self):
+        self.assertEqual(self.wrong_with('<a href="none.html">a</a>'), ["index.html: there is no none.html"])
+        self.assertEqual(self.wrong_with('<img src="a.svg"/>'), ["index.html: there is no a.svg"])
+        self.assertEqual(self.wrong_with('<a href="page.html#here">a</a>'), ["index.html: page.html has no anchor #here"])
+        self.assertEqual(self.wrong_with('<a href="#there">a</a>'), ["index.html: index.html has no anchor #there"])
+
+    def test_without_pages_is_told(self):
+        self.assertEqual(len(list(links.wrong_on_site(self.root / "docs", set()))), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

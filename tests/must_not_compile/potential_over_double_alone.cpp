@@ -1,0 +1,24 @@
+// expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
+//   template or over double, const all of them; see nysalt/system.hpp
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/method.hpp"
+#include "nysalt/methods/verlet.hpp"
+
+struct not_differentiable {
+  static constexpr int dimension = 1;
+#ifdef NYSALT_CONTROL
+  template <class T>
+  T potential(const nysalt::vector<T, 1>& q) const {
+    return q[0] * q[0];
+  }
+#else
+  // [mistake]
+  double potential(const nysalt::vector<double, 1>& q) const { return q[0] * q[0]; }
+  // [/mistake]
+#endif
+};
+
+int main() {
+  const not_differentiable system;
+  nysalt::make_stepper(system, nysalt::verlet(), 0.1);
+}

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSL-1.0
+"""What cannot be is a ValueError of one sentence, in the words of Python."""
+import numpy as np
+import pytest
+
+import nysalt
+
+PENDULUM = nysalt.system("pendulum")
+CHAIN = nysalt.system("fpu")
+
+
+def run(**more):
+    return nysalt.run(PENDULUM, **{**dict(method="verlet", step=0.1, horizon=1, trajectories=2), **more})
+
+
+def integrate(**more):
+    return nysalt.integrate(CHAIN, **{**dict(method="verlet", step=0.01, q=np.zeros((2, 6)), p=np.zeros((2, 6)),
+                                             steps=3), **more})
+
+
+def out(q=None, p=None):
+    return dict(out=(np.zeros((2, 6)) if q is None else q, np.zeros((2, 6)) if p is None else p))
+
+
+def read_only(shape):
+    array = np.zeros(shape)
+    array.flags.writeable = False
+    return array
+
+
+SHARED = np.zeros((3, 6))
+
+CASES = [
+    (lambda: nysalt.system("fpv"), "unknown system 'fpv': it is one of fpu, oscillator"),
+    (lambda: nysalt.system("pendulum", omega=3), "the system pendulum has no omega: it takes spread"),
+    (lambda: nysalt.system("fpu", omega="fast"), "omega must be a number, got 'fast'"),
+    (lambda: nysalt.system("fpu", pairs=2.5), "pairs must be a whole number, got 2.5"),
+    (lambda: nysalt.system("fpu", omega=float("nan")), "omega must be finite, got nan"),
+    (lambda: nysalt.system("fpu", friction=0.1), "friction needs sigma or temperature, 0 for damping alone"),
+    (lambda: nysalt.system(3), "name must be a text, got 3"),
+    (lambda: nysalt.learn(CHAIN), "give step, or steps for a curve, and not both"),
+    (lambda: nysalt.learn(CHAIN, step=-0.1), "step must be a positive, finite number, got -0.1"),
+    (lambda: nysalt.learn(CHAIN, "nystroem", step=0.02), "unknown family 'nystroem': it is one of nystrom"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, fix={"b2": 1}), "fix: the family nystrom has no parameter 'b2': it has b1"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, enough=0.1, trajectories=3), "leave trajectories away"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, seed=-1), "seed must not be negative, got -1"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, seed=2**51), "seed must be below 2\\^51"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, threads=0), "threads must be at least 1"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
+    (lambda: nysalt.learn(nysalt.system("kepler"), step=0.1, coordinates="modes"), "it declares no modes: take qp"),
+    (lambda: run(method="verlett"), "unknown method 'verlett': it is one of verlet"),
+    (lambda: run(method="learned:nystrom"), "learned:nystrom must be learned first: nysalt learn --family nystrom"),
+    (lambda: run(observables=["energy", "q2"]), "unknown observable 'q2' of pendulum"),
+    (lambda: run(observables=["energy", "energy"]), "observables names energy twice"),
+    (lambda: run(sample_every=0), "sample_every must be at least 1, got 0"),
+    (lambda: run(horizon=0.01), "horizon 0.01 is shorter than one step of 0.1"),
+    (lambda: run(out=[0.0]), "out must be a NumPy array of float64 to be filled, got list"),
+    (lambda: run(out=np.zeros((2, 11, 1), np.float32)), "out must hold float64 to be filled, it holds float32"),
+    (lambda: run(out=np.zeros((2, 11))), r"out must have the shape \(2, 11, 1\), it has \(2, 11\)"),
+    (lambda: run(out=np.zeros((1, 11, 2)).T), "out must lie one row after the other to be filled"),
+    (lambda: run(out=read_only((2, 11, 1))), "out is read-only and cannot be filled"),
+    (lambda: integrate(q=np.zeros((2, 5))), r"q must have the shape \(6,\) or \(trajectories, 6\), it has \(2, 5\)"),
+    (lambda: integrate(p=np.zeros(6)), r"p must have the shape of q, \(2, 6\), it has \(6,\)"),
+    (lambda: integrate(steps=-1), "steps must not be negative, got -1"),
+    (lambda: integrate(steps=1.5), "steps must be a whole number, got 1.5"),
+    (lambda: integrate(q=np.full((2, 6), np.inf)), "the state of trajectory 0 is not finite: q1 is inf"),
+    (lambda: integrate(**out(q=np.zeros((2, 6), int))), "q of out must hold float64 to be filled, it holds int64"),
+    (lambda: integrate(**out(p=read_only((2, 6)))), "p of out is read-only"),
+    (lambda: integrate(**out(q=np.zeros((2, 12))[:, ::2])), "q of out must lie one row after the other"),
+    (lambda: integrate(**out(SHARED[:2], SHARED[1:])), "q and p of out share memory: give two arrays"),
+    (lambda: integrate(q=SHARED[:2], **out(q=SHARED[1:])), "out shares memory with q or p otherwise"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", []), "steps is needed"),
+    (lambda: nysalt.compare(PENDULUM, ["verlet", "verlet"], 0.1), "methods names verlet twice"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric="paths"), "unknown metric 'paths'"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, bins=10), "bins belongs to the metric distribution, not to path"),
+    (lambda: nysalt.recommend(PENDULUM, 5), "budget"),
+    (lambda: PENDULUM.energy([1.0], "p"), "p must hold numbers, got str"),
+    (lambda: PENDULUM.starts(0), "trajectories must be at least 1, got 0"),
+    (lambda: PENDULUM.starts(1, role="mine"), "unknown role 'mine': it is one of training, held_out, test"),
+]
+
+
+@pytest.mark.parametrize("bad, sentence", CASES)
+def test_it_is_told_in_a_sentence(bad, sentence):
+    with pytest.raises(ValueError, match=sentence) as caught:
+        bad()
+    told = str(caught.value)
+    assert "\n" not in told and ("--" not in told or "nysalt learn --" in told)
+
+
+def test_what_is_sound_is_not_refused():
+    assert run(out=np.zeros((2, 11, 1))).values.shape == (2, 11, 1)
+    assert integrate(**out())[0].shape == (2, 6)
+    assert integrate(q=SHARED[:2].copy())[0].shape == (2, 6)
+
+
+def test_files_that_cannot_be(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        nysalt.load(tmp_path / "none.json")
+    (tmp_path / "half.json").write_text('{"format": "nysalt scheme", ')
+    with pytest.raises(ValueError, match="half.json: this is not whole JSON"):
+        nysalt.load(tmp_path / "half.json")
+    scheme = nysalt.learn(PENDULUM, step=0.2, trajectories=5, horizon=2)
+    with pytest.raises(OSError):
+        scheme.save(tmp_path / "nowhere" / "scheme.json", force=True)
+    path = tmp_path / "edited.json"
+    scheme.save(path, force=True)
+    path.write_text(path.read_text().replace('"seed": 1', '"seed": 2'))
+    with pytest.raises(ValueError, match="its checksum does not fit its contents"):
+        nysalt.load(path)
+
+
+def test_two_methods_of_one_name_are_told_apart():
+    schemes = [nysalt.learn(PENDULUM, step=0.2, trajectories=5, horizon=2, seed=seed) for seed in (1, 2)]
+    with pytest.raises(ValueError, match="two methods are named scheme:nystrom"):
+        nysalt.compare(PENDULUM, schemes, 0.2, trajectories=4)
+    schemes[1].name = "the second"
+    found = nysalt.compare(PENDULUM, schemes, 0.2, trajectories=4, force=True)
+    assert [row["method"] for row in found["rows"]] == ["scheme:nystrom", "the second"]
+
+
+def test_unknown_arguments_are_type_errors():
+    with pytest.raises(TypeError):
+        nysalt.system("fpu", omgea=3)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Ctrl-C ends long calls, and other threads of Python go on meanwhile."""
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import nysalt
+from conftest import henon_heiles_by_functions
+
+CHAIN = nysalt.system("fpu")
+
+
+def long_run():
+    nysalt.run(CHAIN, "verlet", 1e-3, 1e8, sample_every=10**9)  # hours, of one trajectory
+
+
+def long_integration():
+    q, p = CHAIN.starts(40)
+    nysalt.integrate(CHAIN, "srkn6b", 1e-3, q, p, 10**12, out=(q, p))
+
+
+def long_learning():
+    nysalt.learn(CHAIN, "fg4", step=0.03, trajectories=50, random_starts=10000)  # few data, a long search
+
+
+def long_comparison():
+    nysalt.compare(CHAIN, ["verlet", "srkn6b"], [0.01, 0.02], trajectories=10**6, horizon=5)
+
+
+def slow_path():
+    nysalt.learn(henon_heiles_by_functions(), step=0.4, horizon=40, trajectories=100)
+
+
+@pytest.mark.parametrize("call", [long_run, long_integration, long_learning, long_comparison, slow_path])
+def test_a_long_call_ends(call):
+    began = time.monotonic()
+    timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        call()
+    taken = time.monotonic() - began
+    assert taken < 10  # alone it would take minutes at least; a block or a pass is done before it ends
+    timer.join()
+
+
+def test_a_handler_that_raises_nothing_ends_nothing():
+    caught = []
+    before = signal.signal(signal.SIGINT, lambda *_: caught.append(1))
+    try:
+        timer = threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        run = nysalt.run(CHAIN, "verlet", 1e-3, 2000, trajectories=16, sample_every=10**6)
+        timer.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert caught and np.isfinite(run.values).all()
+
+
+def longest_pause_of_another_thread(call):
+    pauses, done = [], threading.Event()
+
+    def tick():
+        last = time.monotonic()
+        while not done.is_set():
+            time.sleep(0.005)
+            now = time.monotonic()
+            pauses.append(now - last)
+            last = now
+
+    other = threading.Thread(target=tick)
+    other.start()
+    began = time.monotonic()
+    call()
+    taken = time.monotonic() - began
+    done.set()
+    other.join()
+    return max(pauses), taken
+
+
+def test_the_lock_is_released():
+    call = lambda: nysalt.run(CHAIN, "srkn6b", 1e-3, 1000, trajectories=32, sample_every=10**6, threads=1)
+    pause, taken = longest_pause_of_another_thread(call)
+    assert pause < 0.5 * taken
+    # What holds the lock stops the others: sorting is one call of C.
+    numbers = np.random.default_rng(1).random(3_000_000).tolist()
+    pause, taken = longest_pause_of_another_thread(numbers.sort)
+    assert pause > 0.5 * taken

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSL-1.0
+"""A Hamiltonian by functions of Python: the theta of the compiled one, and what goes wrong in functions."""
+import os
+import pathlib
+import runpy
+import traceback
+
+import numpy as np
+import pytest
+
+import nysalt
+from conftest import henon_heiles_by_functions
+
+EXAMPLE = pathlib.Path(__file__).parents[2] / "examples/python/own_hamiltonian.py"
+LEARNING = dict(step=0.4, horizon=4, trajectories=10, fine_step=0.05)
+
+
+def test_it_learns_the_theta_of_the_compiled_one():
+    compiled = nysalt.learn(nysalt.system("henon_heiles"), **LEARNING)
+    mine = nysalt.learn(henon_heiles_by_functions(), **LEARNING)
+    assert mine.fit["samples"] == compiled.fit["samples"] and mine.usable == compiled.usable
+    # The functions have the operations of the compiled force, so that the data and the loss are the same to the
+    # bit. Derivatives by theta are differences, wrong by eps^(2/3) = 4e-11 of their size, and the search ends
+    # where theirs vanish: thousands of times that is still far below the statistical error.
+    tolerance = 1e-3 * np.array(list(compiled.standard_errors.values()))
+    assert (abs(mine.theta - compiled.theta) <= tolerance).all()
+    assert mine.loss == pytest.approx(compiled.loss, rel=1e-9)  # stationary there, of second order in theta
+    other = nysalt.learn(henon_heiles_by_functions("another", cubic=1.5), **LEARNING)
+    assert (abs(other.theta - compiled.theta) > tolerance).any()
+
+
+def test_it_runs_and_is_stepped_with_the_bits_of_the_compiled_one():
+    mine, compiled = henon_heiles_by_functions(), nysalt.system("henon_heiles")
+    asked = dict(method="srkn6b", step=0.3, horizon=6, trajectories=3, observables=["energy", "q1", "p2"])
+    found = nysalt.run(mine, **asked)
+    assert np.array_equal(found.values, nysalt.run(compiled, **asked).values)
+    q, p = compiled.starts(3)
+    assert np.array_equal(nysalt.integrate(mine, "verlet", 0.1, q, p, 40),
+                          nysalt.integrate(compiled, "verlet", 0.1, q, p, 40))
+    assert np.array_equal(mine.force(q), compiled.force(q))
+    other = henon_heiles_by_functions("another", cubic=1.5)
+    assert not np.array_equal(nysalt.run(other, **asked).values, found.values)
+
+
+def test_it_is_compared_as_the_compiled_one_is():
+    asked = dict(methods=["verlet", "srkn6b"], steps=[0.2], horizon=2, trajectories=4, metric=["state", "energy"],
+                 fine_step=0.05)
+    mine = nysalt.compare(henon_heiles_by_functions(), **asked)["rows"]
+    compiled = nysalt.compare(nysalt.system("henon_heiles"), **asked)["rows"]
+    for a, b in zip(mine, compiled):
+        assert a["evaluations_per_time"] == b["evaluations_per_time"]
+        if a["metric"] == "energy":  # the state is measured in modes where they are known
+            assert a["error"] == pytest.approx(b["error"], rel=1e-9)  # the potential rounds in another order
+    by_method = {row["method"]: row["error"] for row in mine if row["metric"] == "state"}
+    assert by_method["srkn6b"] < by_method["verlet"]
+
+
+def test_the_example_learns_and_compares(capsys):
+    its = runpy.run_path(str(EXAMPLE))
+    assert its["scheme"].usable and not its["morse"].frequency_bands
+    assert {row["metric"] for row in its["found"]["rows"]} == {"state", "energy"}
+    # 20 trajectories, and examples/new_hamiltonian.cpp learns from 100 others: the errors of both add up to less
+    # than five of these.
+    theirs = np.array([0.5199, 0.4113])
+    errors = np.array(list(its["scheme"].standard_errors.values()))
+    assert (abs(its["scheme"].theta - theirs) <= 5 * errors + 1e-4).all()
+    assert "mclachlan2" in capsys.readouterr().out
+
+
+def test_a_scheme_is_of_the_name(tmp_path):
+    scheme = nysalt.learn(henon_heiles_by_functions("mine"), **LEARNING)
+    scheme.save(tmp_path / "mine.json")
+    again = henon_heiles_by_functions("mine")
+    loaded = nysalt.load(tmp_path / "mine.json")
+    assert np.array_equal(nysalt.run(again, loaded, 0.4, 4).values, nysalt.run(again, scheme, 0.4, 4).values)
+    with pytest.raises(ValueError, match="it was learned for mine, not yours"):
+        nysalt.run(henon_heiles_by_functions("yours"), loaded, 0.4, 4)
+
+
+class Troubled:
+    """Right for a while."""
+
+    def __init__(self, trouble, after):
+        self.calls, self.trouble, self.after = 0, trouble, after
+
+    def __call__(self, q):
+        self.calls += 1
+        if self.calls > self.after:
+            return self.trouble(q)
+        x, y = q
+        return -x - x * y * 2, -y - x * x + y * y
+
+
+def raises(_):
+    raise ZeroDivisionError("the mass is zero")
+
+
+@pytest.mark.parametrize("after", [0, 1500])
+def test_what_a_function_raises_comes_through(after):
+    force = Troubled(raises, after)
+    with pytest.raises(ZeroDivisionError, match="the mass is zero") as caught:
+        nysalt.learn(henon_heiles_by_functions(force=force), **LEARNING)
+    assert any(frame.name == "raises" for frame in traceback.extract_tb(caught.value.__traceback__))
+    assert force.calls == after + 1  # nobody asked again
+    assert nysalt.learn(henon_heiles_by_functions(force=Troubled(raises, 10**9)), **LEARNING).theta.size == 2
+
+
+@pytest.mark.parametrize("trouble, sentence", [
+    (lambda q: [1.0, 2.0, 3.0], r"force\(q\) must have the shape \(2,\), it has \(3,\)"),
+    (lambda q: 1.0, r"force\(q\) must have the shape \(2,\), it has \(\)"),
+    (lambda q: None, r"force\(q\) returned None: does it lack a return\?"),
+    (lambda q: "two numbers", r"force\(q\) must hold numbers, got str"),
+    (lambda q: q, "the force is not -grad V: coordinate 1 is off"),
+])
+def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
+    with pytest.raises(ValueError, match=sentence) as caught:
+        henon_heiles_by_functions(force=Troubled(trouble, 0))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("change, sentence", [
+    (dict(potential=lambda q: "deep"), r"potential\(q\) must be a number, got 'deep'"),
+    (dict(starts=lambda seed, n: ([0.1], [0.0, 0.0])), r"q of starts\(seed, n\) must have the shape \(2,\), it has \(1,\)"),
+    (dict(starts=lambda seed, n: 1), r"starts\(seed, n\) must be a pair \(q, p\), got 1"),
+    (dict(starts=lambda seed, n: ([np.nan, 0.1], [0.0, 0.0])), "q1 is nan"),
+    (dict(force=3), "force must be a function, got 3"),
+    (dict(inverse_mass=[1, 1, 1]), "inverse_mass must be one number or 2, got 3"),
+    (dict(inverse_mass=-1), "inverse_mass must be positive, got -1"),
+    (dict(dimension=0), "dimension must be at least 1, got 0"),
+    (dict(friction=0.1), "friction needs sigma or temperature"),
+    (dict(name=""), "a Hamiltonian needs a name"),
+])
+def test_what_is_no_hamiltonian_is_told_in_a_sentence(change, sentence):
+    sound = dict(name="springs", dimension=2, potential=lambda q: 0.5 * (q @ q), force=lambda q: -q,
+                 starts=lambda seed, n: np.random.default_rng([seed, n]).normal(size=(2, 2)))
+    assert nysalt.hamiltonian(**sound).highest_frequency == pytest.approx(1, rel=0.02)  # known to 1 %
+    with pytest.raises(ValueError, match=sentence) as caught:
+        nysalt.hamiltonian(**{**sound, **change})
+    assert "\n" not in str(caught.value)
+
+
+def test_it_may_be_in_a_bath_and_has_masses():
+    # One oscillator of mass 4 and frequency 1 at kT = 0.5.
+    bath = nysalt.hamiltonian("heavy", dimension=1, potential=lambda q: 2 * q[0]**2, force=lambda q: -4 * q,
+                              starts=lambda seed, n: ([0.0], [1.0]), inverse_mass=0.25, friction=1, temperature=0.5,
+                              frequency=1)
+    assert bath.energy([1.0], [2.0]) == 2 + 0.5
+    run = nysalt.run(bath, "baoab", 0.2, 20, trajectories=200, observables="kinetic_temperature", sample_every=100)
+    # p^2/m is kT times chi-squared: of 200 the mean errs by kT sqrt(2/200), and this is five times that.
+    assert abs(run.values[:, -1, 0].mean() - 0.5) <= 5 * 0.5 * 0.1
+    assert run.values[0, 0, 0] == 0.25

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Documents, samples and scheme files are those of the program."""
+import json
+
+import numpy as np
+import pytest
+
+import nysalt
+from conftest import without_times
+
+BATH = ["--friction", "0.01", "--sigma", "0.05"]
+
+
+def test_what_there_is_is_what_list_prints(program):
+    listed = program("list")
+    for kind, function in (("systems", nysalt.systems), ("methods", nysalt.methods),
+                           ("families", nysalt.families), ("metrics", nysalt.metrics)):
+        assert [{"name": name, **facts} for name, facts in function().items()] == listed[kind]
+
+
+def test_a_fit_is_that_of_the_program(program):
+    chain = nysalt.system("fpu", omega=30, friction=0.01, sigma=0.05)
+    scheme = nysalt.learn(chain, step=0.02, trajectories=20, horizon=0.2, placement="end", fix={"b1": 0.5})
+    asked = ["learn", "--omega", "30", *BATH, "--step", "0.02", "--trajectories", "20", "--horizon", "0.2",
+             "--placement", "end", "--fix", "b1=0.5"]
+    of_program = program(*asked)
+    of_program.pop("output")
+    assert without_times(scheme.fit) == without_times(of_program)
+    assert scheme.parameters["b1"] == 0.5
+    other = program(*asked, "--seed", "2")
+    assert without_times(scheme.fit) != without_times(other)
+
+
+def test_a_curve_is_that_of_the_program(program):
+    curve = nysalt.learn(nysalt.system("oscillator"), steps=[0.02, 0.03], trajectories=10, coordinates="energy")
+    fits = program("learn", "--system", "oscillator", "--steps", "0.02,0.03", "--trajectories", "10",
+                   "--coordinates", "energy")["fits"]
+    assert without_times(curve.fit["fits"]) == without_times(fits)
+    assert curve.theta.shape == (2, 2) and curve.step == [0.02, 0.03]
+    for n, step in enumerate(curve.step):
+        assert curve.parameters["beta1"][n] == fits[n]["parameters"]["beta1"]
+        assert curve.coefficients(step).sum() == pytest.approx(2, abs=1e-14)  # drifts and kicks, a few roundings
+    assert not np.array_equal(curve.coefficients(0.02), curve.coefficients(0.03))
+
+
+def test_a_comparison_is_the_document_of_the_program(program):
+    metric = ["path:energy", "state"]
+    found = nysalt.compare(nysalt.system("henon_heiles"), ["verlet", "srkn6b", "learned:nystrom"], [0.2, 0.4],
+                           equal_cost=True, horizon=4, trajectories=20, metric=metric, learn_horizon=4,
+                           learn_trajectories=10, levels=[1e-3])
+    asked = ["compare", "--system", "henon_heiles", "--methods", "verlet,srkn6b,learned:nystrom", "--steps",
+             "0.2,0.4", "--equal-cost", "--horizon", "4", "--metric", ",".join(metric), "--learn-horizon", "4",
+             "--learn-trajectories", "10", "--levels", "1e-3"]
+    assert without_times(found) == without_times(program(*asked, "--trajectories", "20"))
+    assert without_times(found) != without_times(program(*asked, "--trajectories", "21"))
+    assert len(found["rows"]) == 2 * 3 * 2
+
+
+def test_a_recommendation_is_the_document_of_the_program(program):
+    found, scheme = nysalt.recommend(nysalt.system("pendulum"), 5, budget=4, families="nystrom",
+                                     trajectories=20, learn_trajectories=10)
+    of_program = program("recommend", "--system", "pendulum", "--horizon", "5", "--budget", "4", "--families",
+                         "nystrom", "--trajectories", "20", "--learn-trajectories", "10")
+    of_program.pop("output")
+    if found["verdict"] != "tie":  # ties are told by seconds
+        assert without_times(found)["rows"] == without_times(of_program)["rows"]
+    assert found["verdict"] == of_program["verdict"]
+    assert (scheme is not None) == (found["verdict"] == "learned")
+
+
+RUNS = [
+    (dict(name="fpu", friction=0.01, sigma=0.05), ["--system", "fpu", *BATH], "baoab", 0.01, 40.0, 37, 70,
+     ["stiff_energy", "q1", "p6"]),  # noise, and several blocks of lanes
+    (dict(name="henon_heiles", spread=2.5), ["--system", "henon_heiles", "--spread", "2.5"], "verlet", 0.3, 600.0, 40,
+     7, ["energy", "q2"]),  # some diverge
+]
+
+
+@pytest.mark.parametrize("system, options, method, step, horizon, trajectories, every, observables", RUNS)
+def test_samples_are_those_of_the_program(program, tmp_path, system, options, method, step, horizon, trajectories,
+                                          every, observables):
+    run = nysalt.run(nysalt.system(**system), method, step, horizon, trajectories=trajectories, sample_every=every,
+                     observables=observables, threads=2)
+    asked = ["run", *options, "--method", method, "--step", str(step), "--horizon", str(horizon), "--trajectories",
+             str(trajectories), "--sample-every", str(every), "--observables", ",".join(observables)]
+    program(*asked, "--output", "run.npy")
+    values = np.load(tmp_path / "run.npy")
+    assert run.values.tobytes() == values.tobytes() or np.array_equal(run.values, values, equal_nan=True)
+    lost = {its["trajectory"]: its["step"] for its in json.loads((tmp_path / "run.npy.manifest.json").read_text())[
+        "diverged"]}
+    assert {int(m): int(run.diverged[m]) for m in np.flatnonzero(run.diverged >= 0)} == lost
+    assert np.isnan(run.values[:, -1, 0]).sum() == len(lost)
+
+    of_table = program(*asked)
+    assert [row[2] for row in of_table["rows"] if row[0] == 0] == run.t[:len(run.t)].tolist()[:sum(
+        row[0] == 0 for row in of_table["rows"])]
+    assert run.evaluations == of_table["evaluations"] and run.starts == of_table["starts"]
+    assert np.array_equal(run[observables[1]], run.values[:, :, 1], equal_nan=True)
+
+    other = nysalt.run(nysalt.system(**system), method, step, horizon, trajectories=trajectories, sample_every=every,
+                       observables=observables, seed=2)
+    assert not np.array_equal(other.values, values, equal_nan=True)
+
+
+def test_scheme_files_go_both_ways(program, tmp_path):
+    chain = nysalt.system("fpu")
+    scheme = nysalt.learn(chain, step=0.02, trajectories=10)
+    mine, theirs = tmp_path / "mine.json", tmp_path / "theirs.json"
+    scheme.save(mine)
+    program("learn", "--step", "0.02", "--trajectories", "10", "--output", "theirs.json")
+    assert mine.read_bytes() == theirs.read_bytes()
+    loaded = nysalt.load(theirs)
+    assert isinstance(loaded, nysalt.Scheme) and loaded.parameters == scheme.parameters and loaded.fit is None
+    assert loaded.document == scheme.document == json.loads(theirs.read_text())
+
+    program("run", "--method", "mine.json", "--step", "0.02", "--horizon", "1", "--output", "run.npy")
+    values = np.load(tmp_path / "run.npy")
+    for method in (scheme, loaded, str(mine)):
+        assert np.array_equal(nysalt.run(chain, method, 0.02, 1).values, values)
+    with pytest.raises(ValueError, match=r"it was learned for the step 0.02, not 0.03; learn it there, or take force=True"):
+        nysalt.run(chain, scheme, 0.03, 1)
+    with pytest.warns(UserWarning, match=r"used all the same \(force=True\)"):
+        nysalt.run(chain, scheme, 0.03, 1, force=True)
+
+
+def test_tables_are_read(program, tmp_path):
+    table = tmp_path / "mine.json"
+    table.write_text(json.dumps({"format": "nysalt table", "version": 1, "name": "leapfrog", "letters": "BAB",
+                                 "coefficients": [0.5, 1.0, 0.5]}))
+    loaded = nysalt.load(table)
+    assert isinstance(loaded, nysalt.Table) and loaded.order == 2 and loaded.letters == "BAB"
+    system = nysalt.system("pendulum")
+    assert np.array_equal(nysalt.run(system, loaded, 0.1, 5).values, nysalt.run(system, "verlet", 0.1, 5).values)
+    table.write_text(table.read_text().replace("1.0", "0.9"))
+    with pytest.raises(ValueError, match="it is not consistent"):
+        nysalt.load(table)
+
+
+def test_an_unusable_fit_is_said_to_be_one(program, tmp_path):
+    fit = nysalt.learn(nysalt.system("fpu"), step=0.02, trajectories=1, horizon=0.02)
+    assert not fit.usable and fit.reason
+    with pytest.raises(ValueError, match="the fit is not usable"):
+        fit.save(tmp_path / "fit.json")
+    fit.save(tmp_path / "fit.json", force=True)
+    assert nysalt.load(tmp_path / "fit.json").reason == fit.reason

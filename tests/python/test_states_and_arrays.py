@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSL-1.0
+"""States are stepped as run steps them; arrays are filled where they lie."""
+import pathlib
+import runpy
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import nysalt
+
+
+@pytest.fixture(scope="module")
+def chain():
+    return nysalt.system("fpu", omega=50, friction=0.01, sigma=0.05)
+
+
+def samples_at_end(chain, trajectories, steps, **more):
+    names = [f"q{i}" for i in range(1, 7)] + [f"p{i}" for i in range(1, 7)]
+    run = nysalt.run(chain, "baoab", 0.01, steps * 0.01, trajectories=trajectories, sample_every=steps,
+                     observables=names, **more)
+    return run.values[:, -1, :6], run.values[:, -1, 6:]
+
+
+@pytest.mark.parametrize("trajectories", [1, 40])  # singly, and side by side in lanes
+def test_states_go_where_run_takes_them(chain, trajectories):
+    q, p = chain.starts(trajectories)
+    expected = samples_at_end(chain, trajectories, 150)
+    assert np.array_equal((q, p), chain.starts(trajectories, seed=1))
+    assert not np.array_equal(q, chain.starts(trajectories, seed=2)[0])
+    new = nysalt.integrate(chain, "baoab", 0.01, q, p, 150)
+    assert np.array_equal(new, expected)
+    assert np.array_equal((q, p), chain.starts(trajectories))  # as they were
+    assert not np.array_equal(nysalt.integrate(chain, "baoab", 0.01, q, p, 150, seed=2), expected)  # other noise
+
+    mine = nysalt.integrate(chain, "baoab", 0.01, q, p, 150, out=(q, p))
+    assert mine[0] is q and mine[1] is p and np.array_equal(mine, expected)
+
+
+def test_one_state_may_be_a_list_and_steps_may_be_none():
+    pendulum = nysalt.system("pendulum")
+    q, p = nysalt.integrate(pendulum, "verlet", 0.1, [0.5], [0.0], 1)
+    # B A B with f = -sin q.
+    half = -0.05 * np.sin(0.5)
+    assert q[0] == 0.5 + half * 0.1 and abs(p[0] - (half - 0.05 * np.sin(q[0]))) <= 1e-17
+    assert np.array_equal(nysalt.integrate(pendulum, "verlet", 0.1, [0.5], [0.0], 0), ([0.5], [0.0]))
+
+
+def test_what_diverges_ends_as_nan():
+    wild = nysalt.system("henon_heiles")
+    q, p = nysalt.integrate(wild, "verlet", 0.1, [[0.1, 0.1], [3.0, 3.0]], np.zeros((2, 2)), 400)
+    assert np.isfinite(q[0]).all() and np.isfinite(p[0]).all()
+    assert np.isnan(q[1]).all() and np.isnan(p[1]).all()
+
+
+def test_arrays_are_filled_where_they_lie(chain):
+    shape = (32, 2001, 4)
+    observables = ["stiff_energy", "energy", "q1", "p1"]
+    out = np.zeros(shape)
+    pointer = out.ctypes.data
+    tracemalloc.start()
+    run = nysalt.run(chain, "baoab", 0.01, 20, trajectories=32, observables=observables, out=out)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert run.values is out and out.ctypes.data == pointer and not np.isnan(out).any()
+    assert most < out.nbytes / 20  # NumPy tells of each of its arrays: there was no second one of the size
+    assert run["q1"].base is out and np.shares_memory(run["q1"], out)
+
+    tracemalloc.start()
+    new = nysalt.run(chain, "baoab", 0.01, 20, trajectories=32, observables=observables)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert new.values.flags.owndata and np.array_equal(new.values, out)
+    assert out.nbytes < most < 1.05 * out.nbytes  # one array, and no copy
+    assert not np.shares_memory(new.values, out) and not np.shares_memory(out.copy(), out)
+
+
+def test_threads_change_nothing(chain):
+    runs = [nysalt.run(chain, "baoab", 0.01, 5, trajectories=70, threads=threads) for threads in (1, 2)]
+    assert np.array_equal(runs[0].values, runs[1].values)
+
+
+def test_energy_and_force_are_those_of_the_hamiltonian():
+    system = nysalt.system("henon_heiles")
+    q, p = system.starts(5)
+    x, y = q.T
+    expected = 0.5 * (p**2).sum(1) + 0.5 * (x**2 + y**2) + x**2 * y - y**3 / 3
+    assert np.allclose(system.energy(q, p), expected, rtol=1e-14, atol=0)  # some ten roundings
+    assert isinstance(system.energy(q[0], p[0]), float) and system.energy(q[0], p[0]) == system.energy(q, p)[0]
+    assert np.array_equal(system.force(q), np.stack([-x - x * y * 2, -y - x * x + y * y], axis=1))
+    assert system.force(q[0]).shape == (2,) and not np.allclose(system.energy(q, p), expected * 1.001)
+
+
+def test_facts_of_a_system():
+    chain = nysalt.system("fpu", omega=30, pairs=2)
+    assert chain.dimension == 4 and chain.description == "fpu_chain(pairs=2, omega=30)"
+    assert chain.default_observable == "stiff_energy" and "q1..q4" in chain.observables
+    assert chain.parameters == {"name": "fpu", "pairs": 2, "omega": 30.0} and not chain.calls_python
+    assert chain.frequency_bands[-1][1] >= 30 and nysalt.system("kepler").frequency_bands == []
+
+
+def test_the_example_steps_its_states(capsys):
+    its = runpy.run_path(str(pathlib.Path(__file__).parents[2] / "examples/python/states.py"))
+    assert its["off"].max() < 0.5 and len(capsys.readouterr().out.splitlines()) == 10
+    assert not np.array_equal(its["q"], its["chain"].starts(1000)[0])
