@@ -33,7 +33,9 @@ int main() {
   fmt::print("{}\n\n", end.diverged_at ? "diverged" : "did not diverge");
 
   // Compare, each at the cost of two force evaluations per step of 0.03.
+  // [measure]
   const auto measure = path_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
+  // [/measure]
   const auto report = [&](const auto& other, double its_step, std::int64_t steps) {
     const auto result = trajectory_errors(chain, reference, law, other, measure,
                                           {.step = its_step, .steps = steps, .trajectories = 100, .seed = 3});

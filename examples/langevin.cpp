@@ -44,11 +44,14 @@ struct dumbbell {
 int main() {
   constexpr double temperature = 0.25;
   constexpr double step = 0.03;  // the bond swings with frequency 51
+  // [bath]
   const in_bath system(dumbbell{}, bath::of_temperature(0.1, temperature));
   const phase_point<double, 2> rest{{0.0, 1.0}, {0.0, 0.0}};
   const gibbs starts(system, normal_around<2>(rest, 0.1, 0.1), {.step = 0.01});
   const fine_paths<> paths(1e-4);  // BAOAB, which keeps its noise
+  // [/bath]
 
+  // [learn]
   // Each half of O needs the noise of its own half of the step.
   const thermostatted_family<nystrom, placement::symmetric> family;
   const data_options options{.step = step, .horizon = 1.5, .trajectories = 200, .seed = 1, .noise_parts = 2};
@@ -56,13 +59,16 @@ int main() {
   others.seed = 2;
   const auto data = make_flow_map_data(system, starts, paths, options);
   const auto [learned, fit] = learn(family, system, data, make_flow_map_data(system, starts, paths, others));
+  // [/learn]
   fmt::print("{}: b1 = {:.3f}, beta1 = {:.3f}, usable: {}\n\n", learned.name(), fit.parameters[0].value,
              fit.parameters[1].value, fit.usable ? "yes" : fit.reason);
 
+  // [judge]
   const std::vector methods{tabulated(baoab{}), tabulated(baoab_2x{}), tabulated(learned.anywhere())};
   const auto along_path = path_measure(system, over_lanes([&](const auto& x) { return energy(system, x); }));
   const auto errors = trajectory_errors(system, paths, starts, methods, along_path,
                                         {.step = step, .steps = 50, .trajectories = 400, .seed = 3});
+  // [/judge]
   const auto bond = over_lanes([&](const auto& x) { return system.bond_energy(x); });
   const ensemble_options long_runs{.trajectories = 1600, .steps = 4000, .seed = 4};
   fmt::print("                   path error of H   energy of the bond / kT\n");

@@ -13,6 +13,7 @@
 
 using namespace nysalt;
 
+// [system]
 struct morse_pair {
   static constexpr int dimension = 2;
 
@@ -28,8 +29,10 @@ struct morse_pair {
   std::string description() const { return "morse_pair()"; }
 };
 static_assert(NystromSystem<morse_pair>);
+// [/system]
 
 int main() {
+  // [learn]
   const morse_pair system;
   const phase_point<double, 2> rest{{0.0, 0.0}, {0.0, 0.0}};
   const normal_around<2> starts(rest, 0.1, 0.3);
@@ -41,6 +44,7 @@ int main() {
   const auto held_out =
       make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 2});
   const auto [method, fit] = learn(nystrom{}, system, data, held_out);
+  // [/learn]
   fmt::print("b1 = {:.4f}, beta1 = {:.4f}, usable: {}\n", fit.parameters[0].value, fit.parameters[1].value,
              fit.usable ? "yes" : fit.reason);
   fmt::print("force derivatives by {}\n\n", fit.derivatives);

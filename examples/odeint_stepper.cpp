@@ -23,19 +23,23 @@ int main() {
   const state start{vector<double, 1>(1.0), vector<double, 1>(0.0)};
   constexpr double step = 0.1;
 
+  // [drive]
   auto x = start;
   const auto watch = [](const state& y, double t) {
     if (std::fmod(t + 1e-9, 5.0) < 1e-6) fmt::print("t = {:4.1f}  q = {:+.6f}\n", t, y.q[0]);
   };
   odeint::integrate_const(odeint_stepper<srkn6b>(), system, x, 0.0, 20.0 + 0.5 * step, step, watch);
+  // [/drive]
 
   auto y = start;
   odeint::integrate_n_steps(odeint_stepper<srkn6b>(), system, y, 0.0, step, 200);
   fmt::print("integrate_n_steps ends at the same state: {}\n", y.q == x.q && y.p == x.p ? "yes" : "no");
 
+  // [reference]
   auto exact = start;
   const odeint_reference reference(1e-12);
   reference.advance(system, exact, 20.0);
+  // [/reference]
   fmt::print("error against {}: {:.0e}\n", reference.description(), std::abs(x.q[0] - exact.q[0]));
 
   const counted<pendulum> watched(system);

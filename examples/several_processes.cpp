@@ -17,13 +17,16 @@ using namespace nysalt;
 void learn_and_look(const communicator& ranks) {
   const fpu_chain<3> chain(50.0);
   const fpu_law<3> starts(chain);
+  // [learn]
   const auto pairs = [&](std::uint64_t seed) {
     return make_flow_map_data(chain, starts, fine_steps<>(1e-3),
                               {.step = 0.03, .trajectories = 400, .seed = seed, .ranks = &ranks});
   };
   const auto [method, fit] = learn(nystrom{}, chain, pairs(1), pairs(2));
+  // [/learn]
 
   // How far the energy is off at t = 30, along trajectories that each process follows for itself.
+  // [share]
   const ensemble_options options{
       .trajectories = 1000, .steps = 1000, .every = 1000, .seed = 3, .ranks = &ranks};
   const shard ours(options.trajectories, ranks);
@@ -37,6 +40,7 @@ void learn_and_look(const communicator& ranks) {
   const auto total_energy = over_lanes([&](const auto& x) { return energy_in_lanes(chain, x); });
   integrate_ensemble(chain, method, fit.step, starts, options, total_energy, take);
   const double error = std::sqrt(ours.sum(squares) / static_cast<double>(ours.total()));
+  // [/share]
 
   if (!ranks.is_first()) return;  // one speaks for all
   fmt::print("learned from {} pairs of {} trajectories\n", fit.samples, fit.trajectories);
@@ -44,11 +48,13 @@ void learn_and_look(const communicator& ranks) {
   fmt::print("energy off by {:.4f} after 1000 steps\n", error);
 }
 
+// [main]
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   learn_and_look(mpi_communicator());
   MPI_Finalize();
 }
+// [/main]
 
 // Expected output:
 // learned from 6400 pairs of 400 trajectories

@@ -1,0 +1,90 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSL-1.0
+# The tutorial with the program: learn for the stiff chain, look whether it is stable, compare, run.
+set -eu
+
+# [learn]
+nysalt learn --system fpu --family fg_chin --step 0.045 --output scheme.json
+# [/learn]
+# [stability]
+nysalt stability --method scheme.json --system fpu --step 0.045
+# [/stability]
+# [compare]
+nysalt compare --equal-cost --system fpu --steps 0.005,0.015 --metric state --horizon 10 --trajectories 48 \
+  --methods learned:fg_chin,srkn6b,chin4a,pefrl,verlet --output report
+# [/compare]
+# [run]
+nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observables stiff_energy,energy \
+  --sample-every 100 --output energies.csv --plot
+# [/run]
+
+# Expected output:
+# fg_chin at step 0.045 for fpu_chain(pairs=3, omega=50)
+#   b                     0.182692~  +- 8.32e-08
+#   c                     0.011628~  +- 1.28e-08
+#   usable                yes
+#   loss                  1.260641e-08 (state:1) on 1100 pairs of 100 trajectories
+#   held-out loss         1.196476e-08 on 1100 pairs; at the start 5.713669e-03
+#   uncertainty           adds 3.8e-13 to the loss on new data, 0.003 % of it; it rests on 20 trajectories
+#   search                1 starts; this is from 'start'
+#   stability             declared bands [0, 5.94242] [49, 51.345]
+#   one-step error        1.094e-04, the reference's own 2.775e-13
+#   trajectory error      8.644e-04 at the end of held-out trajectories
+#   coordinates           qp
+#   condition             73.8
+#   iterations            7
+#   reference             srkn11b with step 0.0001
+#   starts                fpu_law(omega=50), seed 1, held out 2251799813685249
+#   force derivatives     automatic differentiation
+#   cost                  11297032 force evaluations; data ~ s, fit ~ s
+# Written: scheme.json
+# scheme.json: BAGAB, order 2, 3 evaluations a step
+# stable up to z = h omega = 3.143491915, 1.047830638 for each evaluation
+#   window 0 .. 3.143491915
+#   window 3.308680265 .. 4.171919933
+#   highest frequency 50.3383, z = 2.26522 (declared up to 50.3383; rare starts meet 50; 64 starts have up to 50.0351)
+#   frequencies 0 .. 5.8259 of fpu_chain(pairs=3, omega=50) at step 0.045: stable, margin 91.7 %
+#   frequencies 50 .. 50.3383 of fpu_chain(pairs=3, omega=50) at step 0.045: stable, margin 27.9 %
+#   stable steps 0 .. 0.0624474
+#   stable steps 0.0661736 .. 0.0828777
+#   a safe step is 0.0295: 30 % below the first end, and less than a quarter of a turn
+# fpu_chain(pairs=3, omega=50), 48 trajectories over 10
+# starts: fpu_law(omega=50)
+# steps are per force evaluation: equal steps, equal cost
+#
+# state error
+#
+# step sizes  reference                           its own error, at most  null model, at least  predictable until
+# ----------  ----------------------------------  ----------------------  --------------------  -----------------
+# 0.005       srkn11b with step 0.005                           1.75e-08              5.17e+00            the end
+# 0.015       srkn11b with step 0.00375                         3.10e-09              5.17e+00            the end
+# 0.02        srkn11b with step 0.004                           4.58e-09              5.17e+00            the end
+# 0.03        srkn11b with step 0.00375                         3.11e-09              5.17e+00            the end
+# 0.045       srkn11b with step 0.00409090909091                5.25e-09              5.18e+00            the end
+# 0.06        srkn11b with step 0.004                           4.58e-09              5.18e+00            the end
+# 0.09        srkn11b with step 0.00391304347826                4.03e-09              5.18e+00            the end
+#
+# method            step  evaluations/time  ns/time  median +     error  standard error  diverged  marks
+# ---------------  -----  ----------------  -------  --------  --------  --------------  --------  -----
+# learned:fg_chin  0.005             200.1~%  5.92e-05        2.33e-06      0/48
+# srkn6b           0.005             200.1~%  1.04e-01        3.67e-03      0/48
+# chin4a           0.005             200.1~%  6.46e-02        2.28e-03      0/48
+# pefrl            0.005             200.0~%  5.23e-02        1.86e-03      0/48
+# verlet           0.005             200.1~%  2.14e+00        7.55e-02      0/48
+# learned:fg_chin  0.015              66.8~%  6.55e-03        2.72e-04      0/48
+# srkn6b           0.015              66.8~%  4.25e+00        1.29e-01      0/48
+# chin4a           0.015              66.8~%  4.60e+00        1.65e-01      0/48
+# pefrl            0.015              66.7~%         -               -     48/48
+# verlet           0.015              66.8~%  4.16e+00        1.43e-01      0/48
+# null model           -               0.0        0         -  5.17e+00               -         -
+# pefrl at step 0.015: every trajectory diverged, the first of them at step 41
+#
+# at equal cost     step     error  best of the others  its error  its error / learned  its ns / learned
+# ---------------  -----  --------  ------------------  ---------  -------------------  ----------------
+# learned:fg_chin  0.005  5.92e-05               pefrl   5.23e-02             883 ± 47~
+# learned:fg_chin  0.015  6.55e-03              verlet   4.16e+00             635 ± 34~
+#
+# peak memory: ~ MB
+# Written: report
+# 1 trajectories of 11111 steps, 33334 force evaluations each, ~ s
+# Written: energies.csv
