@@ -12,8 +12,8 @@ root = Path(__file__).resolve().parents[2]
 source = root / "docs/bibliography.bib"
 page = root / "docs/bibliography.md"
 
-accents = {"\"a": "ä", "\"o": "ö", "\"u": "ü", "\"U": "Ü", "\"e": "ë", "\"i": "ï", "'e": "é", "'a": "á", "'i": "í", "'o": "ó",
-           "'u": "ú", "`e": "è", "^o": "ô", "^i": "î", "^e": "ê"}
+accents = {'"a': "ä", '"o': "ö", '"u': "ü", '"U': "Ü", '"e': "ë", '"i': "ï", "'e": "é", "'a": "á", "'i": "í",
+           "'o": "ó", "'u": "ú", "`e": "è", "^o": "ô", "^i": "î", "^e": "ê"}
 
 
 class Mistake(Exception):
@@ -35,9 +35,8 @@ def entries(text):
     """[(kind, key, {field: text})] in the order of the file."""
     found = []
     for entry in re.finditer(r"^@(\w+)\{([\w-]+),\n(.*?)^\}", text, re.M | re.S):
-        fields = {name: value for name, value in re.findall(r"^ *(\w+) *= *\{(.*?)\}(?:,?$)(?=\n *\w+ *=|\n*\Z)", entry.group(3),
-                                                            re.M | re.S)}
-        found.append((entry.group(1), entry.group(2), fields))
+        field = r"^ *(\w+) *= *\{(.*?)\}(?:,?$)(?=\n *\w+ *=|\n*\Z)"
+        found.append((entry.group(1), entry.group(2), dict(re.findall(field, entry.group(3), re.M | re.S))))
     if len(found) != len(re.findall(r"^@", text, re.M)):
         raise Mistake("an entry is not of the form @kind{key, ... } with the brace on a line of its own")
     return found
@@ -90,7 +89,7 @@ def written(text):
     """The page."""
     out = ["# Bibliography", "",
            "The works that code and documents cite, by their keys. Made from [bibliography.bib](bibliography.bib) by",
-           "`docs/site/bibliography.py --update`; `nysalt` itself is cited as [CITATION.cff](../CITATION.cff) says.", ""]
+           "`docs/site/bibliography.py --update`. How to cite nysalt itself is in [CITATION.cff](../CITATION.cff).", ""]
     for _, key, fields in sorted(entries(text), key=lambda entry: entry[1]):
         out += [f"## {key}", "", shown(fields), ""]
     return "\n".join(out[:-1]) + "\n"
@@ -98,8 +97,9 @@ def written(text):
 
 def readers():
     """Files in which a key may be cited."""
-    for folder, suffixes in (("include", ".hpp"), ("src", ".hpp .cpp"), ("docs", ".md"), ("examples", ".hpp .cpp .py .sh"),
-                             ("tests", ".hpp .cpp"), ("bench", ".hpp .cpp"), ("python", ".hpp .cpp .py"), (".", ".md .cff")):
+    for folder, suffixes in (("include", ".hpp"), ("src", ".hpp .cpp"), ("docs", ".md"), ("tests", ".hpp .cpp"),
+                             ("examples", ".hpp .cpp .py .sh"), ("bench", ".hpp .cpp"), ("python", ".hpp .cpp .py"),
+                             (".", ".md .cff")):
         files = (root / folder).glob("*") if folder == "." else (root / folder).rglob("*")
         yield from (file for file in files if file.suffix in suffixes.split() and file != page)
 
@@ -122,7 +122,7 @@ def mistakes():
                   for key in sorted(here - known)]
     found += [f"nobody cites {key} of docs/bibliography.bib" for key in sorted(known - everywhere)]
     if not page.exists() or page.read_text() != written(text):
-        found.append("docs/bibliography.md is not that of docs/bibliography.bib: python3 docs/site/bibliography.py --update")
+        found.append("docs/bibliography.md is not that of the .bib: python3 docs/site/bibliography.py --update")
     return found
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
-"""What Doxygen is given of a header: the same lines, with what our comments leave unsaid because it is plain to a reader.
+"""What Doxygen is given of a header: the same lines, and what our comments leave unsaid as it is plain to a reader.
 
-- Members that a concept asks for (`order`, `dimension`, ...) need no comment: docs/site/members.txt has their sentences.
+- Members that a concept asks for (`order`, `dimension`, ...) need no comment: members.txt has their sentences.
 - An overload right below a documented one shares its comment, and a `// remark` behind a declaration is one.
 - The `// lines` above `#pragma once` describe the file.
 - Tables made of spaces stay tables, and [key] is a link into the bibliography.
@@ -34,34 +34,32 @@ def sentence_for(members, path, name):
     return None
 
 
+def behind(text, opening, closing):
+    """What follows the bracket that closes the first one."""
+    opened = 0
+    for i, c in enumerate(text):
+        opened += (c == opening) - (c == closing and text[i - 1:i + 1] != "->")
+        if c == closing and opened == 0:
+            return text[i + 1:].strip()
+    return ""
+
+
 def without_template(head):
     """`template <...> requires(...) int f()` without what stands before the type."""
-    while True:
-        head = head.strip()
-        if head.startswith("template"):
-            opened = 0
-            for i, c in enumerate(head):
-                opened += (c == "<") - (c == ">" and head[i - 1] != "-")
-                if c == ">" and opened == 0:
-                    break
-            head = head[i + 1:]
-        elif re.match(r"requires\s*\(", head):
-            opened = 0
-            for i, c in enumerate(head):
-                opened += (c == "(") - (c == ")")
-                if c == ")" and opened == 0:
-                    break
-            head = head[i + 1:]
-        elif head.startswith("[["):
-            head = head[head.index("]]") + 2:]
-        else:
-            return head
+    head = head.strip()
+    if head.startswith("template"):
+        return without_template(behind(head, "<", ">"))
+    if re.match(r"requires\s*\(", head):
+        return without_template(behind(head, "(", ")"))
+    if head.startswith("[["):
+        return without_template(head[head.index("]]") + 2:])
+    return head
 
 
 def name_of(head):
     """What a declaration declares."""
     head = without_template(head)
-    for pattern in (r"using\s+(\w+)\s*=", r"concept\s+(\w+)", r"(?:enum\s+)?(?:class|struct|enum|union)\s+(\w+)\s*[^(;]*\{",
+    for pattern in (r"using\s+(\w+)\s*=", r"concept\s+(\w+)", r"(?:enum\s+)?(?:class|struct|enum)\s+(\w+)\s*[^(;]*\{",
                     r"[^=]*?(operator\s*(?:\(\)|\[\]|[^\s\w(]+))\s*\("):
         found = re.match(pattern, head)
         if found:
@@ -74,29 +72,25 @@ def name_of(head):
 def statements(lines):
     """(first line, last line, text) of each declaration outside of function bodies, and of each class's head."""
     code = [literal.sub(lambda m: " " if m.group().startswith("//") else '""', line) for line in lines]
+    nothing = re.compile(r"\s*($|#|\}|public:|private:|protected:|.*\bnamespace\b)")
+    goes_on = re.compile(r"\s*(&&|\|\|)")  # as `requires {...}` does with the next one
     i = 0
     while i < len(lines):
-        if not code[i].strip() or re.match(r"\s*(#|}|public:|private:|protected:)", code[i]) or "namespace" in code[i]:
-            i += 2 if code[i].rstrip().endswith("\\") else 1
+        if nothing.match(code[i]):
+            i += 2 if code[i].endswith("\\") else 1
             continue
         first = i
-        braces = parentheses = 0
-        head = None
         text = ""
+        is_class = False
         while i < len(lines):
-            for c in code[i]:
-                text += c
-                parentheses += (c == "(") - (c == ")")
-                braces += (c == "{") - (c == "}")
-                if c == "{" and braces == 1 and parentheses == 0 and head is None:
-                    head = text
-            text += " "
-            opens_class = head and re.match(r"(class|struct|union|friend class|friend struct)\b", without_template(head))
-            if opens_class and braces == 1:
+            text += code[i] + " "
+            head, brace, _ = text.partition("{")
+            is_class = brace and re.match(r"(class|struct)\b", without_template(head))
+            open_braces = text.count("{") - text.count("}")
+            if is_class and open_braces == 1:
                 break
-            if braces == 0 and parentheses == 0 and re.search(r"[;}]\s*$", code[i]):
-                # `requires {...}` goes on with && or || on the next line
-                if i + 1 == len(lines) or not re.match(r"\s*(&&|\|\||&&\()", code[i + 1]):
+            if open_braces == 0 and text.count("(") == text.count(")") and re.search(r"[;}]\s*$", text):
+                if not goes_on.match("".join(code[i + 1:i + 2])):
                     break
             i += 1
         yield first, min(i, len(lines) - 1), text.strip()
@@ -112,29 +106,46 @@ def staged_line(line, keys, pages):
     """A line of a comment, which is text alone; keys are those of the bibliography, pages {docs/NAME.md: address}."""
     if line == " @file":
         return line
-    line = re.sub(r"\bdocs/[\w/-]+\.md\b", lambda m: f"[{m.group()}]({pages[m.group()]})" if m.group() in pages else m.group(), line)
+    for page in set(re.findall(r"\bdocs/[\w/-]+\.md\b", line)) & set(pages):
+        line = line.replace(page, f"[{page}]({pages[page]})")
     return markdown.staged_line(line, lambda address: address, keys)
 
 
 def staged_comment(lines, indent, keys, pages):
     """The lines of a `///` comment; tables in it stay as they are."""
-    if re.match(r" ?[a-z]", lines[0]):
-        lines = [" \x01" + lines[0].lstrip(), *lines[1:]]  # or Doxygen would begin a formula with a capital
     tables = [is_table(line) for line in lines]
     out = [line if table else staged_line(line, keys, pages) for line, table in zip(lines, tables)]
-    out[0] = out[0].replace("\x01", "&zwj;")
+    if re.match(r" ?[a-z]", lines[0]):
+        out[0] = f" &zwj;{out[0].lstrip()}"  # or Doxygen would begin a formula with a capital
     if not any(tables):
         return [f"{indent}///{line}" for line in out]
-    for i, table in enumerate(tables):
-        if table and (i == 0 or not tables[i - 1]):
-            out[max(i - 1, 0)] = f"{out[i - 1]} @verbatim" if i else f" @verbatim {out[0]}"
-        if table and (i + 1 == len(out) or not tables[i + 1]):
-            out[i] += "\n@endverbatim" if i + 1 == len(out) else ""
-            if i + 1 < len(out):
-                out[i + 1] = f"@endverbatim {out[i + 1]}"
-    out[0] = f"{indent}/**{out[0]}"
-    out[-1] = out[-1].replace("\n@endverbatim", " @endverbatim") + " */"
-    return out
+    # Doxygen keeps what stands between its marks as it is, in a comment of this kind without its slashes.
+    begins = [i for i, table in enumerate(tables) if table and not (i and tables[i - 1])]
+    ends = [i for i, table in enumerate(tables) if table and not any(tables[i + 1:i + 2])]
+    for i in begins:
+        if i:
+            out[i - 1] += " @verbatim"
+        else:
+            out[i] = f" @verbatim {out[i]}"
+    for i in ends:
+        if i + 1 < len(out):
+            out[i + 1] = f"@endverbatim {out[i + 1]}"
+        else:
+            out[i] += " @endverbatim"
+    return [f"{indent}/**{out[0]}", *out[1:-1], f"{out[-1]} */"] if len(out) > 1 else [f"{indent}/**{out[0]} */"]
+
+
+def unsaid(members, path, name, declaration, last_line, is_one_line):
+    """What a declaration without a comment needs none for; None if it needs one."""
+    remark = re.search(r"[;}]\s+// (.*)$", last_line)
+    sentence = sentence_for(members, path, name)
+    if sentence:
+        return sentence
+    if declaration.endswith("= delete;"):
+        return f"Refused: {remark.group(1)}." if remark else "Refused."
+    if remark and is_one_line and not declaration.startswith("friend"):
+        return remark.group(1)[0].upper() + remark.group(1)[1:] + "."
+    return None
 
 
 def staged(text, path, members, keys=(), pages=()):
@@ -146,33 +157,26 @@ def staged(text, path, members, keys=(), pages=()):
         for i in range(1, pragma):
             lines[i] = re.sub(r"^//(?=\s|$)", "///", lines[i])
 
-    shared = None  # name and comment of the declaration that ended on the line before
+    shared = (None, None, None)  # end, name and comment of the declaration before
     for first, last, declaration in statements(text.split("\n")):
         name = name_of(declaration)
         above = first
         while above > 0 and lines[above - 1].lstrip().startswith("///"):
             above -= 1
         comment = " ".join(line.strip()[3:].strip() for line in lines[above:first])
-        remark = re.search(r"([;}])\s+// (.*)$", lines[last]) if first == last else None
         if not comment and "///<" not in lines[last] and not lines[first].lstrip().startswith("/**"):
-            comment = sentence_for(members, path, name)
-            if not comment and declaration.endswith("= delete;"):
-                reason = re.search(r";\s+// (.*)$", lines[last])
-                comment = f"Refused: {reason.group(1)}." if reason else "Refused."
-            if not comment and shared and shared[:2] == (first - 1, name):
+            comment = unsaid(members, path, name, declaration, lines[last], first == last)
+            if not comment and shared[:2] == (first - 1, name):
                 comment = shared[2]
-            if not comment and remark and not lines[last].lstrip().startswith("friend"):
-                comment = remark.group(2)[0].upper() + remark.group(2)[1:] + "."
             if comment:
-                indent = len(lines[first]) - len(lines[first].lstrip())
                 said = staged_line(comment, keys, pages)
-                lines[first] = f"{' ' * indent}/** {said} */ {lines[first].lstrip()}"
-        shared = (last, name, comment) if comment else None
+                lines[first] = re.sub(r"^ *", lambda m: f"{m.group()}/** {said} */ ", lines[first])
+        shared = (last, name, comment)
 
     i = 0
     while i < len(lines):
         last = i
-        while last < len(lines) and lines[last].lstrip().startswith("///") and "///<" not in lines[last]:
+        while last < len(lines) and re.match(r" *///(?!<)", lines[last]):
             last += 1
         if last > i:
             indent = lines[i][:len(lines[i]) - len(lines[i].lstrip())]
@@ -182,7 +186,7 @@ def staged(text, path, members, keys=(), pages=()):
 
 
 def unexplained(text):
-    """(line, name) of each public concept whose comment does not begin with a sentence: Doxygen does not look for it."""
+    """(line, name) of each public concept whose comment does not begin with a sentence: Doxygen does not look."""
     lines = text.split("\n")
     for first, _, declaration in statements(lines):
         found = re.match(r"concept\s+(\w+)", without_template(declaration))

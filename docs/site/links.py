@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """Whether every link leads somewhere: links.py ROOT [SITE] [--external].
 
-In the Markdown of the project, as a forge shows it, and in the pages of the built site: files and anchors. Every page is
-listed on docs/README.md, or on a README.md that is. Links to the world outside are not followed; --external lists them.
+In the Markdown of the project, as a forge shows it, and in the pages of the built site: files and anchors. Every page
+is listed on docs/README.md, or on a README.md that is. Links to the world outside are not followed; --external lists
+them.
 """
 import html
 import re
@@ -16,8 +17,9 @@ import markdown
 
 def wrong_in_markdown(root):
     """Sentences on the links of the documents, and on paths that they name as `docs/...` or `examples/...`."""
-    anchors = {page: {anchor for _, _, anchor in markdown.headings(page.read_text())} for page in markdown.documents(root)}
-    for page in markdown.documents(root):
+    documents = markdown.documents(root)
+    anchors = {page: {anchor for _, _, anchor in markdown.headings(page.read_text())} for page in documents}
+    for page in documents:
         text = page.read_text()
         for address in markdown.links(text):
             if re.match(r"\w+:", address):
@@ -37,7 +39,8 @@ def unlisted(root):
     """Sentences on pages that neither docs/README.md nor a README.md that it lists has."""
     index = root / "docs/README.md"
     listed = {index, *linked(index)}
-    listed |= {page for folder in list(listed) if folder.name == "README.md" and folder.exists() for page in linked(folder)}
+    for folder in [page for page in listed if page.name == "README.md" and page.exists()]:
+        listed |= linked(folder)
     for page in markdown.documents(root):
         if page not in listed:
             yield f"docs/README.md does not list {page.relative_to(root)}"

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """Our Markdown as Doxygen must read it to show what the forge shows."""
+import html
 import re
 
+html_tags = "a|b|br|code|details|em|i|img|p|sub|summary|sup"
 fence = re.compile(r"^( *)(`{3,})\s*([\w+-]*)\s*$")
 heading = re.compile(r"^(#{1,6}) +(.*?)(?: +#+)?$")
 link = re.compile(r"(!?)\[((?:\\.|[^\[\]\\]|\[(?:\\.|[^\[\]\\])*\])*)\]\(([^()\s]*(?:\([^()\s]*\)[^()\s]*)*)\)")
@@ -28,7 +30,7 @@ def slug(title):
 
 
 def lines_with_code(text):
-    """(line, whether it is code) for each line; the lines of a fence are code. Lines that share a link or `code` are one."""
+    """(line, whether it is code) for each line: that of a fence is. Lines that share a link or `code` are one."""
     end = None
     unfinished = ""
     for line in text.splitlines():
@@ -82,7 +84,7 @@ def escaped(text):
     text = re.sub(r"\\(?=[A-Za-z@#%\[\]|&$])", lambda m: "\\\\" if text[m.end()].isalpha() else "", text)
     text = re.sub(r"[@%](?=\w)", r"\\\g<0>", text)
     text = re.sub(r"#(?=\w)", r"\#", text)
-    text = re.sub(r"(?<![\\\w])<(?=[A-Za-z/])(?!/?(?:a|b|br|code|details|em|i|img|p|sub|summary|sup)\b[^<]*>)", r"\<", text)
+    text = re.sub(rf"(?<![\\\w])<(?=[A-Za-z/])(?!/?(?:{html_tags})\b[^<]*>)", r"\<", text)
     return re.sub(r"(?<![-|:\\])---?(?![-|:])", lambda m: "\\" + m.group(), text)
 
 
@@ -105,7 +107,7 @@ def staged_line(line, target_of, keys):
         if target.startswith("@ref "):
             return keep(f"[{text}]({target})")
         if is_picture:
-            alt = re.sub(r'[<>"&]', lambda m: {"<": "&lt;", ">": "&gt;", '"': "&quot;", "&": "&amp;"}[m.group()], plain(text))
+            alt = html.escape(plain(text), quote=False).replace('"', "&quot;")
             return keep(f'<img src="{target}" alt="{alt}"/>')
         return keep(f'<a href="{target}">') + text + keep("</a>")
 
@@ -119,6 +121,9 @@ def staged_line(line, target_of, keys):
     line = re.sub(r"<https?://[^>]*>", lambda m: keep(f'<a href="{m.group()[1:-1]}">{m.group()[1:-1]}</a>'), line)
     line = re.sub(r"https?://[^\s)>\]]*", lambda m: keep(m.group()), line)
     line = re.sub(r"\b[a-z]+(?:_[a-z]+)*_\d{4}\b", kept_key, line)
+    for marks, tag in (("\\*\\*", "b"), ("\\*", "em")):  # Doxygen sees none that begin or end with code
+        pair = rf"(?<![\w*\\]){marks}(?=[^\s*])(.*?)(?<=[^\s*\\]){marks}(?![\w*])"
+        line = re.sub(pair, lambda m: keep(f"<{tag}>") + m.group(1) + keep(f"</{tag}>"), line)
     line = escaped(line)
     while "\x00" in line:
         line = re.sub("\x00(\\d+)\x00", lambda m: kept[int(m.group(1))], line)
@@ -180,4 +185,4 @@ def staged(text, label, target_of, keys):
             out.append(line)
         else:
             out.append(staged_line(line, target_of, keys))
-    return "\n".join(out) + "\n"
+    return "\n".join(out).rstrip("\n") + "\n"

@@ -8,8 +8,9 @@
     ```
 
 Without a name the whole file is quoted. In files where a comment begins with # the marks are `# [NAME]` and
-`# [/NAME]`. A region may hold marks of others; they are left out. --update writes the fences, also one that is not there
-yet; --check says which of them differ, and refuses C++, Python and CMake without a quote. Without FILE: all of ours.
+`# [/NAME]`. A region may hold marks of others; they are left out. --update writes the fences, also one that is not
+there yet; --check says which of them differ, and refuses C++, Python and CMake without a quote. Without FILE: all of
+ours.
 """
 import argparse
 import re

@@ -35,7 +35,8 @@ class Bibliography(unittest.TestCase):
 
     def test_is_written_by_key(self):
         page = bibliography.written(source)
-        self.assertIn("## hopper_1952\n\nG. B. Hopper, J. Müller: *The Education of a Computer*, Proceedings 3 (1952) 1–5. "
+        self.assertIn("## hopper_1952\n\n"
+                      "G. B. Hopper, J. Müller: *The Education of a Computer*, Proceedings 3 (1952) 1–5. "
                       "[doi:10.1/a(b)c](https://doi.org/10.1/a%28b%29c)\n", page)
         self.assertIn("## solver\n\nC. Babbage and others: *A Solver*, <http://example.org>.\n", page)
 

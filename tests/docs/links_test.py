@@ -67,13 +67,15 @@ class Site(InAFolder):
         return list(links.wrong_on_site(self.root, self.external))
 
     def test_that_is_right_is_left_in_peace(self):
-        self.assertEqual(self.wrong_with('<a href="page.html#there">a</a><a href="#here">b</a><a href="https://c.org">c</a>'), [])
+        self.assertEqual(self.wrong_with('<a href="page.html#there">a</a><a href="#here">b</a>'
+                                         '<a href="https://c.org">c</a>'), [])
         self.assertEqual(self.external, {"https://c.org"})
 
     def test_that_points_nowhere_is_told(self):
         self.assertEqual(self.wrong_with('<a href="none.html">a</a>'), ["index.html: there is no none.html"])
         self.assertEqual(self.wrong_with('<img src="a.svg"/>'), ["index.html: there is no a.svg"])
-        self.assertEqual(self.wrong_with('<a href="page.html#here">a</a>'), ["index.html: page.html has no anchor #here"])
+        self.assertEqual(self.wrong_with('<a href="page.html#here">a</a>'),
+                         ["index.html: page.html has no anchor #here"])
         self.assertEqual(self.wrong_with('<a href="#there">a</a>'), ["index.html: index.html has no anchor #there"])
 
     def test_without_pages_is_told(self):

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// All headers of the learner, and the least of (theta - 2)^2 by what finds it there. Learning itself takes
-// half a minute to compile without optimisation, and examples/ does it.
-#include "nysalt/learner.hpp"
+// The least of (theta - 2)^2, by what searches for the learner. Learning itself takes half a minute to
+// compile; examples/ does that.
+#include "nysalt/learning/minimise.hpp"
 
 #include <fmt/format.h>
-
-#include "nysalt/learning/minimise.hpp"
 
 int main() {
   using namespace nysalt;
