@@ -85,7 +85,7 @@ cited_setup setup_of_options(const std::string& toml, std::vector<std::string>& 
 void add_file(const std::string& file, std::vector<cited_setup>& to) {
   constexpr std::string_view ending = ".manifest.json";
   std::string beside = file.ends_with(ending) ? file : file + std::string(ending);
-  if (!std::filesystem::exists(beside)) {
+  if (!std::filesystem::is_regular_file(beside)) {
     if (!std::filesystem::exists(file)) refuse("{}: there is no such file", file);
     add_method(file, to);
     return;

@@ -120,6 +120,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_told) {
   must_be_told(folder, "gone.json", "gone.json: there is no such file");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.manifest.json").code == 0);
   must_be_told(folder, "odd.manifest.json", "not a manifest of nysalt");
+  BOOST_TEST_REQUIRE(shell(folder, "mkdir folder folder.manifest.json").code == 0);
+  must_be_told(folder, "folder", "cannot read folder");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.json").code == 0);
   must_be_told(folder, "odd.json", "neither a scheme nor a table");
 }
