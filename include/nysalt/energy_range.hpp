@@ -26,7 +26,7 @@ struct energy_range {
     const double outside = std::max(low - energy, energy - high);
     return outside <= slack ? 0.0 : outside;
   }
-  bool contains(double energy) const { return distance(energy) == 0.0; }  ///< or off by rounding only
+  bool contains(double energy) const { return distance(energy) == 0.0; }  ///< or off by a millionth
 };
 
 }  // namespace nysalt

@@ -63,11 +63,11 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 ///                      that equal neighbours merge
 /// and, if it is that of a part of the Hamiltonian,
 ///   serves<S, T>                     whether it exists for a system over a scalar
-///   prepare(c, h), prepare(b, c, h) of two slots, prepare<N>(c, h, modes) of a QuadraticFlow
+///   prepare(c, h), prepare(b, c, h) of two slots, prepare<N>(c, h, part) of a QuadraticFlow
 ///                                    fold the step into the coefficients, once per run
 ///   apply(system, prepared, state, room)
 /// Such a letter that reads the force may also offer
-///   evaluate_and_apply(system, prepared, state)
+///   evaluate_and_apply(system, prepared, state, room)
 /// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
 /// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
 template <class L>

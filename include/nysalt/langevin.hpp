@@ -34,8 +34,8 @@ constexpr std::string_view to_string(placement p) {
   return names[static_cast<std::size_t>(p)];
 }
 
-/// The order of a word S with letters O where the bath damps alone (sigma = 0): O commutes with S to first
-/// order only, and what is symmetric has no second one.
+/// The order of a word S with letters O where the bath damps alone (sigma = 0): 1 where O stands at the end,
+/// or in the middle of what is not symmetric; else at most 2, as O and S do not commute.
 constexpr int thermostatted_order(placement p, int order, bool symmetric) {
   const bool is_first = p == placement::end || (p == placement::middle && !symmetric);
   return is_first ? 1 : std::min(order, 2);

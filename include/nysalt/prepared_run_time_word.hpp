@@ -55,7 +55,7 @@ class prepared_word<run_time_word, C, N> {
     }
   }
 
-  /// Itself: it holds its letters elsewhere anyway.
+  /// What the loop applies: itself, as its letters lie elsewhere and no copy would be nearer.
   const prepared_word& in_loop() const { return *this; }
 
   /// Opens a run. Cost: the word's evaluations_to_open.

@@ -38,7 +38,7 @@ struct path_place {
 /// The same for a system in a bath, path by path:
 /// advance(system, x, t, place, xi)  x becomes the state a time t later on that path, over double and packs;
 ///                                   xi, a span, are given the noise of so many equal parts of t
-/// finer()                           the same path with a much smaller error
+/// finer()                           the same path with a smaller error, half of it for fine_paths
 /// description()
 template <class R, class S>
 concept PathReference = HasBath<S> && SeparableSystem<S> &&

@@ -20,7 +20,7 @@ namespace nysalt {
 class theta_curve {
  public:
   /// Through one theta for each step. Throws std::invalid_argument unless there is a theta for each step, all
-  /// as long and finite, and the steps rise.
+  /// as long and finite, and the steps are positive and rise.
   theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas)
       : steps_(std::move(steps)), thetas_(std::move(thetas)) {
     bool sound = !steps_.empty() && steps_.size() == thetas_.size();

@@ -31,26 +31,23 @@ def without_times(document):
 
 
 def henon_heiles_by_functions(name="henon_heiles by functions", cubic=1.0, force=None, **more):
-    """With the operations of include/nysalt/systems/henon_heiles.hpp, in their order, and with its starts."""
+    """With the operations of include/nysalt/systems/henon_heiles.hpp, in their order, and with its starts; 1.0 times
+    a number is that number."""
     bundled = nysalt.system("henon_heiles")
     starts = {1 + 2**51 * key: bundled.starts(100, role=role)
               for key, role in enumerate(("training", "held_out", "test"))}
 
     def potential(q):
         x, y = q.tolist()
-        return (x * x + y * y) * 0.5 + cubic * (x * x * y - y * y * y * (1.0 / 3.0))
+        return (x * x + y * y) * 0.5 + cubic * x * x * y - cubic * y * y * y * (1.0 / 3.0)
 
     def own_force(q):
         x, y = q.tolist()
-        return -x - cubic * (x * y * 2.0), -y - cubic * (x * x - y * y)
-
-    def exact_force(q):
-        x, y = q.tolist()
-        return -x - x * y * 2.0, -y - x * x + y * y
+        return -x - cubic * x * y * 2.0, -y - cubic * x * x + cubic * y * y
 
     def start(seed, n):
         q, p = starts[seed]
         return q[n], p[n]
 
     return nysalt.hamiltonian(name, dimension=2, potential=potential, starts=start,
-                              force=force or (exact_force if cubic == 1.0 else own_force), **more)
+                              force=force or own_force, **more)

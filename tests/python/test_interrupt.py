@@ -82,10 +82,10 @@ def longest_pause_of_another_thread(call):
 
 
 def test_the_lock_is_released():
-    call = lambda: nysalt.run(CHAIN, "srkn6b", 1e-3, 1000, trajectories=32, sample_every=10**6, threads=1)
+    call = lambda: nysalt.run(CHAIN, "srkn6b", 1e-3, 400, trajectories=16, sample_every=10**6, threads=1)
     pause, taken = longest_pause_of_another_thread(call)
     assert pause < 0.5 * taken
     # What holds the lock stops the others: sorting is one call of C.
-    numbers = np.random.default_rng(1).random(3_000_000).tolist()
+    numbers = np.random.default_rng(1).random(1_500_000).tolist()
     pause, taken = longest_pause_of_another_thread(numbers.sort)
     assert pause > 0.5 * taken

@@ -45,11 +45,11 @@ def test_a_curve_is_that_of_the_program(program):
 
 def test_a_comparison_is_the_document_of_the_program(program):
     metric = ["path:energy", "state"]
-    found = nysalt.compare(nysalt.system("henon_heiles"), ["verlet", "srkn6b", "learned:nystrom"], [0.2, 0.4],
+    found = nysalt.compare(nysalt.system("henon_heiles"), ["verlet", "srkn6b", "learned:nystrom"], [0.05, 0.1],
                            equal_cost=True, horizon=4, trajectories=20, metric=metric, learn_horizon=4,
                            learn_trajectories=10, levels=[1e-3])
     asked = ["compare", "--system", "henon_heiles", "--methods", "verlet,srkn6b,learned:nystrom", "--steps",
-             "0.2,0.4", "--equal-cost", "--horizon", "4", "--metric", ",".join(metric), "--learn-horizon", "4",
+             "0.05,0.1", "--equal-cost", "--horizon", "4", "--metric", ",".join(metric), "--learn-horizon", "4",
              "--learn-trajectories", "10", "--levels", "1e-3"]
     assert without_times(found) == without_times(program(*asked, "--trajectories", "20"))
     assert without_times(found) != without_times(program(*asked, "--trajectories", "21"))
@@ -62,15 +62,13 @@ def test_a_recommendation_is_the_document_of_the_program(program):
     of_program = program("recommend", "--system", "pendulum", "--horizon", "5", "--budget", "4", "--families",
                          "nystrom", "--trajectories", "20", "--learn-trajectories", "10")
     of_program.pop("output")
-    if found["verdict"] != "tie":  # ties are told by seconds
-        assert without_times(found)["rows"] == without_times(of_program)["rows"]
-    assert found["verdict"] == of_program["verdict"]
+    assert without_times(found) == without_times(of_program)
     assert (scheme is not None) == (found["verdict"] == "learned")
 
 
 RUNS = [
-    (dict(name="fpu", friction=0.01, sigma=0.05), ["--system", "fpu", *BATH], "baoab", 0.01, 40.0, 37, 70,
-     ["stiff_energy", "q1", "p6"]),  # noise, and several blocks of lanes
+    (dict(name="oscillator", friction=0.01, sigma=0.05), ["--system", "oscillator", *BATH], "baoab", 0.01, 40.0, 37,
+     70, ["energy", "q1", "p1"]),  # noise, and several blocks of lanes
     (dict(name="henon_heiles", spread=2.5), ["--system", "henon_heiles", "--spread", "2.5"], "verlet", 0.3, 600.0, 40,
      7, ["energy", "q2"]),  # some diverge
 ]
@@ -85,15 +83,15 @@ def test_samples_are_those_of_the_program(program, tmp_path, system, options, me
              str(trajectories), "--sample-every", str(every), "--observables", ",".join(observables)]
     program(*asked, "--output", "run.npy")
     values = np.load(tmp_path / "run.npy")
-    assert run.values.tobytes() == values.tobytes() or np.array_equal(run.values, values, equal_nan=True)
+    assert np.array_equal(run.values, values, equal_nan=True)
     lost = {its["trajectory"]: its["step"] for its in json.loads((tmp_path / "run.npy.manifest.json").read_text())[
         "diverged"]}
     assert {int(m): int(run.diverged[m]) for m in np.flatnonzero(run.diverged >= 0)} == lost
     assert np.isnan(run.values[:, -1, 0]).sum() == len(lost)
 
     of_table = program(*asked)
-    assert [row[2] for row in of_table["rows"] if row[0] == 0] == run.t[:len(run.t)].tolist()[:sum(
-        row[0] == 0 for row in of_table["rows"])]
+    times = [row[2] for row in of_table["rows"] if row[0] == 0]
+    assert times == run.t[:len(times)].tolist()
     assert run.evaluations == of_table["evaluations"] and run.starts == of_table["starts"]
     assert np.array_equal(run[observables[1]], run.values[:, :, 1], equal_nan=True)
 
@@ -137,9 +135,12 @@ def test_tables_are_read(program, tmp_path):
 
 
 def test_an_unusable_fit_is_said_to_be_one(program, tmp_path):
-    fit = nysalt.learn(nysalt.system("fpu"), step=0.02, trajectories=1, horizon=0.02)
+    # Both kicks in the middle of the step: Verlet again, unstable at z = 2.5, and nothing is left to learn.
+    fit = nysalt.learn(nysalt.system("fpu"), step=0.05, trajectories=3, fix={"b1": 0.5, "beta1": 0.25})
     assert not fit.usable and fit.reason
     with pytest.raises(ValueError, match="the fit is not usable"):
         fit.save(tmp_path / "fit.json")
     fit.save(tmp_path / "fit.json", force=True)
     assert nysalt.load(tmp_path / "fit.json").reason == fit.reason
+    with pytest.raises(ValueError, match="its fit was not usable"):
+        nysalt.run(nysalt.system("fpu"), fit, 0.05, 1)

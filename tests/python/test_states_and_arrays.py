@@ -12,7 +12,7 @@ import nysalt
 
 @pytest.fixture(scope="module")
 def chain():
-    return nysalt.system("fpu", omega=50, friction=0.01, sigma=0.05)
+    return nysalt.system("fpu", omega=50, friction=0.01, sigma=0.05, start="law")  # no burn-in
 
 
 def samples_at_end(chain, trajectories, steps, **more):

@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// x_0 and y_0 of every pair.
+/// How the soft springs start.
 struct soft_motion {
   double displacement = 1.0;  ///< x_0 of every pair
   double velocity = 1.0;      ///< y_0 of every pair

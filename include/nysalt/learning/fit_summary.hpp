@@ -16,7 +16,7 @@ struct fitted_parameter {
   std::string name;       ///< as the family calls it
   double value;           ///< learned, or fixed
   double standard_error;  ///< NaN from a single trajectory, infinite where the loss is flat, 0 if not free
-  bool free;              ///< false: fixed by the user, or held at its bound
+  bool free;              ///< false: fixed by the user, or held at its bound or by the guard
 };
 
 /// Everything about a fit: where it comes from, how good it is, and whether to use it.
@@ -36,7 +36,7 @@ struct fit_summary {
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
   /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
-  double loss = 0.0;                 // one-step: mean over pairs of the sum over coordinates of r^2/Sigma
+  double loss = 0.0;
   double held_out_loss = 0.0;        ///< the same on data that was not learned from
   double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
   double held_out_noise = 0.0;       ///< standard error of the difference of these two; 0 from one trajectory

@@ -15,7 +15,7 @@ namespace nysalt {
 /// energy      the energy's error after K steps
 /// covariance  of a thermostatted word, that of its stationary covariance: no data are asked
 struct loss_choice {
-  /// What a loss is of, see above.
+  /// Of the state, of the energy, or of the stationary covariance.
   enum class kind { state, energy, covariance };
   kind of = kind::state;  ///< what the loss is of
   int steps = 1;          ///< K; of no account for a covariance

@@ -30,7 +30,7 @@ class fine_paths {
 
   /// x becomes the state a time t later on its path, the `at.step`-th such time of it; xi[k] become the
   /// standard normal numbers of the noise over the k-th of so many equal parts of that time. Throws
-  /// std::invalid_argument unless each part is a multiple of the step, to 1e-9 relative.
+  /// std::invalid_argument unless each part is a positive multiple of the step, to 1e-9 relative.
   template <HasBath S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t, const path_place& at,
                std::span<vector<T, S::dimension>> xi) const {

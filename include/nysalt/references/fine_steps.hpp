@@ -26,8 +26,8 @@ class fine_steps {
     }
   }
 
-  /// x becomes the state a time t later. Throws std::invalid_argument unless t is a multiple of the step, to
-  /// 1e-9 relative.
+  /// x becomes the state a time t later. Throws std::invalid_argument unless t is a positive multiple of
+  /// the step, to 1e-9 relative.
   template <SeparableSystem S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t) const {
     const double ratio = t / step_;

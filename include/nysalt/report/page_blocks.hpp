@@ -37,7 +37,7 @@ struct picture_block {
   std::string caption;  ///< a sentence
 };
 
-/// One of them.
+/// A block of a page: one of those above.
 using page_block =
     std::variant<heading_block, text_block, list_block, table_block, code_block, picture_block>;
 

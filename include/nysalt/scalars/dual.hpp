@@ -109,7 +109,7 @@ dual<T, N> select(const auto& condition, const dual<T, N>& a, const dual<T, N>& 
 template <class T>
 inline constexpr bool is_dual = false;
 template <class T, int N>
-inline constexpr bool is_dual<dual<T, N>> = true;  ///< it is
+inline constexpr bool is_dual<dual<T, N>> = true;  ///< a dual is one
 
 // Elementary functions: unqualified calls find libm for double and these for duals.
 /// (sqrt a)' = a'/(2 sqrt a), which is not finite at 0.

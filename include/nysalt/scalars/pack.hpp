@@ -127,7 +127,7 @@ static_assert(
 template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
-inline constexpr bool is_pack<pack<T, W>> = true;  ///< it is
+inline constexpr bool is_pack<pack<T, W>> = true;  ///< a pack is one
 
 /// Square root, rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
 template <int W>
