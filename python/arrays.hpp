@@ -11,7 +11,9 @@
 
 namespace nysalt::python {
 
-using numbers_array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+constexpr int aligned = pybind11::detail::npy_api::NPY_ARRAY_ALIGNED_;
+using numbers_array =
+    pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast | aligned>;
 
 /// "(8, 101, 1)"
 std::string shape_text(const std::vector<std::int64_t>& shape);

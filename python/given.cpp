@@ -51,7 +51,10 @@ double number_in(const char* name, const py::handle& value) {
 
 std::string text_in(const char* name, const py::handle& value) {
   if (!py::isinstance<py::str>(value)) refuse_kind(name, "a text", value);
-  return value.cast<std::string>();
+  py::ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (text == nullptr) refuse_kind(name, "a text of whole characters", value);
+  return {text, static_cast<std::size_t>(size)};
 }
 
 /// Of one thing, or of each in a sequence.

@@ -209,6 +209,15 @@ class Scheme(_FromFile):
 Method = Union[str, Scheme, Table]
 
 
+def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
+    """As the program reads it, with values to the last bit."""
+    if fix is None:
+        return None
+    if not isinstance(fix, Mapping):
+        raise ValueError(f"fix must be a dict of values by name, got {fix!r}")
+    return [f"{name}={float(value)!r}" for name, value in fix.items()]
+
+
 def learn(system: System, family: str = "nystrom", *, step: Optional[float] = None,
           steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
           horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
@@ -226,8 +235,7 @@ def learn(system: System, family: str = "nystrom", *, step: Optional[float] = No
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    asked["fix"] = _fixed(fix)
     fit, text = _nysalt.learn(_held_by(system), asked)
     return Scheme(text, f"scheme:{family}", _json.loads(fit))
 
@@ -342,8 +350,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    asked["fix"] = _fixed(fix)
     is_one = isinstance(methods, (str, _FromFile))
     if not is_one and not isinstance(methods, Iterable):
         raise ValueError(f"methods must be names, schemes or tables, got {methods!r}")
@@ -367,8 +374,7 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
+    asked["fix"] = _fixed(fix)
     document, text = _nysalt.recommend(_held_by(system), asked)
     found = _json.loads(document)
     _warn(found["warnings"])
