@@ -34,8 +34,9 @@ std::span<double> writable(const py::handle& given, const std::string& name,
   if ((array.flags() & py::array::c_style) == 0) {
     refuse("{} must lie one row after the other to be filled: np.ascontiguousarray makes such a copy", name);
   }
-  if ((array.flags() & aligned) == 0)
+  if ((array.flags() & aligned) == 0) {
     refuse("{} must lie where a float64 may, at a multiple of its size", name);
+  }
   if (!array.writeable()) refuse("{} is read-only and cannot be filled", name);
   return {static_cast<double*>(array.mutable_data()), static_cast<std::size_t>(array.size())};
 }

@@ -18,7 +18,7 @@ namespace {
 auto stay_at_the_end(const auto& ask, program::quiet_caller* caller = nullptr) {
   try {
     return ask();
-  } catch (...) {
+  } catch (...) {  // to be thrown again by who leaves here
     if (caller != nullptr) caller->wants_an_end = true;
     while (true) std::this_thread::sleep_for(std::chrono::hours(1));
   }
@@ -75,6 +75,10 @@ py::object called(const py::object& function, const py::tuple& arguments) {
       stay_at_the_end([&] { return PyObject_Call(function.ptr(), arguments.ptr(), nullptr); });
   if (found == nullptr) throw py::error_already_set();
   return py::reinterpret_steal<py::object>(found);
+}
+
+void require_no_signal() {
+  if (stay_at_the_end([] { return PyErr_CheckSignals() != 0; })) throw py::error_already_set();
 }
 
 }  // namespace nysalt::python

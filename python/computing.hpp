@@ -23,4 +23,7 @@ void without_lock(const std::function<void()>& work);
 /// What a function of Python returns. Throws what it raises.
 pybind11::object called(const pybind11::object& function, const pybind11::tuple& arguments);
 
+/// Throws what a signal handler raises, if there is a signal.
+void require_no_signal();
+
 }  // namespace nysalt::python

@@ -35,10 +35,6 @@ py::array_t<double> column(std::span<const double> q) {
   return py::array_t<double>(static_cast<py::ssize_t>(q.size()), q.data());
 }
 
-void require_no_signal() {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 void put(const py::handle& found, const std::string& what, std::span<double> to) {
   if (found.is_none()) refuse("{} returned None: does it lack a return?", what);
   const numbers_array numbers = numbers_of(found, what);
