@@ -34,14 +34,40 @@ std::span<double> writable(const py::handle& given, const std::string& name,
   if ((array.flags() & py::array::c_style) == 0) {
     refuse("{} must lie one row after the other to be filled: np.ascontiguousarray makes such a copy", name);
   }
+  if ((array.flags() & aligned) == 0) {
+    refuse("{} must lie where a float64 may, at a multiple of its size", name);
+  }
   if (!array.writeable()) refuse("{} is read-only and cannot be filled", name);
   return {static_cast<double*>(array.mutable_data()), static_cast<std::size_t>(array.size())};
 }
 
+namespace {
+
+std::string what_it_holds(const py::array& array) {
+  switch (array.dtype().kind()) {
+    case 'c':
+      return "complex ones";
+    case 'S':
+    case 'U':
+      return "text";
+    case 'M':
+    case 'm':
+      return "dates or times";
+    case 'O':
+      return "objects";
+    default:
+      return py::str(array.dtype()).cast<std::string>();
+  }
+}
+
+}  // namespace
+
 numbers_array numbers_of(const py::handle& given, const std::string& name) {
-  auto array = numbers_array::ensure(given);
-  if (!array) refuse("{} must hold numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
-  return array;
+  const auto array = py::array::ensure(given);
+  if (!array) refuse("{} must hold real numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
+  const bool is_real = std::string("biuf").find(array.dtype().kind()) != std::string::npos;
+  if (!is_real) refuse("{} must hold real numbers, it holds {}", name, what_it_holds(array));
+  return numbers_array(array);
 }
 
 std::span<const double> numbers_in(const numbers_array& array) {

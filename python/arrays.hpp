@@ -11,7 +11,9 @@
 
 namespace nysalt::python {
 
-using numbers_array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+constexpr int aligned = pybind11::detail::npy_api::NPY_ARRAY_ALIGNED_;
+using numbers_array =
+    pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast | aligned>;
 
 /// "(8, 101, 1)"
 std::string shape_text(const std::vector<std::int64_t>& shape);
@@ -23,7 +25,7 @@ std::span<double> writable(const pybind11::handle& array, const std::string& nam
                            const std::vector<std::int64_t>& shape);
 
 /// What is given as an array, a list or a number: it itself where it is an array of float64 already, else a
-/// copy. Throws refusal if it holds no numbers.
+/// copy. Throws refusal unless it holds real numbers: complex ones, text, dates and objects are none.
 numbers_array numbers_of(const pybind11::handle& given, const std::string& name);
 
 /// To read.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "given.hpp"
 
+#include <pybind11/numpy.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../src/checks.hpp"
 #include "../src/comparison.hpp"
@@ -13,9 +16,25 @@ namespace nysalt::python {
 namespace py = pybind11;
 using program::refuse;
 
+std::string shown(const py::handle& value) {
+  constexpr py::ssize_t most = 80;
+  const py::str all(py::str(" ").attr("join")(py::repr(value).attr("split")()));
+  if (py::len(all) <= most) return all.cast<std::string>();
+  return py::str(all[py::slice(0, most, 1)]).cast<std::string>() + "...";
+}
+
 namespace {
 
-std::string shown(const py::handle& value) { return py::repr(value).cast<std::string>(); }
+bool is_truth(const py::handle& value) {
+  const std::string type = Py_TYPE(value.ptr())->tp_name;
+  return py::isinstance<py::bool_>(value) || type == "numpy.bool_" || type == "numpy.bool";
+}
+
+/// Of what Python would turn into one.
+bool is_no_number(const py::handle& value) {
+  const std::string type = Py_TYPE(value.ptr())->tp_name;
+  return py::isinstance<py::str>(value) || is_truth(value) || type.starts_with("numpy.complex");
+}
 
 [[noreturn]] void refuse_kind(const char* name, const char* kind, const py::handle& value) {
   PyErr_Clear();
@@ -23,21 +42,28 @@ std::string shown(const py::handle& value) { return py::repr(value).cast<std::st
 }
 
 double number_in(const char* name, const py::handle& value) {
-  const double number = py::isinstance<py::str>(value) ? -1.0 : PyFloat_AsDouble(value.ptr());
-  if (py::isinstance<py::str>(value) || PyErr_Occurred() != nullptr) refuse_kind(name, "a number", value);
+  if (is_no_number(value)) refuse_kind(name, "a number", value);
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() != nullptr) refuse_kind(name, "a number", value);
   if (!std::isfinite(number)) refuse("{} must be finite, got {}", name, shown(value));
   return number;
 }
 
 std::string text_in(const char* name, const py::handle& value) {
   if (!py::isinstance<py::str>(value)) refuse_kind(name, "a text", value);
-  return value.cast<std::string>();
+  py::ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (text == nullptr) refuse_kind(name, "a text of whole characters", value);
+  return {text, static_cast<std::size_t>(size)};
 }
 
 /// Of one thing, or of each in a sequence.
 template <class T>
 std::vector<T> each(const py::object& value, const auto& thing) {
-  if (py::isinstance<py::str>(value) || PySequence_Check(value.ptr()) == 0) return {thing(value)};
+  const bool is_one =
+      py::isinstance<py::str>(value) || PySequence_Check(value.ptr()) == 0 ||
+      (py::isinstance<py::array>(value) && py::reinterpret_borrow<py::array>(value).ndim() == 0);
+  if (is_one) return {thing(value)};
   std::vector<T> all;
   for (const auto& item : value) all.push_back(thing(item));
   return all;
@@ -63,6 +89,7 @@ void given::take(const char* name, double& to) const {
 void given::take(const char* name, std::int64_t& to) const {
   if (!has(name)) return;
   const py::object value = arguments_[name];
+  if (is_truth(value)) refuse_kind(name, "a whole number", value);
   const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   if (!whole) refuse_kind(name, "a whole number", value);
   to = PyLong_AsLongLong(whole.ptr());
@@ -72,7 +99,7 @@ void given::take(const char* name, std::int64_t& to) const {
 void given::take(const char* name, bool& to) const {
   if (!has(name)) return;
   const py::object value = arguments_[name];
-  if (!py::isinstance<py::bool_>(value)) refuse_kind(name, "True or False", value);
+  if (!is_truth(value)) refuse_kind(name, "True or False", value);
   to = value.cast<bool>();
 }
 
@@ -104,7 +131,8 @@ program::common_settings common_of(const given& arguments, bool calls_python) {
   its.seed = static_cast<std::uint64_t>(seed);
   std::int64_t threads = program::usual_threads();
   arguments.take("threads", threads);
-  its.threads = static_cast<int>(std::clamp<std::int64_t>(threads, 0, 1'000'000));
+  if (!std::in_range<int>(threads)) refuse("threads must be a number of threads, got {}", threads);
+  its.threads = static_cast<int>(threads);
   arguments.take("force", its.force);
   its.json = true;
   require_sound(its);

@@ -13,6 +13,9 @@
 
 namespace nysalt::python {
 
+/// As Python shows it, in one line of moderate length.
+std::string shown(const pybind11::handle& value);
+
 class given {
  public:
   explicit given(pybind11::dict arguments) : arguments_(std::move(arguments)) {}
@@ -21,6 +24,7 @@ class given {
   pybind11::object operator[](const char* name) const { return arguments_[name]; }
 
   // Each throws refusal, naming the argument, for what is of another kind. A list may be one thing alone.
+  // True is no number.
   void take(const char* name, double& to) const;
   void take(const char* name, std::int64_t& to) const;
   void take(const char* name, bool& to) const;

@@ -6,6 +6,7 @@
 
 #include "../src/refusal.hpp"
 #include "arrays.hpp"
+#include "computing.hpp"
 
 namespace nysalt::python {
 
@@ -18,18 +19,20 @@ py::object function_in(const given& arguments, const char* name, const char* wha
   if (!arguments.has(name)) refuse("a Hamiltonian needs {}: give {}", what, name);
   py::object function = arguments[name];
   if (PyCallable_Check(function.ptr()) == 0) {
-    refuse("{} must be a function, got {}", name, py::repr(function).cast<std::string>());
+    refuse("{} must be a function, got {}", name, shown(function));
   }
   return function;
+}
+
+/// Throws what the function raises, and refusal where its system was collected.
+py::object answer(const py::object& function, const py::tuple& arguments) {
+  if (!function) refuse("this Hamiltonian is gone: it was in a cycle of references that nothing else held");
+  return called(function, arguments);
 }
 
 /// A copy, which the function may keep.
 py::array_t<double> column(std::span<const double> q) {
   return py::array_t<double>(static_cast<py::ssize_t>(q.size()), q.data());
-}
-
-void require_no_signal() {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 void put(const py::handle& found, const std::string& what, std::span<double> to) {
@@ -43,10 +46,19 @@ void put(const py::handle& found, const std::string& what, std::span<double> to)
 }
 
 double number_in(const py::object& found) {
-  const double number = PyFloat_AsDouble(found.ptr());
-  if (PyErr_Occurred() == nullptr) return number;
-  PyErr_Clear();
-  refuse("potential(q) must be a number, got {}", py::repr(found).cast<std::string>());
+  if (PyFloat_Check(found.ptr()) != 0) return PyFloat_AS_DOUBLE(found.ptr());
+  if (found.is_none()) refuse("potential(q) returned None: does it lack a return?");
+  const numbers_array numbers = numbers_of(found, "potential(q)");
+  if (numbers.size() == 1) return numbers_in(numbers).front();
+  refuse("potential(q) must be one number, it has the shape {}", shape_text(shape_of(numbers)));
+}
+
+std::string name_in(const given& arguments) {
+  std::string name;
+  arguments.take("name", name);
+  if (name.empty()) refuse("a Hamiltonian needs a name, by which schemes know it");
+  if (arguments["name"].attr("isprintable")().cast<bool>()) return name;
+  refuse("the name of a Hamiltonian must be one line that can be printed, got {}", shown(arguments["name"]));
 }
 
 std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimension) {
@@ -64,10 +76,9 @@ std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimen
 
 }  // namespace
 
-own_functions own_functions_of(const given& arguments) {
+own_functions own_functions_of(const given& arguments, std::shared_ptr<functions_of_python>& kept) {
   own_functions its{};
-  arguments.take("name", its.name);
-  if (its.name.empty()) refuse("a Hamiltonian needs a name, by which schemes know it");
+  its.name = name_in(arguments);
   arguments.take("dimension", its.dimension);
   if (its.dimension < 1) refuse("dimension must be at least 1, got {}", its.dimension);
   its.inverse_masses = inverse_masses_in(arguments, its.dimension);
@@ -75,22 +86,23 @@ own_functions own_functions_of(const given& arguments) {
   if (arguments.has("frequency") && !(its.frequency > 0.0)) {
     refuse("frequency must be positive, got {}", its.frequency);
   }
-  const py::object potential = function_in(arguments, "potential", "V");
-  const py::object force = function_in(arguments, "force", "-grad V");
-  const py::object starts = function_in(arguments, "starts", "to know where trajectories start");
-  its.potential = [potential](std::span<const double> q) {
-    const double found = number_in(potential(column(q)));
+  kept = std::make_shared<functions_of_python>();
+  kept->potential = function_in(arguments, "potential", "V");
+  kept->force = function_in(arguments, "force", "-grad V");
+  kept->starts = function_in(arguments, "starts", "to know where trajectories start");
+  its.potential = [kept](std::span<const double> q) {
+    const double found = number_in(answer(kept->potential, py::make_tuple(column(q))));
     require_no_signal();
     return found;
   };
-  its.force = [force](std::span<const double> q, std::span<double> f) {
-    put(force(column(q)), "force(q)", f);
+  its.force = [kept](std::span<const double> q, std::span<double> f) {
+    put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f);
     require_no_signal();
   };
-  its.start = [starts](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
-    const py::object found = starts(seed, n);
+  its.start = [kept](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
+    const py::object found = answer(kept->starts, py::make_tuple(seed, n));
     if (PySequence_Check(found.ptr()) == 0 || py::len(found) != 2) {
-      refuse("starts(seed, n) must be a pair (q, p), got {}", py::repr(found).cast<std::string>());
+      refuse("starts(seed, n) must be a pair (q, p), got {}", shown(found));
     }
     put(found[py::int_(0)], "q of starts(seed, n)", q);
     put(found[py::int_(1)], "p of starts(seed, n)", p);

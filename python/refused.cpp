@@ -37,7 +37,8 @@ std::string in_words_of_python(const std::string& text) {
 }
 
 void tell_refusals() {
-  pybind11::register_exception_translator([](std::exception_ptr thrown) {
+  // Of this module alone: others' exceptions are told by others.
+  pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
     const auto tell = [](PyObject* kind, const std::exception& problem) {
       PyErr_SetString(kind, in_words_of_python(problem.what()).c_str());
     };

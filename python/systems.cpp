@@ -12,7 +12,6 @@
 #include "arrays.hpp"
 #include "computing.hpp"
 #include "given.hpp"
-#include "own_functions_of.hpp"
 
 namespace nysalt::python {
 
@@ -37,9 +36,9 @@ std::unique_ptr<held_system> bundled(const py::dict& arguments) {
 
 std::unique_ptr<held_system> own(const py::dict& arguments) {
   const given its(arguments);
-  auto functions = std::make_shared<own_functions>(own_functions_of(its));
-  examine(*functions);
   auto made = std::make_unique<held_system>();
+  auto functions = std::make_shared<own_functions>(own_functions_of(its, made->functions));
+  examine(*functions);
   made->settings = system_of(its);
   made->settings.start = "law";
   made->settings.own = [functions](const program::surroundings& in) { return make_own(functions, in); };
@@ -50,12 +49,11 @@ std::unique_ptr<held_system> own(const py::dict& arguments) {
 /// f(m) for each of the states in q, which must have the shape of p.
 void for_states(const held_system& system, const numbers_array& q, const auto& f) {
   const std::int64_t count = states_in(system, shape_of(q), "q");
-  if (system.calls_python()) {
+  const auto all = [&] {
     for (std::int64_t m = 0; m < count; ++m) f(m);
-    return;
-  }
-  const py::gil_scoped_release released;
-  for (std::int64_t m = 0; m < count; ++m) f(m);
+  };
+  if (system.calls_python()) return all();
+  without_lock(all);
 }
 
 py::object energy(const held_system& system, const py::object& of_q, const py::object& of_p) {
@@ -146,10 +144,34 @@ py::dict facts(const held_system& system) {
   return all;
 }
 
+/// The functions of a system that a cycle of references may go through; null where there are none (yet).
+functions_of_python* functions_of(PyObject* self) {
+  const auto* held =
+      reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder().value_ptr<held_system>();
+  return held == nullptr ? nullptr : held->functions.get();
+}
+
+void let_python_collect(PyHeapTypeObject* type) {
+  type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+  type->ht_type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    if (const auto* its = functions_of(self)) {
+      Py_VISIT(its->potential.ptr());
+      Py_VISIT(its->force.ptr());
+      Py_VISIT(its->starts.ptr());
+    }
+    return 0;
+  };
+  type->ht_type.tp_clear = [](PyObject* self) {
+    if (auto* its = functions_of(self)) *its = functions_of_python();
+    return 0;
+  };
+}
+
 }  // namespace
 
 void add_systems(py::module_& module) {
-  py::class_<held_system>(module, "held_system")
+  py::class_<held_system>(module, "held_system", py::custom_type_setup(&let_python_collect))
       .def("facts", &facts)
       .def("energy", &energy)
       .def("force", &force)

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "../src/bundled_system.hpp"
+#include "own_functions_of.hpp"
 
 namespace nysalt::python {
 
 struct held_system {
   program::system_settings settings;             // of which each command makes its own
   std::unique_ptr<program::bundled_system> its;  // for what is asked of it here; its starts are not prepared
+  std::shared_ptr<functions_of_python> functions;  // null of a bundled one
 
-  bool calls_python() const { return static_cast<bool>(settings.own); }
+  bool calls_python() const { return functions != nullptr; }
 };
 
 /// How many states of the system an array holds. Throws refusal unless its shape is (dimension,) or

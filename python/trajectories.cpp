@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "../src/checks.hpp"
 #include "../src/learning.hpp"
@@ -61,7 +63,6 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   std::vector<std::string> warnings;
   std::int64_t evaluations = 0;
   compute(system.calls_python(), [&] {
-    std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
     program::progress shown;
     auto& its = planned->system();
     prepare_starts(its, common, shown);
@@ -77,6 +78,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
       std::ranges::copy(one.values, to.begin() + row * std::ssize(observables));
       if (one.diverged_at) lost[m] = *one.diverged_at;
     };
+    std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
     its.run(planned->method(), sampled, take, shown.counter(1000));
     evaluations = its.count_evaluations(planned->method(), plan);
   });
@@ -94,9 +96,28 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   return result;
 }
 
-/// From q and p into arrays that are given, which may be the same. Returns warnings.
-py::list integrate(const held_system& system, const py::dict& arguments, const py::object& from_q,
-                   const py::object& from_p, const py::object& to_q, const py::object& to_p) {
+void require_finite(std::span<const double> all, std::int64_t dimension, const char* name) {
+  for (std::int64_t i = 0; i < std::ssize(all); ++i) {
+    const double one = all[static_cast<std::size_t>(i)];
+    if (std::isfinite(one)) continue;
+    refuse("the state of trajectory {} is not finite: {}{} is {}", i / dimension, name, i % dimension + 1,
+           one);
+  }
+}
+
+/// The arrays of a pair that is given, or new ones.
+std::pair<py::object, py::object> pair_to_fill(const py::object& out,
+                                               const std::vector<std::int64_t>& shape) {
+  if (out.is_none()) return {py::array_t<double>(shape), py::array_t<double>(shape)};
+  if (PySequence_Check(out.ptr()) == 0 || py::len(out) != 2) {
+    refuse("out must be a pair (q, p) of arrays, got {}", shown(out));
+  }
+  return {out[py::int_(0)], out[py::int_(1)]};
+}
+
+/// From q and p into the pair `out`, which may be the same, or into new arrays. Returns these and warnings.
+py::tuple integrate(const held_system& system, const py::dict& arguments, const py::object& from_q,
+                    const py::object& from_p, const py::object& out) {
   const given asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
@@ -111,6 +132,9 @@ py::list integrate(const held_system& system, const py::dict& arguments, const p
   if (shape_of(p) != shape) {
     refuse("p must have the shape of q, {}, it has {}", shape_text(shape), shape_text(shape_of(p)));
   }
+  require_finite(numbers_in(q), system.its->dimension(), "q");
+  require_finite(numbers_in(p), system.its->dimension(), "p");
+  const auto [to_q, to_p] = pair_to_fill(out, shape);
   const std::span<double> all_q = writable(to_q, "q of out", shape);
   const std::span<double> all_p = writable(to_p, "p of out", shape);
   if (overlap(all_q, all_p)) refuse("q and p of out share memory: give two arrays");
@@ -118,21 +142,21 @@ py::list integrate(const held_system& system, const py::dict& arguments, const p
       lies_across(all_p, numbers_in(p))) {
     refuse("out shares memory with q or p otherwise than being these themselves: give other arrays");
   }
-  if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
-  if (p.data() != all_p.data()) std::ranges::copy(numbers_in(p), all_p.begin());
-
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
     const auto source = program::find_method(command.method, command.held);
     const auto method = coefficients_at(source, *system.its, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
+    // From here on nothing is refused.
+    if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
+    if (p.data() != all_p.data()) std::ranges::copy(numbers_in(p), all_p.begin());
     if (steps == 0) return;
     const program::trajectories_plan plan{command.step, steps, count,
                                           seed_for(program::role::test, common.seed), common.threads};
     program::progress shown;
     system.its->integrate(method, plan, all_q, all_p, shown.counter(1000));
   });
-  return list_of(warnings);
+  return py::make_tuple(to_q, to_p, list_of(warnings));
 }
 
 }  // namespace

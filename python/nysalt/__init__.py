@@ -10,14 +10,15 @@
 
 The functions are those of the program `nysalt`, with its defaults and its numbers to the last bit; an argument
 that is None is left to its default. Bad input is a ValueError of one sentence. Long calls release the
-interpreter's lock, except for a Hamiltonian of your own, and end upon Ctrl-C.
+interpreter's lock, except for a Hamiltonian of your own. Ctrl-C ends them when the block of trajectories, the
+stretch of steps or the pass over the data at hand is done; this may take as long as that does.
 """
 
 import json as _json
 import os as _os
 import warnings as _warnings
 from dataclasses import dataclass as _dataclass
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -102,6 +103,13 @@ class System:
         judges on "held_out".
         """
         return self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
+
+
+def _held_by(system: Any) -> Any:
+    held = getattr(system, "_held", None)
+    if held is None:
+        raise ValueError(f"system must be one that nysalt.system or nysalt.hamiltonian made, got {system!r}")
+    return held
 
 
 def system(name: str = "fpu", *, pairs: Optional[int] = None, omega: Optional[float] = None,
@@ -201,6 +209,15 @@ class Scheme(_FromFile):
 Method = Union[str, Scheme, Table]
 
 
+def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
+    """As the program reads it, with values to the last bit."""
+    if fix is None:
+        return None
+    if not isinstance(fix, Mapping):
+        raise ValueError(f"fix must be a dict of values by name, got {fix!r}")
+    return [f"{name}={float(value)!r}" for name, value in fix.items()]
+
+
 def learn(system: System, family: str = "nystrom", *, step: Optional[float] = None,
           steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
           horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
@@ -218,9 +235,8 @@ def learn(system: System, family: str = "nystrom", *, step: Optional[float] = No
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
-    fit, text = _nysalt.learn(system._held, asked)
+    asked["fix"] = _fixed(fix)
+    fit, text = _nysalt.learn(_held_by(system), asked)
     return Scheme(text, f"scheme:{family}", _json.loads(fit))
 
 
@@ -232,9 +248,10 @@ def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
     return (Scheme if _nysalt.method(text, name, None)["is_learned"] else Table)(text, name)
 
 
-def _held_by_name(given: Sequence[Method]) -> Tuple[List[Any], Dict[str, str]]:
+def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
     """The names under which methods go, and the files of those that have one."""
     held: Dict[str, str] = {}
+    given = list(given)
     for one in given:
         if not isinstance(one, _FromFile):
             continue
@@ -251,7 +268,7 @@ def _warn(texts: Sequence[str]) -> None:
 
 # ---- What is done with them.
 
-@_dataclass(frozen=True)
+@_dataclass(frozen=True, eq=False)
 class Run:
     """Samples of trajectories: values[trajectory, sample, observable] at times t[sample].
 
@@ -290,7 +307,7 @@ def run(system: System, method: Method, step: float, horizon: float, *, trajecto
     for name in ("system", "out"):
         asked.pop(name)
     (asked["method"],), asked["held"] = _held_by_name([method])
-    found = Run(**_nysalt.run(system._held, asked, out))
+    found = Run(**_nysalt.run(_held_by(system), asked, out))
     _warn(found.warnings)
     return found
 
@@ -302,23 +319,20 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     """Takes states so many steps on: q and p of shape (dimension,), or (trajectories, dimension).
 
     Returns new arrays, or those of `out`, filled; out=(q, p) goes on in place, without a copy. They must be
-    writable arrays of float64 in the shape of q. A trajectory that diverges ends as NaN, and so do all in
-    `out` where the call is interrupted. Each call is a run of its own: the numbers are those of `run` from the
-    same states, and in a bath the noise begins anew, so that each call needs another seed.
+    writable arrays of float64 in the shape of q. A call that is refused leaves them as they are; one that is
+    interrupted, or in which a function of yours raises, leaves in them what is not defined. A trajectory that
+    diverges ends as NaN. Each call is a run of its own: the numbers are those of `run` from the same states, and
+    in a bath the noise begins anew, so that each call needs another seed.
     """
-    if out is None:
-        q = np.array(q, dtype=float, order="C")
-        p = np.array(p, dtype=float, order="C")
-        out = (q, p)
-    to_q, to_p = out
     (name,), held = _held_by_name([method])
     asked = dict(method=name, held=held, step=step, steps=steps, seed=seed, placement=placement, force=force,
                  threads=threads)
-    _warn(_nysalt.integrate(system._held, asked, q, p, to_q, to_p))
+    to_q, to_p, warnings = _nysalt.integrate(_held_by(system), asked, q, p, out)
+    _warn(warnings)
     return to_q, to_p
 
 
-def compare(system: System, methods: Union[Method, Sequence[Method]], steps: Numbers, *,
+def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Numbers, *,
             equal_cost: bool = False, horizon: Optional[float] = None, trajectories: Optional[int] = None,
             metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
             range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
@@ -336,10 +350,12 @@ def compare(system: System, methods: Union[Method, Sequence[Method]], steps: Num
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
-    asked["methods"], asked["held"] = _held_by_name([methods] if isinstance(methods, (str, _FromFile)) else methods)
-    found = _json.loads(_nysalt.compare(system._held, asked))
+    asked["fix"] = _fixed(fix)
+    is_one = isinstance(methods, (str, _FromFile))
+    if not is_one and not isinstance(methods, Iterable):
+        raise ValueError(f"methods must be names, schemes or tables, got {methods!r}")
+    asked["methods"], asked["held"] = _held_by_name([methods] if is_one else methods)
+    found = _json.loads(_nysalt.compare(_held_by(system), asked))
     _warn(found["warnings"])
     return found
 
@@ -358,9 +374,8 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
     """
     asked = dict(locals())
     asked.pop("system")
-    if fix is not None:
-        asked["fix"] = [f"{name}={float(value)!r}" for name, value in fix.items()]
-    document, text = _nysalt.recommend(system._held, asked)
+    asked["fix"] = _fixed(fix)
+    document, text = _nysalt.recommend(_held_by(system), asked)
     found = _json.loads(document)
     _warn(found["warnings"])
     return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")

@@ -74,7 +74,29 @@ CASES = [
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric="paths"), "unknown metric 'paths'"),
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, bins=10), "bins belongs to the metric distribution, not to path"),
     (lambda: nysalt.recommend(PENDULUM, 5), "budget"),
-    (lambda: PENDULUM.energy([1.0], "p"), "p must hold numbers, got str"),
+    (lambda: PENDULUM.energy([1.0], "p"), "p must hold real numbers, it holds text"),
+    (lambda: PENDULUM.force([1j]), "q must hold real numbers, it holds complex ones"),
+    (lambda: PENDULUM.force([None]), "q must hold real numbers, it holds objects"),
+    (lambda: PENDULUM.force(["0.1"]), "q must hold real numbers, it holds text"),
+    (lambda: PENDULUM.force(np.array(["2020"], "datetime64[D]")), "q must hold real numbers, it holds dates or times"),
+    (lambda: PENDULUM.force([[1], [2, 3]]), "q must hold real numbers, got list"),
+    (lambda: integrate(q=np.zeros((2, 6)) + 1j), "q must hold real numbers, it holds complex ones"),
+    (lambda: integrate(p=None), "p must hold real numbers, it holds objects"),
+    (lambda: integrate(out=np.zeros((3, 2, 6))), r"out must be a pair \(q, p\) of arrays, got array"),
+    (lambda: integrate(**out(q=np.zeros(97, np.uint8)[1:].view(float).reshape(2, 6))), "q of out must lie where a float64"),
+    (lambda: run(step=True), "step must be a number, got True"),
+    (lambda: run(step=np.complex64(0.1)), "step must be a number, got"),
+    (lambda: run(step=np.ones((50, 50))), r"step must be a number, got array\(\[\[1., 1.*\.\.\.$"),
+    (lambda: run(trajectories=True), "trajectories must be a whole number, got True"),
+    (lambda: run(trajectories=np.True_), "trajectories must be a whole number, got True"),
+    (lambda: run(threads=10**9), "threads must be at least 1 and at most 1024, got 1000000000"),
+    (lambda: run(threads=10**12), "threads must be a number of threads, got 1000000000000"),
+    (lambda: run(force=1), "force must be True or False, got 1"),
+    (lambda: run(method="\udc80"), "method must be a text of whole characters"),
+    (lambda: nysalt.run(None, "verlet", 0.1, 1), "system must be one that nysalt.system or .* made, got None"),
+    (lambda: nysalt.compare(PENDULUM, None, 0.1), "methods must be names, schemes or tables, got None"),
+    (lambda: nysalt.compare(PENDULUM, 5, 0.1), "methods must be names, schemes or tables, got 5"),
+    (lambda: nysalt.learn(CHAIN, step=0.02, fix=["b1=1"]), "fix must be a dict of values by name"),
     (lambda: PENDULUM.starts(0), "trajectories must be at least 1, got 0"),
     (lambda: PENDULUM.starts(1, role="mine"), "unknown role 'mine': it is one of training, held_out, test"),
 ]
@@ -92,6 +114,26 @@ def test_what_is_sound_is_not_refused():
     assert run(out=np.zeros((2, 11, 1))).values.shape == (2, 11, 1)
     assert integrate(**out())[0].shape == (2, 6)
     assert integrate(q=SHARED[:2].copy())[0].shape == (2, 6)
+    assert np.array_equal(PENDULUM.force([1]), PENDULUM.force(np.ones(1, np.float32)))
+    assert run(force=np.bool_(True), threads=np.int32(1)).diverged.tolist() == [-1, -1]
+    rows = nysalt.compare(PENDULUM, (name for name in ["verlet", "srkn6b"]), np.array(0.1), trajectories=2)["rows"]
+    assert [row["method"] for row in rows] == ["verlet", "srkn6b"]
+
+
+@pytest.mark.parametrize("change", [dict(method="verlett"), dict(step=-1), dict(q=np.full((2, 6), np.nan)),
+                                    dict(p=np.zeros(6)), dict(steps=-1), dict(placement="nowhere")])
+def test_what_is_refused_leaves_arrays_as_they_were(change):
+    q, p = np.full((2, 6), 7.0), np.full((2, 6), 8.0)
+    with pytest.raises(ValueError):
+        integrate(**{**change, **out(q, p)})
+    assert (q == 7).all() and (p == 8).all()
+    integrate(**out(q, p))
+    assert (q == 0).all() and (p == 0).all()  # at rest
+
+
+def test_runs_are_compared_as_objects():
+    one, other = run(), run()
+    assert one == one and one != other and len({one, other}) == 2
 
 
 def test_files_that_cannot_be(tmp_path):

@@ -2,6 +2,8 @@
 """Ctrl-C ends long calls, and other threads of Python go on meanwhile."""
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -89,3 +91,49 @@ def test_the_lock_is_released():
     numbers = np.random.default_rng(1).random(1_500_000).tolist()
     pause, taken = longest_pause_of_another_thread(numbers.sort)
     assert pause > 0.5 * taken
+
+
+def test_a_second_ctrl_c_is_not_lost():
+    timers = [threading.Timer(after, lambda: os.kill(os.getpid(), signal.SIGINT)) for after in (0.1, 0.15)]
+    with pytest.raises(KeyboardInterrupt):  # the second
+        for timer in timers:
+            timer.start()
+        try:
+            nysalt.learn(CHAIN, step=0.02, horizon=50, trajectories=20, loss="state:5")
+            pytest.fail("the call was not interrupted")
+        except KeyboardInterrupt:
+            time.sleep(5)
+    for timer in timers:
+        timer.join()
+
+
+LEAVING = """
+import threading, time
+import numpy as np
+import nysalt
+
+chain = nysalt.system("fpu")
+springs = nysalt.hamiltonian("springs", dimension=1, potential=lambda q: 0.5 * q[0]**2, force=lambda q: -q,
+                             starts=lambda seed, n: np.random.default_rng([seed, n]).normal(size=(2, 1)))
+states = [np.tile(x, (100000, 1)) for x in nysalt.system("lennard_jones").starts(1)]
+
+def energies():
+    while True:
+        nysalt.system("lennard_jones").energy(*states)
+
+calls = dict(run=lambda: nysalt.run(chain, "verlet", 1e-3, 1e8, sample_every=10**9),
+             learn=lambda: nysalt.learn(chain, step=0.02, trajectories=10**5),
+             slow_path=lambda: nysalt.run(springs, "verlet", 1e-3, 1e8, sample_every=10**9),
+             energies=energies)
+thread = threading.Thread(target=calls["CALL"], daemon=True)
+thread.start()
+time.sleep(0.2)
+assert thread.is_alive()
+"""
+
+
+@pytest.mark.parametrize("call", ["run", "learn", "slow_path", "energies"])
+def test_python_may_end_during_a_call_of_another_thread(call):
+    done = subprocess.run([sys.executable, "-c", LEAVING.replace("CALL", call)], capture_output=True, text=True,
+                          timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")

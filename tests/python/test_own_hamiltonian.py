@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSL-1.0
 """A Hamiltonian by functions of Python: the theta of the compiled one, and what goes wrong in functions."""
-import os
+import gc
 import pathlib
 import runpy
 import traceback
+import weakref
 
 import numpy as np
 import pytest
@@ -110,7 +111,9 @@ def test_what_a_function_raises_comes_through(after):
     (lambda q: [1.0, 2.0, 3.0], r"force\(q\) must have the shape \(2,\), it has \(3,\)"),
     (lambda q: 1.0, r"force\(q\) must have the shape \(2,\), it has \(\)"),
     (lambda q: None, r"force\(q\) returned None: does it lack a return\?"),
-    (lambda q: "two numbers", r"force\(q\) must hold numbers, got str"),
+    (lambda q: "two numbers", r"force\(q\) must hold real numbers, it holds text"),
+    (lambda q: (-q - [2 * q[0] * q[1], q[0]**2 - q[1]**2]) + 1j, "must hold real numbers, it holds complex ones"),
+    (lambda q: [None, 1.0], "must hold real numbers, it holds objects"),
     (lambda q: q, "the force is not -grad V: coordinate 1 is off"),
 ])
 def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
@@ -120,7 +123,10 @@ def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
 
 
 @pytest.mark.parametrize("change, sentence", [
-    (dict(potential=lambda q: "deep"), r"potential\(q\) must be a number, got 'deep'"),
+    (dict(potential=lambda q: "deep"), r"potential\(q\) must hold real numbers, it holds text"),
+    (dict(potential=lambda q: q @ q + 1j), r"potential\(q\) must hold real numbers, it holds complex ones"),
+    (dict(potential=lambda q: None), r"potential\(q\) returned None: does it lack a return\?"),
+    (dict(potential=lambda q: 0.5 * q**2), r"potential\(q\) must be one number, it has the shape \(2,\)"),
     (dict(starts=lambda seed, n: ([0.1], [0.0, 0.0])), r"q of starts\(seed, n\) must have the shape \(2,\), it has \(1,\)"),
     (dict(starts=lambda seed, n: 1), r"starts\(seed, n\) must be a pair \(q, p\), got 1"),
     (dict(starts=lambda seed, n: ([np.nan, 0.1], [0.0, 0.0])), "q1 is nan"),
@@ -130,6 +136,8 @@ def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
     (dict(dimension=0), "dimension must be at least 1, got 0"),
     (dict(friction=0.1), "friction needs sigma or temperature"),
     (dict(name=""), "a Hamiltonian needs a name"),
+    (dict(name="two\nlines"), r"must be one line that can be printed, got 'two\\nlines'"),
+    (dict(name="a\x1b[2J"), "must be one line that can be printed"),
 ])
 def test_what_is_no_hamiltonian_is_told_in_a_sentence(change, sentence):
     sound = dict(name="springs", dimension=2, potential=lambda q: 0.5 * (q @ q), force=lambda q: -q,
@@ -138,6 +146,34 @@ def test_what_is_no_hamiltonian_is_told_in_a_sentence(change, sentence):
     with pytest.raises(ValueError, match=sentence) as caught:
         nysalt.hamiltonian(**{**sound, **change})
     assert "\n" not in str(caught.value)
+
+
+class Springs:
+    """Holds a system that holds it."""
+
+    def __init__(self, **more):
+        self.system = nysalt.hamiltonian("springs", **{**dict(
+            dimension=2, potential=self.potential, force=self.force, frequency=1,
+            starts=lambda seed, n: np.random.default_rng([seed, n]).normal(size=(2, 2))), **more})
+
+    def potential(self, q):
+        return 0.5 * (q @ q)
+
+    def force(self, q):
+        return -q
+
+
+def test_cycles_are_collected():
+    springs = Springs()
+    gone = weakref.ref(springs)
+    gc.collect()
+    assert nysalt.run(springs.system, "verlet", 0.1, 1).steps == 10  # what is held is not
+    del springs
+    gc.collect()
+    assert gone() is None
+    held = Springs().system  # which needs what made it
+    gc.collect()
+    assert held.energy([1, 0], [0, 0]) == 0.5
 
 
 def test_it_may_be_in_a_bath_and_has_masses():
