@@ -30,7 +30,8 @@ function(try_to_configure name)
   endif()
   execute_process(RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output
     COMMAND ${CMAKE_COMMAND} -S ${source} -B ${FOLDER}/${name} -G ${its_CMAKE_GENERATOR}
-      -U *_DIR -U CMAKE_DISABLE_* -D CMAKE_MAKE_PROGRAM=${its_CMAKE_MAKE_PROGRAM} -D CMAKE_CXX_COMPILER=${its_CMAKE_CXX_COMPILER}
+      -U *_DIR -U CMAKE_DISABLE_* -D CMAKE_MAKE_PROGRAM=${its_CMAKE_MAKE_PROGRAM}
+      -D CMAKE_CXX_COMPILER=${its_CMAKE_CXX_COMPILER}
       -D CMAKE_PREFIX_PATH=${FOLDER}/installed ${ARGN})
   string(REGEX REPLACE "[ \n]+" " " sentences "${output}")  # CMake breaks lines
   foreach(result code output sentences)
