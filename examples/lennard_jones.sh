@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
 # Seven atoms in the plane, a hexagon that is struck: a system without a highest frequency. The learner takes
-# the frequencies that its data meet. What is gained at equal cost is small, and said with its error; then the
-# cluster runs for ten thousand steps, and its energy stays.
+# the frequencies that its data meet. What is gained at equal cost is small in the state (1.15 +- 0.08), and in the
+# energy Chin's method is twice as good; then the cluster runs for ten thousand steps, and its energy stays.
 set -eu
 
 # [cluster]

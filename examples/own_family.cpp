@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Your own family of methods in six lines.
+// Your own family of methods in a dozen lines.
 //
 // The largest family of the library with gradient kicks has one of them, between two plain ones. What if
 // there are two, and nothing else: A(a) G(1/2, c) A(1 - 2a) G(1/2, c) A(a)? We write the word, a name, where
@@ -19,6 +19,8 @@ using namespace nysalt;
 struct two_gradients : composition<2> {
   using word = nysalt::word<drift, gradient_kick, drift, gradient_kick, drift>;
   static constexpr std::string_view name = "two_gradients";
+  static constexpr int order = 2;  // as of all palindromes whose coefficients sum to one
+  static constexpr bool symmetric = true;
   static std::array<double, 2> start() { return {0.25, 0.0}; }
   template <Scalar C>
   static std::array<C, 7> coefficients(const std::array<C, 2>& theta) {

@@ -11,7 +11,7 @@ nysalt run --system henon_heiles --method best.json --step 1.2 --horizon 1200 --
 # [/recommend]
 awk -F , '$2 != "step" { printf "t = %4d  H = %.4f\n", $3, $4 }' energy.csv
 
-# Not every family wins: this one, on the pendulum, is worth no more than the best classical method.
+# Not every family wins: `fg_chin`, on the pendulum, does no better than the best classical method.
 nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --families fg_chin | tail -n 1
 
 # Expected output:

@@ -225,7 +225,8 @@ struct system_entry {
   std::string name;
   std::string options;
   std::string hamiltonian;
-  std::string source = {};  // in docs/bibliography.bib
+  std::string described = {};  // as: with what its description begins
+  std::string source = {};     // in docs/bibliography.bib
 };
 const std::vector<system_entry>& system_entries();
 

@@ -26,39 +26,40 @@ struct maker {
 const std::vector<maker>& makers() {
   static const std::vector<maker> all{
       {{"fpu", "--pairs 3 --omega 50 --spread 1",
-        "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn", "hairer_lubich_wanner_2006"},
+        "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn", "fpu_chain",
+        "hairer_lubich_wanner_2006"},
        {"--pairs", "--omega", "--spread"},
        [](const auto& s, const auto& in) {
          return make_fpu(s.pairs.value_or(3), s.omega.value_or(50.0), in);
        }},
-      {{"oscillator", "--omega 50 --spread 1", "p^2/2 + omega^2 q^2/2"},
+      {{"oscillator", "--omega 50 --spread 1", "p^2/2 + omega^2 q^2/2", "harmonic_oscillator"},
        {"--omega", "--spread"},
        [](const auto& s, const auto& in) { return make_oscillator(s.omega.value_or(50.0), in); }},
       {{"linear_chain", "--masses 8 --spring 1 --spread 1",
-        "equal masses between walls, joined by linear springs"},
+        "equal masses between walls, joined by linear springs", "linear_chain"},
        {"--masses", "--spring", "--spread"},
        [](const auto& s, const auto& in) {
          return make_linear_chain(s.masses.value_or(8), s.spring.value_or(1.0), in);
        }},
-      {{"pendulum", "--spread 1", "p^2/2 - cos q"},
+      {{"pendulum", "--spread 1", "p^2/2 - cos q", "pendulum"},
        {"--spread"},
        [](const auto&, const auto& in) { return make_pendulum(in); }},
       {{"henon_heiles", "--spread 1", "two degrees of freedom in a cubic potential, bounded below energy 1/6",
-        "henon_heiles_1964"},
+        "henon_heiles", "henon_heiles_1964"},
        {"--spread"},
        [](const auto&, const auto& in) { return make_henon_heiles(in); }},
-      {{"kepler", "--eccentricity 0.6", "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1",
+      {{"kepler", "--eccentricity 0.6", "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1", "kepler",
         "hairer_lubich_wanner_2006"},
        {"--eccentricity"},
        [](const auto& s, const auto& in) { return make_kepler(s.eccentricity.value_or(0.6), in); }},
       {{"lennard_jones", "--atoms 7 --space 2 --spread 1", "a cluster of atoms, 4 (r^-12 - r^-6) each pair",
-        "verlet_1967"},
+        "lennard_jones", "verlet_1967"},
        {"--atoms", "--space", "--spread"},
        [](const auto& s, const auto& in) {
          return make_lennard_jones(s.space.value_or(2), s.atoms.value_or(7), in);
        }},
       {{"phi4", "--masses 16 --spread 1", "masses in wells q^4/4, a ring joined by linear springs",
-        "aoki_kusnezov_2002"},
+        "phi4_chain", "aoki_kusnezov_2002"},
        {"--masses", "--spread"},
        [](const auto& s, const auto& in) { return make_phi4(s.masses.value_or(16), in); }},
   };

@@ -12,7 +12,7 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr std::string_view learned_prefix = "learned:";
+constexpr std::string_view paper = "li_lu_tao_ye_2023";
 
 class collected {
  public:
@@ -42,21 +42,7 @@ std::string_view source_of_method(const std::string& name) {
   for (const auto& known : classical_methods()) {
     if (known.method.name() == name) return known.source;
   }
-  refuse("unknown method '{}': it is one of {}, learned:FAMILY, or the file of a scheme", name,
-         listed(method_names()));
-}
-
-void add_method(const std::string& typed, collected& to) {
-  const std::string name = typed.substr(0, typed.find('@'));
-  if (typed.find('@') != std::string::npos) placement_named(typed.substr(typed.find('@') + 1));
-  if (!name.starts_with(learned_prefix)) {
-    to.add(source_of_method(name), name);
-    return;
-  }
-  const std::string family = family_named(name.substr(learned_prefix.size())).name;
-  to.add("li_lu_tao_ye_2023", "learning the integrator");
-  to.add(source_of_family(family), "the family " + family);
-  to.add("ceres", "the search for parameters");
+  refuse("unknown method '{}': it is one of {}", name, listed(method_names()));
 }
 
 void add_metric(const std::string& typed, collected& to) {
@@ -65,12 +51,32 @@ void add_metric(const std::string& typed, collected& to) {
   if (name == "acf") to.add("sokal_1997", "autocovariances and their errors");
 }
 
-/// Whatever is measured is measured against a reference.
-void add_reference(bool in_bath, collected& to) {
-  if (in_bath) {
+/// Whatever is learned or measured asks a reference: small steps, or the exact flow of a linear system.
+void add_reference(const cited_setup& its, collected& to) {
+  const bool is_exact = its.system == "oscillator" || its.system == "linear_chain";
+  if (its.in_bath) {
     to.add(source_of_method("baoab"), "the reference");
-  } else {
+  } else if (!is_exact) {
     to.add(source_of_method("srkn11b"), "the reference");
+  }
+}
+
+void add_setup(const cited_setup& its, collected& to) {
+  if (!its.system.empty()) to.add(source_of_system(its.system), "the system " + its.system);
+  for (const auto& name : its.methods) to.add(source_of_method(name), name);
+  for (const auto& name : its.families) to.add(source_of_family(name), "the family " + name);
+  for (const auto& name : its.learned) {
+    to.add(paper, "learning the integrator");
+    to.add(source_of_family(name), "the family " + name);
+    to.add("ceres", "the search for parameters");
+  }
+  for (const auto& metric : its.metrics) add_metric(metric, to);
+  if (!its.learned.empty() || !its.metrics.empty()) add_reference(its, to);
+  if (its.in_bath) to.add("leimkuhler_matthews_2015", "Langevin dynamics by splitting");
+  if (its.in_bath || !its.system.empty()) {
+    const std::string reason = its.in_bath ? "random starts and noise" : "random starts";
+    to.add("salmon_2011", reason);
+    to.add("box_muller_1958", reason);
   }
 }
 
@@ -78,20 +84,8 @@ void add_reference(bool in_bath, collected& to) {
 
 std::vector<citation> citations_for(const std::vector<cited_setup>& setups) {
   collected works;
-  works.add("li_lu_tao_ye_2023", "nysalt");
-  for (const auto& its : setups) {
-    if (!its.system.empty()) works.add(source_of_system(its.system), "the system " + its.system);
-    for (const auto& method : its.methods) add_method(method, works);
-    for (const auto& metric : its.metrics) add_metric(metric, works);
-    const auto is_learned = [](const std::string& method) { return method.starts_with(learned_prefix); };
-    if (!its.metrics.empty() || std::ranges::any_of(its.methods, is_learned)) {
-      add_reference(its.in_bath, works);
-    }
-    if (!its.in_bath) continue;
-    works.add("leimkuhler_matthews_2015", "Langevin dynamics by splitting");
-    works.add("salmon_2011", "random numbers");
-    works.add("box_muller_1958", "normal numbers");
-  }
+  works.add(paper, "nysalt");
+  for (const auto& its : setups) add_setup(its, works);
   works.add("eigen", "vectors");
   return std::move(works).all();
 }

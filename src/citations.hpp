@@ -7,11 +7,13 @@
 
 namespace nysalt::program {
 
-/// What is run, as far as it decides what to cite. What is empty was not said.
+/// What is run, as far as it decides what to cite. What is empty is not part of it.
 struct cited_setup {
-  std::string system;                // a name of `list`
-  std::vector<std::string> methods;  // names of `list`, learned:FAMILY, with @PLACEMENT or without
-  std::vector<std::string> metrics;  // of compare
+  std::string system;                 // a name of `list`
+  std::vector<std::string> methods;   // classical names of `list`
+  std::vector<std::string> families;  // as they are
+  std::vector<std::string> learned;   // families that were learned
+  std::vector<std::string> metrics;   // of compare
   bool in_bath = false;
 };
 

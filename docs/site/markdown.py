@@ -3,11 +3,13 @@
 import html
 import re
 
-html_tags = "a|b|br|code|details|em|i|img|p|sub|summary|sup"
+html_tags = "a|b|br|code|details|em|i|img|p|span|sub|summary|sup"
 fence = re.compile(r"^( *)(`{3,})\s*([\w+-]*)\s*$")
 heading = re.compile(r"^(#{1,6}) +(.*?)(?: +#+)?$")
 link = re.compile(r"(!?)\[((?:\\.|[^\[\]\\]|\[(?:\\.|[^\[\]\\])*\])*)\]\(([^()\s]*(?:\([^()\s]*\)[^()\s]*)*)\)")
 code = re.compile(r"(`+)(?!`)(.+?)(?<!`)\1(?!`)")
+# Code that Doxygen would take for a function of ours: CMake targets, and members of an object.
+no_name_of_ours = re.compile(r"nysalt::(?:core|nysalt|learn|odeint|mpi)$|[a-z]\w*\.\w+\(")
 
 
 def documents(root):
@@ -99,6 +101,8 @@ def staged_line(line, target_of, keys):
     def kept_code(found):
         inside = found.group(2)
         ticks = "``" if "'" in inside and found.group(1) == "`" else found.group(1)
+        if no_name_of_ours.match(inside):
+            inside = f"%{inside}"
         return keep(f"{ticks}{inside}{ticks}")
 
     def kept_link(found):
@@ -136,6 +140,14 @@ def cells(row):
     return [cell.strip().replace("\x01", "|") for cell in kept.split("|")]
 
 
+def breakable(cell):
+    """The same with its long code marked: it may go on in the next line, as the column would else be as wide as it."""
+    def marked(found):
+        is_long = len(found.group(2)) > 24 and re.search("[ /]", found.group(2))
+        return f'<span class="long">{found.group()}</span>' if is_long else found.group()
+    return code.sub(marked, cell)
+
+
 def staged_table(rows, target_of, keys):
     """The lines of a table as HTML."""
     sides = [{":-": "left", "-:": "right", "::": "center"}.get(rule[0] + rule[-1]) for rule in cells(rows[1])]
@@ -145,7 +157,7 @@ def staged_table(rows, target_of, keys):
         for cell, side in zip(cells(row), sides):
             kind = "td" if i else "th"
             align = f' align="{side}"' if side and i else ""
-            out.append(f"<{kind}{align}>{staged_line(cell, target_of, keys)}</{kind}>")
+            out.append(f"<{kind}{align}>{staged_line(breakable(cell), target_of, keys)}</{kind}>")
         out.append("</tr>")
     return [*out, "</table>"]
 

@@ -36,6 +36,13 @@ def sections(text):
     return found
 
 
+def title_of(path):
+    """That of a page; of a source none."""
+    if path.suffix != ".md":
+        return None
+    return next((markdown.plain(title) for level, title, _ in markdown.headings(path.read_text()) if level == 1), None)
+
+
 def tabs_of_link(site, index, title, address):
     """That of a folder's README.md has the pages of the folder below it, as they come there."""
     path = (index.parent / address).resolve()
@@ -47,7 +54,7 @@ def tabs_of_link(site, index, title, address):
     for link in markdown.link.finditer(path.read_text()):
         target = (path.parent / link.group(3)).resolve()
         if target.is_relative_to(path.parent) and target in has_page:
-            below.setdefault(target, markdown.plain(link.group(2)))
+            below.setdefault(target, title_of(target) or markdown.plain(link.group(2)))
     return group(title, [entry(its, f"{has_page[target]}.html") for target, its in below.items()], url)
 
 

@@ -54,7 +54,7 @@ int main() {
   const std::vector<rival> rivals{{tabulated(method.anywhere()), 3}, {tabulated(chin4a{}), 3},
                                   {tabulated(srkn6b{}), 6},          {tabulated(pefrl{}), 4},
                                   {tabulated(mclachlan2{}), 2},      {tabulated(verlet{}), 1}};
-  fmt::print("            error of q, p on [0, 3.6]\n");
+  fmt::print("            error of q, p on [0, {:.1f}]\n", 40 * step);
   for (const auto& [its, evaluations] : rivals) {
     const double its_step = step / 3 * evaluations;
     const std::vector one{its};

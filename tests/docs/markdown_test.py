@@ -36,6 +36,10 @@ class Pages(unittest.TestCase):
         self.assertEqual(staged("<!-- quote a.cpp b -->\n```cpp\n#include <a> // @b\n```"),
                          ["", "```{.cpp}", "#include <a> // @b", "```"])
 
+    def test_let_doxygen_link_no_code_that_is_no_name_of_ours(self):
+        self.assertEqual(staged("`nysalt::learn`, `s.size()`, `nysalt::learner`, `size()`"),
+                         ["`%nysalt::learn`, `%s.size()`, `nysalt::learner`, `size()`"])
+
     def test_stress_what_begins_with_code(self):
         self.assertEqual(staged("**`a` b** and *c* but \\*d\\* and e * f * g"),
                          ["<b>`a` b</b> and <em>c</em> but \\*d\\* and e * f * g"])
@@ -51,6 +55,11 @@ class Tables(unittest.TestCase):
         self.assertIn("<th>a</th>", table)
         self.assertIn("<td>|p|</td>", table)
         self.assertIn('<td align="right">`c | d`</td>', table)
+
+    def test_break_long_code_and_no_other(self):
+        table = staged("| a | b |\n|---|---|\n| `--seed N` | `method.apply(system, prepared, x)` |")
+        self.assertIn("<td>`--seed N`</td>", table)
+        self.assertIn('<td><span class="long">`%method.apply(system, prepared, x)`</span></td>', table)
 
     def test_end_where_the_rows_end(self):
         self.assertEqual(staged("| a |\n|---|\n| b |\n\nc")[-2:], ["", "c"])

@@ -110,7 +110,7 @@ foreach(pair IN ITEMS include/nysalt:include/nysalt examples:share/doc/libnysalt
   list(GET pair 0 ours)
   list(GET pair 1 theirs)
   file(GLOB_RECURSE sources RELATIVE ${source}/${ours} ${source}/${ours}/*)
-  list(FILTER sources INCLUDE REGEX "\\.(hpp|cpp|c|h|py)$")
+  list(FILTER sources INCLUDE REGEX "\\.(hpp|cpp|c|h|py|sh|md)$|^tutorial/CMakeLists\\.txt$")
   file(GLOB_RECURSE packed RELATIVE ${FOLDER}/libnysalt-dev/usr/${theirs} ${FOLDER}/libnysalt-dev/usr/${theirs}/*)
   require_equal("in ${theirs}" "${packed}" "${sources}")
 endforeach()

@@ -38,7 +38,10 @@ void must_be_told(const scratch& folder, const std::string& setup, const std::st
 
 const std::set<std::string> always{"nysalt", "li_lu_tao_ye_2023", "eigen"};
 
-std::set<std::string> with(std::set<std::string> more) {
+const std::set<std::string> random_numbers{"salmon_2011", "box_muller_1958"};
+
+std::set<std::string> with(const std::set<std::string>& these, std::set<std::string> more = {}) {
+  more.insert(these.begin(), these.end());
   more.insert(always.begin(), always.end());
   return more;
 }
@@ -48,17 +51,20 @@ std::set<std::string> with(std::set<std::string> more) {
 BOOST_AUTO_TEST_CASE(each_part_of_a_setup_has_its_works) {
   const scratch folder("cite_parts");
   BOOST_TEST((cited(folder, "") == always));
-  BOOST_TEST((cited(folder, "--system pendulum --methods verlet") == with({"verlet_1967"})));
-  BOOST_TEST((
-      cited(folder, "--system henon_heiles --methods srkn6b,s_aia2") ==
-      with({"henon_heiles_1964", "blanes_moan_2002", "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024"})));
+  BOOST_TEST((cited(folder, "--methods verlet") == with({"verlet_1967"})));
+  BOOST_TEST((cited(folder, "--system pendulum") == with(random_numbers)));
+  BOOST_TEST((cited(folder, "--methods srkn6b,s_aia2") ==
+              with({"blanes_moan_2002", "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024"})));
   BOOST_TEST((cited(folder, "--methods learned:nystrom") ==
               with({"okunbor_skeel_1992", "ceres", "blanes_moan_2002"})));
-  BOOST_TEST((cited(folder, "--system pendulum --bath --methods learned:fg_chin@symmetric") ==
-              with({"chin_1997", "ceres", "leimkuhler_matthews_2013", "leimkuhler_matthews_2015",
-                    "salmon_2011", "box_muller_1958"})));
+  BOOST_TEST(
+      (cited(folder, "--bath --methods learned:fg_chin@symmetric") ==
+       with(random_numbers, {"chin_1997", "ceres", "leimkuhler_matthews_2013", "leimkuhler_matthews_2015"})));
   BOOST_TEST((cited(folder, "--methods verlet --metric acceptance,path:q1") ==
               with({"verlet_1967", "duane_kennedy_pendleton_roweth_1987", "blanes_moan_2002"})));
+  BOOST_TEST((cited(folder, "--metric acf") == with({"sokal_1997", "blanes_moan_2002"})));
+  // The reference of a linear system is its exact flow.
+  BOOST_TEST((cited(folder, "--system oscillator --metric state") == with(random_numbers)));
 }
 
 BOOST_AUTO_TEST_CASE(all_that_can_be_named_can_be_cited) {
@@ -82,10 +88,10 @@ BOOST_AUTO_TEST_CASE(all_that_can_be_named_can_be_cited) {
 
 BOOST_AUTO_TEST_CASE(what_is_printed_is_bibtex) {
   const scratch folder("cite_bibtex");
-  const auto text = run(folder, "cite --system phi4 --methods srkn6b").out;
+  const auto text = run(folder, "cite --methods pefrl --metric acf").out;
   BOOST_TEST(std::ranges::count(text, '{') == std::ranges::count(text, '}'));
-  BOOST_TEST(std::ranges::count(text, '@') == 5);  // nysalt, the paper, phi4, srkn6b, Eigen
-  BOOST_TEST(text.find("% for the system phi4\n@article{aoki_kusnezov_2002,\n") != std::string::npos, text);
+  BOOST_TEST(std::ranges::count(text, '@') == 6);  // nysalt, the paper, pefrl, acf, the reference, Eigen
+  BOOST_TEST(text.find("% for pefrl\n@article{omelyan_mryglod_folk_2002,\n") != std::string::npos, text);
   const std::string told = run(folder, "--version").out;  // nysalt 1.2.3
   const std::string version = told.substr(told.find(' ') + 1, told.find('\n') - told.find(' ') - 1);
   BOOST_TEST(text.find("version " + version + "}") != std::string::npos, text);
@@ -93,21 +99,46 @@ BOOST_AUTO_TEST_CASE(what_is_printed_is_bibtex) {
 
 BOOST_AUTO_TEST_CASE(files_know_what_they_were_made_with) {
   const scratch folder("cite_files");
-  const std::string learning = "learn --system fpu --step 0.03 --trajectories 10 --output scheme.json";
-  BOOST_TEST_REQUIRE(run(folder, learning).code == 0);
+  const auto make = [&](const std::string& line) { BOOST_TEST_REQUIRE(run(folder, line).code == 0, line); };
   const auto of_scheme =
-      with({"hairer_lubich_wanner_2006", "okunbor_skeel_1992", "ceres", "blanes_moan_2002"});
+      with(random_numbers, {"hairer_lubich_wanner_2006", "okunbor_skeel_1992", "ceres", "blanes_moan_2002"});
+  make("learn --system fpu --step 0.03 --trajectories 10 --output scheme.json");
   BOOST_TEST((cited(folder, "scheme.json") == of_scheme));
   BOOST_TEST((cited(folder, "scheme.json.manifest.json") == of_scheme));
   BOOST_TEST((cited(folder, "--methods scheme.json") == of_scheme));
-  const std::string running =
-      "run --system phi4 --method pefrl --step 0.01 --horizon 0.1 --friction 1 --sigma 1 --output out.csv";
-  BOOST_TEST_REQUIRE(run(folder, running).code == 0);
-  BOOST_TEST(
-      (cited(folder, "out.csv") == with({"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002",
-                                         "leimkuhler_matthews_2015", "salmon_2011", "box_muller_1958"})));
-  BOOST_TEST_REQUIRE(shell(folder, "rm scheme.json.manifest.json").code == 0);
-  BOOST_TEST((cited(folder, "scheme.json") == of_scheme));  // a scheme needs none
+
+  const std::string running = "run --step 0.03 --horizon 0.3 ";
+  make(running + "--system phi4 --method pefrl --friction 1 --sigma 1 --output bath.csv");
+  BOOST_TEST((
+      cited(folder, "bath.csv") ==
+      with(random_numbers, {"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002", "leimkuhler_matthews_2015"})));
+  make(running + "--system phi4 --method verlet --friction 0 --sigma 0 --output still.csv");  // no bath
+  BOOST_TEST((cited(folder, "still.csv") == with(random_numbers, {"aoki_kusnezov_2002", "verlet_1967"})));
+
+  make("compare --system fpu --methods verlet,scheme.json --steps 0.03 --trajectories 8 --output report");
+  BOOST_TEST((cited(folder, "report") == with(of_scheme, {"verlet_1967"})));
+  BOOST_TEST((cited(folder, "report/rows.csv") == with(of_scheme, {"verlet_1967"})));
+  make("stability --family fg_chin --parameters 0.18,0.012 --output trace.csv");
+  BOOST_TEST((cited(folder, "trace.csv") == with({"chin_1997"})));
+
+  // From elsewhere schemes are looked for beside the result.
+  make(running + "--system fpu --method scheme.json --output out.csv");
+  const auto above = shell(folder, "mkdir above; cd above; \"$nysalt\" cite --json ../out.csv");
+  BOOST_TEST((keys(above) == of_scheme));
+  BOOST_TEST_REQUIRE(shell(folder, "rm scheme.json.manifest.json; mv scheme.json verlet").code == 0);
+  BOOST_TEST((cited(folder, "verlet") == of_scheme));  // a file, and one that needs no manifest
+  BOOST_TEST((cited(folder, "--methods verlet") == with({"verlet_1967"})));
+  must_be_told(folder, "out.csv", "out.csv.manifest.json: ");  // as its scheme is gone
+}
+
+BOOST_AUTO_TEST_CASE(a_recommendation_cites_its_winner_and_its_rivals) {
+  const scratch folder("cite_recommendation");
+  const std::string asked = "recommend --system oscillator --budget 40 --horizon 1 --trajectories 16 ";
+  BOOST_TEST_REQUIRE(run(folder, asked + "--families fg_chin --output best.json").code == 0);
+  const auto works = cited(folder, "best.json");
+  for (const char* key : {"chin_1997", "ceres", "verlet_1967", "blanes_moan_2002"})
+    BOOST_TEST(works.contains(key));
+  BOOST_TEST(!works.contains("okunbor_skeel_1992"));  // of a family that was not asked for
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_known_is_told) {
@@ -121,7 +152,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_told) {
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.manifest.json").code == 0);
   must_be_told(folder, "odd.manifest.json", "not a manifest of nysalt");
   BOOST_TEST_REQUIRE(shell(folder, "mkdir folder folder.manifest.json").code == 0);
-  must_be_told(folder, "folder", "cannot read folder");
+  must_be_told(folder, "folder", "folder: there is no such file, and no report in a folder");
+  must_be_told(folder, std::string(5000, 'a'), "there is no such file");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.json").code == 0);
   must_be_told(folder, "odd.json", "neither a scheme nor a table");
 }

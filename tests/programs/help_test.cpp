@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Every command line that the program or the README shows does what it is shown for.
+// Every command line that the program, the README or "choose a method" shows does what it is shown for.
 #include <boost/test/unit_test.hpp>
 
 #include <sstream>
@@ -52,6 +52,17 @@ std::vector<std::string> shell_lines(const std::string& markdown) {
   return found;
 }
 
+/// What a page calls the program with.
+std::vector<std::string> commands_of(const std::string& page) {
+  std::vector<std::string> commands;
+  for (const auto& line : shell_lines(contents(page))) {
+    for (const char* program : {"nysalt ", "build/release/nysalt "}) {
+      for (const auto& arguments : after(program, {line})) commands.push_back(arguments);
+    }
+  }
+  return commands;
+}
+
 void must_end_well(const scratch& folder, const std::string& arguments) {
   constexpr int patience = 300;  // s: `recommend` learns and times all that there is, here beside other tests
   const auto done = shell(folder, "\"$nysalt\" " + arguments, patience);
@@ -100,13 +111,21 @@ BOOST_AUTO_TEST_CASE(help_names_the_options_that_all_take) {
 
 // In one folder and in order: later lines read what earlier ones have written.
 BOOST_AUTO_TEST_CASE(commands_of_the_readme_run) {
-  std::vector<std::string> commands;
-  for (const auto& line : shell_lines(contents(NYSALT_SOURCE_DIR "/README.md"))) {
-    for (const char* program : {"nysalt ", "build/release/nysalt "}) {
-      for (const auto& arguments : after(program, {line})) commands.push_back(arguments);
-    }
-  }
+  const auto commands = commands_of(NYSALT_SOURCE_DIR "/README.md");
   BOOST_REQUIRE(commands.size() >= 3U);
   const scratch folder("readme");
   for (const auto& arguments : commands) must_end_well(folder, arguments);
+}
+
+// With one family and few trajectories: whether they are complete, not what they find.
+BOOST_AUTO_TEST_CASE(races_of_the_how_to_run) {
+  const scratch folder("races");
+  int races = 0;
+  for (const auto& arguments : commands_of(NYSALT_SOURCE_DIR "/docs/how-to/choose_a_method.md")) {
+    if (!arguments.starts_with("recommend") || arguments.find("--families") != std::string::npos) continue;
+    must_end_well(folder, arguments + " --families aba4 --trajectories 16");
+    ++races;
+  }
+  BOOST_TEST(races >= 4);
+  BOOST_TEST(run(folder, "recommend --system fpu --budget 60 --families aba4 --trajectories 16").code == 2);
 }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "made_with.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "catalogue.hpp"
+#include "json.hpp"
+#include "method_source.hpp"
+#include "number.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// A Hamiltonian of one's own has no name of ours.
+cited_setup setup_of(const scheme& learned) {
+  cited_setup its;
+  its.learned = {learned.family};
+  const std::string name = learned.system.substr(0, learned.system.find('('));
+  for (const auto& entry : system_entries()) {
+    if (entry.described == name) its.system = entry.name;
+  }
+  its.in_bath = learned.system.find(" in bath(") != std::string::npos;
+  return its;
+}
+
+/// Options as they were given, lists taken apart: TOML, as this program wrote it.
+class given_options {
+ public:
+  explicit given_options(const std::string& toml) {
+    std::istringstream text(toml);
+    for (const auto& item : CLI::ConfigTOML().from_config(text)) {
+      if (!item.parents.empty()) command_ = item.parents.front();
+      for (const auto& joined : item.inputs) {
+        for (const auto& one : CLI::detail::split(joined, ',')) all_.emplace_back(item.name, one);
+      }
+    }
+  }
+
+  const std::string& command() const { return command_; }
+  std::vector<std::string> of(const std::string& option) const {
+    std::vector<std::string> values;
+    for (const auto& [name, value] : all_) {
+      if (name == option) values.push_back(value);
+    }
+    return values;
+  }
+  std::string one_of(const std::string& option, const std::string& otherwise) const {
+    const auto values = of(option);
+    return values.empty() ? otherwise : values.front();
+  }
+  bool is_positive(const std::string& option) const {
+    return number_from(one_of(option, "0")).value_or(0.0) > 0.0;
+  }
+
+ private:
+  std::string command_;
+  std::vector<std::pair<std::string, std::string>> all_;
+};
+
+/// What `recommend` ranks: all families if none are named, and what is classical.
+void add_candidates(const given_options& given, cited_setup& to) {
+  to.learned = given.of("families");
+  if (to.learned.empty()) to.learned = family_names();
+  to.methods = method_names();
+  to.metrics = {given.one_of("metric", recommend_command().metric)};
+}
+
+cited_setup setup_of(const given_options& given) {
+  cited_setup its;
+  its.in_bath = given.is_positive("friction") || given.is_positive("sigma");
+  if (given.command() == "stability") {
+    its.system = given.one_of("system", "");
+    its.families = given.of("family");
+    return its;
+  }
+  its.system = given.one_of("system", system_settings().name);
+  if (given.command() == "learn") its.learned = {given.one_of("family", learn_command().family)};
+  if (given.command() == "recommend") add_candidates(given, its);
+  if (given.command() == "compare") {
+    its.metrics = given.of("metric");
+    if (its.metrics.empty()) its.metrics = compare_command().metrics;
+  }
+  return its;
+}
+
+/// A file is looked for beside the manifest first, as results and schemes are often kept together.
+std::string found_beside(const fs::path& manifest, const std::string& method) {
+  const fs::path beside = manifest.parent_path() / method;
+  return is_file(beside) ? beside.string() : method;
+}
+
+/// The result is read too if it is a scheme.
+void add_manifest(const fs::path& path, const fs::path& result, std::vector<cited_setup>& to) {
+  std::ifstream stream(path);
+  const json manifest = json::parse(stream, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("options") || !manifest["options"].is_string()) {
+    refuse("this is not a manifest of nysalt");
+  }
+  const given_options given(manifest["options"].get<std::string>());
+  const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability"};
+  if (std::ranges::find(known, given.command()) == known.end()) {
+    refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));
+  }
+  std::vector<cited_setup> its{setup_of(given)};
+  for (const char* option : {"method", "methods"}) {
+    for (const auto& method : given.of(option)) add_method(found_beside(path, method), its);
+  }
+  const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";
+  if (writes_schemes && is_file(result)) add_method(result.string(), its);
+  to.insert(to.end(), its.begin(), its.end());
+}
+
+}  // namespace
+
+void add_method(const std::string& typed, std::vector<cited_setup>& to) {
+  const auto source = find_method(typed);
+  if (source.learned) {
+    to.push_back(setup_of(*source.learned));
+  } else if (source.family) {
+    to.front().learned.push_back(*source.family);
+  } else if (source.is_adaptive()) {
+    to.front().methods.emplace_back(adaptive_method);
+  } else if (const auto names = method_names(); std::ranges::count(names, source.fixed->name()) > 0) {
+    to.front().methods.push_back(source.fixed->name());
+  }  // else a table of one's own, which cites nobody
+}
+
+void add_file(const std::string& file, std::vector<cited_setup>& to) {
+  constexpr std::string_view ending = ".manifest.json";
+  std::error_code ignored;
+  fs::path path(file);
+  if (fs::is_directory(path, ignored)) path /= "report.json";
+  if (!path.has_parent_path()) path = "." / path;  // a file, whatever method has its name
+  const bool is_manifest = file.ends_with(ending);
+  const fs::path manifest = is_manifest ? path : fs::path(path.string().append(ending));
+  if (!is_file(path) && !is_file(manifest)) {
+    refuse("{}: there is no such file, and no report in a folder of that name", file);
+  }
+  if (!is_file(manifest)) {
+    add_method(path.string(), to);
+    return;
+  }
+  try {
+    add_manifest(manifest, path, to);
+  } catch (const refusal& problem) {
+    refuse("{}: {}", manifest.string(), problem.what());
+  }
+}
+
+}  // namespace nysalt::program
