@@ -59,8 +59,8 @@ endfunction()
 function(build_and_run name)
   run(${CMAKE_COMMAND} --build ${FOLDER}/${name})
   set(output "${output}" PARENT_SCOPE)
-  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name} -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp
-    -P ${nysalt}/tests/check_example.cmake)
+  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name}
+    -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp -P ${nysalt}/tests/check_example.cmake)
 endfunction()
 
 # The libraries that the program loads, straight or through others, and where it names Ceres: a static Ceres is
