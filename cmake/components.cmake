@@ -1,5 +1,5 @@
-# Which component a header belongs to: the one that has what it includes, itself or through others of ours. So a
-# header that needs Eigen and the standard library alone is of core, wherever it stands.
+# Which component a header belongs to: the one that has what it includes, itself or through others of ours. So
+# a header that needs Eigen and the standard library alone is of core, wherever it stands.
 
 # All that a header includes, by others of ours too.
 function(find_includes header result)

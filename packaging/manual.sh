@@ -7,11 +7,19 @@ set -eu
 program=$1
 template=$2
 
-commands=$("$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-for command in $commands; do
-  printf '@command %s\n' "$command"
-  "$program" "$command" --help
-done | awk -v version="$("$program" --version)" -v template="$template" '
+# One after the other: what fails in a pipe is not seen.
+version=$("$program" --version)
+help=$("$program" --help)
+commands=$(printf '%s\n' "$help" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ -n "$commands" ] || { printf 'manual.sh: %s --help names no commands\n' "$program" >&2; exit 1; }
+[ -r "$template" ] || { printf 'manual.sh: cannot read %s\n' "$template" >&2; exit 1; }
+help=$(
+  for command in $commands; do
+    printf '@command %s\n' "$command"
+    "$program" "$command" --help
+  done
+)
+printf '%s\n' "$help" | awk -v version="$version" -v template="$template" '
   function roff(text) {
     gsub(/\\/, "\\e", text)
     gsub(/-/, "\\-", text)

@@ -1,5 +1,5 @@
-# Uses nysalt as others do: installs it below FOLDER, as BUILD does too, then configures, builds and runs the projects
-# that stand beside this file, rightly and wrongly. MPI says whether there is one.
+# Uses nysalt as others do: installs it below FOLDER, as BUILD does too, then configures, builds and runs the
+# projects that stand beside this file, rightly and wrongly. MPI says whether there is one.
 
 cmake_minimum_required(VERSION 3.25)
 load_cache(${BUILD} READ_WITH_PREFIX its_
@@ -19,17 +19,20 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# A project beside this file, or nysalt itself, in a folder of its own. A second time there is quick, as the
-# compiler is known, but packages are looked for anew.
+# A project beside this file, nysalt itself, or the tutorial's, in a folder of its own. A second time there is
+# quick, as the compiler is known, but packages are looked for anew.
 function(try_to_configure name)
   set(source ${CMAKE_CURRENT_LIST_DIR}/${name})
   if(name STREQUAL "nysalt")
     set(source ${nysalt})
+  elseif(name STREQUAL "tutorial")
+    set(source ${nysalt}/examples/tutorial)
   endif()
   execute_process(RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output
-    COMMAND ${CMAKE_COMMAND} -S ${source} -B ${FOLDER}/${name} -G ${its_CMAKE_GENERATOR} -U *_DIR -U CMAKE_DISABLE_*
-      -D CMAKE_MAKE_PROGRAM=${its_CMAKE_MAKE_PROGRAM} -D CMAKE_CXX_COMPILER=${its_CMAKE_CXX_COMPILER}
-      -D nysalt_ROOT=${FOLDER}/installed ${ARGN})
+    COMMAND ${CMAKE_COMMAND} -S ${source} -B ${FOLDER}/${name} -G ${its_CMAKE_GENERATOR}
+      -U *_DIR -U CMAKE_DISABLE_* -D CMAKE_MAKE_PROGRAM=${its_CMAKE_MAKE_PROGRAM}
+      -D CMAKE_CXX_COMPILER=${its_CMAKE_CXX_COMPILER}
+      -D CMAKE_PREFIX_PATH=${FOLDER}/installed ${ARGN})
   string(REGEX REPLACE "[ \n]+" " " sentences "${output}")  # CMake breaks lines
   foreach(result code output sentences)
     set(${result} "${${result}}" PARENT_SCOPE)
@@ -56,8 +59,8 @@ endfunction()
 function(build_and_run name)
   run(${CMAKE_COMMAND} --build ${FOLDER}/${name})
   set(output "${output}" PARENT_SCOPE)
-  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name} -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp
-    -P ${nysalt}/tests/check_example.cmake)
+  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name}
+    -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp -P ${nysalt}/tests/check_example.cmake)
 endfunction()
 
 # The libraries that the program loads, straight or through others, and where it names Ceres: a static Ceres is
@@ -83,8 +86,8 @@ function(require_no_match text pattern)
   endif()
 endfunction()
 
-# nysalt itself, configured where there is Eigen alone: what is installed is the same, and knows nothing of where it
-# was made.
+# nysalt itself, configured where there is Eigen alone: what is installed is the same, and knows nothing of where
+# it was made.
 set(eigen_alone "")
 foreach(package IN ITEMS Boost fmt TBB Ceres MPI)
   list(APPEND eigen_alone -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
@@ -143,13 +146,15 @@ build_and_run(odeint)
 configure(link_interface)
 string(REPLACE "${FOLDER}" "" sentences "${sentences}")
 require_match("${sentences}" "nysalt::core includes [^/;]*/installed/include>?;")
-require_match("${sentences}" "nysalt::core compiles with [^ ]*-ffp-contract=off;-fno-tree-slp-vectorize;")
+require_match("${sentences}" "nysalt::core compiles with [^ ]*:-ffp-contract=off>;[^ ]*:-fno-tree-slp-vectorize>;")
+require_no_match("${sentences}" "nysalt::core compiles with [^ ]*;-")  # to what language it may be
 require_match("${sentences}" "nysalt::core brings nysalt::core;Eigen3::Eigen;")
 require_match("${sentences}" "nysalt::nysalt brings [^ ]*;TBB::tbb;")
 require_no_match("${sentences}" "nysalt::nysalt brings [^ ]*([Cc]eres|glog)")
 require_match("${sentences}" "nysalt::learn brings [^ ]*;Ceres::ceres;[^ ]*glog")
 configure(link_interface -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
-require_match("${sentences}" "component nysalt needs fmt 9 \\(Debian: libfmt-dev, or set fmt_DIR\\), and is left out")
+require_match("${sentences}"
+  "component nysalt needs fmt 9 \\(Debian: libfmt-dev, or set fmt_DIR\\), and is left out")
 require_match("${sentences}" "component mpi needs fmt 9 [^)]*\\) and an MPI 3.1 [^)]*\\), and is left out")
 require_match("${sentences}" "nysalt::odeint brings nysalt::odeint;nysalt::core;Boost::headers;")
 require_no_match("${sentences}" "nysalt::(nysalt|learn|mpi) brings")
@@ -160,8 +165,10 @@ require_no_match("${sentences}" "nysalt::(nysalt|learn|odeint|mpi) brings")
 configure(link_interface -D COMPONENTS=learn)
 require_match("${sentences}" "nysalt::nysalt brings")
 require_no_match("${sentences}" "nysalt::(odeint|mpi) brings")
-refuses("nysalt has no component 'lern': there are core, nysalt, learn, odeint, mpi" link_interface -D COMPONENTS=lern)
-refuses("component learner is now called learn, and its target nysalt::learn" link_interface -D COMPONENTS=learner)
+refuses("nysalt has no component 'lern': there are core, nysalt, learn, odeint, mpi" link_interface
+  -D COMPONENTS=lern)
+refuses("component learner is now called learn, and its target nysalt::learn" link_interface
+  -D COMPONENTS=learner)
 refuses("nysalt's component learn needs Ceres 2.1 (Debian: libceres-dev" learn ${no_ceres})
 refuses("nysalt's component core needs Eigen 3.4 (Debian: libeigen3-dev" link_interface
   -D COMPONENTS= -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
@@ -170,6 +177,24 @@ refuses("nysalt's component mpi needs an MPI 3.1" link_interface
 if(MPI)
   configure(mpi)
   build_and_run(mpi)
+endif()
+configure(tutorial)
+
+# Whatever policies there are, nothing is said that is not to be and nothing left but what find_package promises.
+# What is there already is taken, if it is not known to be too old.
+if(CMAKE_VERSION VERSION_LESS 4)  # which knows policies so old no more
+  set(promised "nysalt_(CONFIG|CONSIDERED_[A-Z]+|DIR|FOUND|NOT_FOUND_MESSAGE|VERSION[A-Z_]*)")
+  configure(old)
+  require_match("${sentences}" "looks for nysalt -- found: 1 ;")
+  set(components "nysalt_(core|nysalt|learn|odeint|mpi)_FOUND")
+  require_match("${sentences}" "left behind: ((${promised}|${components});)+ ")
+  require_match("${sentences}" "nysalt_learn_FOUND;")
+  configure(old -D COMPONENTS=learn -D CERES=2.1)
+  require_match("${sentences}" "looks for nysalt -- found: 1 ;")
+  configure(old -D COMPONENTS=learn -D CERES=2.0.9)
+  require_match("${sentences}"
+    "found: 0 nysalt's component learn needs Ceres 2.1 \\([^)]*\\), not the 2.0.9 that was found before;")
+  require_match("${sentences}" "left behind: ((${promised}|nysalt_learn_FOUND);)+ ")
 endif()
 
 # Without CMake: the same flags, from wherever the tree stands.
@@ -182,18 +207,35 @@ if(pkg_config)
   require_match("${output}" "-ffp-contract=off -fno-tree-slp-vectorize.*-lceres.*-lglog")
   run(sh -c "\"$0\" -std=c++20 \"$1\" -o \"$2\" $(\"$3\" --cflags --libs nysalt)"
     ${its_CMAKE_CXX_COMPILER} ${main} ${FOLDER}/by_pkg_config ${pkg_config})
-  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/by_pkg_config -D SOURCE=${main} -P ${nysalt}/tests/check_example.cmake)
+  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/by_pkg_config -D SOURCE=${main}
+    -P ${nysalt}/tests/check_example.cmake)
   file(RENAME ${FOLDER}/moved ${FOLDER}/installed)
 endif()
+# Folders that are not below the prefix are named as they are.
+function(require_include_dir folder option)
+  configure(nysalt -U CMAKE_INSTALL_*DIR -D CMAKE_INSTALL_PREFIX=/there -D ${option})
+  file(READ ${FOLDER}/nysalt/nysalt-core.pc text)
+  require_match("${text}" "\nincludedir=${folder}\n")
+endfunction()
+require_include_dir(/elsewhere CMAKE_INSTALL_INCLUDEDIR=/elsewhere)
+require_include_dir(/there/include CMAKE_INSTALL_DATADIR=/elsewhere)
 
-# nysalt as a subdirectory builds nothing and changes nothing around it.
+# nysalt as a subdirectory builds nothing, changes nothing around it and is not installed with it, but if asked.
 configure(subdirectory -D NYSALT=${nysalt})
 build_and_run(subdirectory)
+run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
+require_no_match("${files}" "of_others")
+configure(subdirectory -D NYSALT=${nysalt} -D NYSALT_INSTALL=ON)
+run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
+require_match("${files}" "of_others/include;of_others/share")
 refuses("nysalt has more than headers here: ${nysalt}/examples" subdirectory
   -D NYSALT=${nysalt} -D NYSALT_BUILD_EXAMPLES=ON)
 
 # So it does from an archive, which needs no more than this.
-run(${CMAKE_COMMAND} -E chdir ${nysalt} ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include)
+run(${CMAKE_COMMAND} -E chdir ${nysalt}
+  ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include)
 configure(fetch -D NYSALT=${FOLDER}/nysalt.tar.gz)
 
 foreach(change

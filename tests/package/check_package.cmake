@@ -1,5 +1,5 @@
-# Makes Debian packages of what BUILD has built, below FOLDER, and looks into them. VERSION is what they must be of;
-# PYTHON says whether there is a module.
+# Makes Debian packages of what BUILD has built, below FOLDER, and looks into them. VERSION is what they must be
+# of; PYTHON says whether there is a module.
 
 cmake_minimum_required(VERSION 3.25)
 load_cache(${BUILD} READ_WITH_PREFIX its_ CMAKE_HOME_DIRECTORY)
@@ -57,6 +57,7 @@ list(TRANSFORM names APPEND "_${VERSION}-1" OUTPUT_VARIABLE expected)
 require_equal("what was made" "${packages}" "${expected}")
 
 # What they say of themselves, and what they need.
+file(MAKE_DIRECTORY ${FOLDER}/control)
 foreach(name IN LISTS names)
   file(GLOB package ${FOLDER}/made/${name}_*.deb)
   run(${dpkg-deb} --field ${package})
@@ -64,6 +65,7 @@ foreach(name IN LISTS names)
   require_match("${output}" "Version: ${VERSION}-1\n")
   set(root ${FOLDER}/${name})
   run(${dpkg-deb} --extract ${package} ${root})
+  run(${dpkg-deb} --control ${package} ${FOLDER}/control/${name})
   file(GLOB_RECURSE files RELATIVE ${root}/usr ${root}/*)
   list(FILTER files EXCLUDE REGEX "^include/")
   list(FILTER files EXCLUDE REGEX "/examples/")
@@ -85,6 +87,23 @@ if(PYTHON)
   require_match("${fields_of_python3-nysalt}" "Depends: [^\n]*python3 \\(>= 3\\.[0-9]+\\), python3 \\(<< 3\\.[0-9]+\\), python3-numpy")
   require_match("${files_of_python3-nysalt}"
     "^lib/python3/dist-packages/nysalt/__init__\\.py;lib/python3/dist-packages/nysalt/_nysalt\\.cpython-[^/;]*\\.so;")
+endif()
+# What Python writes beside its sources goes with the package: dpkg runs these two, which call Debian's tools
+# for that (here: others of their names, that tell).
+file(GLOB scripts RELATIVE ${FOLDER}/control ${FOLDER}/control/*/p*)
+if(PYTHON)
+  require_equal("scripts of packages" "${scripts}" "python3-nysalt/postinst;python3-nysalt/prerm")
+  foreach(pair IN ITEMS postinst:py3compile prerm:py3clean)
+    string(REGEX MATCH "(.*):(.*)" pair ${pair})
+    set(script ${FOLDER}/control/python3-nysalt/${CMAKE_MATCH_1})
+    set(tool ${CMAKE_MATCH_2})
+    file(WRITE ${FOLDER}/tools/${tool} "#!/bin/sh\necho ${tool} $*\n")
+    file(CHMOD ${FOLDER}/tools/${tool} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+    run(${CMAKE_COMMAND} -E env PATH=${FOLDER}/tools:$ENV{PATH} ${script} configure)
+    require_equal("what ${script} does" "${output}" "${tool} -p python3-nysalt\n")
+  endforeach()
+else()
+  require_equal("scripts of packages" "${scripts}" "")
 endif()
 foreach(pair IN ITEMS include/nysalt:include/nysalt examples:share/doc/libnysalt-dev/examples)
   string(REPLACE ":" ";" pair ${pair})
@@ -149,13 +168,6 @@ foreach(command IN LISTS commands)
     endif()
   endforeach()
 endforeach()
-find_program(groff groff)
-if(groff)
-  execute_process(COMMAND ${groff} -man -Tutf8 -ww -z ${FOLDER}/nysalt/usr/share/man/man1/nysalt.1
-    ERROR_VARIABLE warnings)
-  require_equal("what groff finds wrong" "${warnings}" "")
-endif()
-
 # One version everywhere.
 foreach(file IN ITEMS nysalt nysalt-core nysalt-learn)
   file(READ ${FOLDER}/libnysalt-dev/usr/share/pkgconfig/${file}.pc text)
@@ -163,3 +175,12 @@ foreach(file IN ITEMS nysalt nysalt-core nysalt-learn)
 endforeach()
 file(READ ${FOLDER}/libnysalt-dev/usr/share/cmake/nysalt/nysaltConfigVersion.cmake text)
 require_match("${text}" "set\\(PACKAGE_VERSION \"${VERSION}\"\\)")
+
+find_program(groff groff)
+if(NOT groff)
+  message("skipped: there is no groff, which would have looked at the manual page; all else is right")
+  return()
+endif()
+execute_process(COMMAND ${groff} -man -Tutf8 -ww -z ${FOLDER}/nysalt/usr/share/man/man1/nysalt.1
+  ERROR_VARIABLE warnings)
+require_equal("what groff finds wrong" "${warnings}" "")
