@@ -145,8 +145,8 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   fs::path path(file);
   if (fs::is_directory(path, ignored)) path /= "report.json";
   if (!path.has_parent_path()) path = "." / path;  // a file, whatever method has its name
-  const bool is_manifest = file.ends_with(ending);
-  const fs::path manifest = is_manifest ? path : fs::path(path.string().append(ending));
+  if (file.ends_with(ending)) path.replace_extension().replace_extension();
+  const fs::path manifest = path.string().append(ending);
   if (!is_file(path) && !is_file(manifest)) {
     refuse("{}: there is no such file, and no report in a folder of that name", file);
   }

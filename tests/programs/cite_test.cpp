@@ -16,7 +16,8 @@ namespace {
 std::set<std::string> keys(const finished& done) {
   BOOST_TEST(done.code == 0, done.err);
   std::set<std::string> all;
-  for (const auto& work : json_of(done).at("references")) {
+  const json document = json_of(done);
+  for (const auto& work : document.at("references")) {
     const std::string key = work.at("key");
     BOOST_TEST(all.insert(key).second, key << " is there twice");
     BOOST_TEST(!work.at("for").empty());
