@@ -292,6 +292,11 @@ class Run:
             raise KeyError(f"{observable} was not sampled: {', '.join(self.observables)} were")
         return self.values[:, :, self.observables.index(observable)]
 
+    def __repr__(self) -> str:
+        trajectories, samples, _ = self.values.shape
+        return (f"<nysalt run of {self.system}: {trajectories} trajectories, {self.steps} steps, "
+                f"{samples} samples to t = {self.t[-1]:g}: {', '.join(self.observables)}>")
+
 
 def run(system: System, method: Method, step: float, horizon: float, *, trajectories: Optional[int] = None,
         observables: Optional[Texts] = None, sample_every: Optional[int] = None, seed: int = 1,

@@ -75,6 +75,12 @@ def test_arrays_are_filled_where_they_lie(chain):
     assert not np.shares_memory(new.values, out) and not np.shares_memory(out.copy(), out)
 
 
+def test_a_run_prints_as_one_line(chain):
+    run = nysalt.run(chain, "baoab", 0.01, 20, trajectories=3, sample_every=50, observables=["energy", "q1"])
+    assert repr(run) == str(run) == (f"<nysalt run of {chain.description}: 3 trajectories, 2000 steps, "
+                                     "41 samples to t = 20: energy, q1>")
+
+
 def test_threads_change_nothing(chain):
     runs = [nysalt.run(chain, "baoab", 0.01, 5, trajectories=70, threads=threads) for threads in (1, 2)]
     assert np.array_equal(runs[0].values, runs[1].values)
