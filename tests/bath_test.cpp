@@ -2,8 +2,8 @@
 // The bath's formulas, against more digits and in their limits.
 #include "nysalt/bath.hpp"
 
-#include <boost/test/unit_test.hpp>
 #include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <limits>

@@ -81,8 +81,7 @@ BOOST_AUTO_TEST_CASE(also_of_words_with_letters_of_the_bath) {
 
 BOOST_AUTO_TEST_CASE(a_word_splits_the_hamiltonian_in_one_way_or_the_other) {
   for (const char* mixed : {"BAS", "SRB", "BAH", "GRS", "SRHRG", "RBR", "ASA", "RAS"}) {
-    BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{mixed}; },
-                                              {mixed, "A, B, G", "R, S, H"}));
+    BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{mixed}; }, {mixed, "A, B, G", "R, S, H"}));
   }
   for (const char* pure : {"BAG", "SRH", "RSR"}) {
     BOOST_TEST(!refuses<std::invalid_argument>([&] { run_time_word{pure}; }, {}));

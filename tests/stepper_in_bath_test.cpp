@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a stepper refuses in a bath, and what noise it draws.
-#include <boost/test/unit_test.hpp>
 #include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
 
 #include <set>
 #include <tuple>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What scripts rely on: keys, their types and order, defaults, rows, and what counts as a step.
-#include <boost/test/unit_test.hpp>
 #include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 namespace nysalt {
 
 /// value + sum_k derivative[k] e_k with e_j e_k = 0. T may itself be a dual (second derivatives).
-/// Cost: an operation on dual<T, N> is N + 1 to 2 N + 1 operations on T.
+/// Cost: an operation on dual<T, N> is N + 1 (sums) to 3 N + 1 (products, quotients) operations on T.
 template <Scalar T, int N>
 struct dual {
   using value_type = T;                  ///< which may be a dual or a pack itself
