@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "catalogue.hpp"
@@ -156,7 +156,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   }
   try {
     add_manifest(manifest, path, to);
-  } catch (const refusal& problem) {
+  } catch (const std::exception& problem) {  // also what the options cannot be read by
     refuse("{}: {}", manifest.string(), problem.what());
   }
 }
