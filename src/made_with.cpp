@@ -121,6 +121,7 @@ void add_manifest(const fs::path& path, const fs::path& result, std::vector<cite
   }
   const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";
   if (writes_schemes && is_file(result)) add_method(result.string(), its);
+  citations_for(its);  // what has no name is refused here, where the file is known
   to.insert(to.end(), its.begin(), its.end());
 }
 
