@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "../src/progress.hpp"
+#include "leaving.hpp"
 
 namespace nysalt::python {
 
@@ -52,6 +53,7 @@ void compute_apart(const std::function<void()>& work) {
 }  // namespace
 
 void compute(bool calls_python, const std::function<void()>& work) {
+  const under_way here;
   if (!calls_python) return compute_apart(work);
   program::quiet_caller caller;
   const program::work_for its(caller);
@@ -59,6 +61,7 @@ void compute(bool calls_python, const std::function<void()>& work) {
 }
 
 void without_lock(const std::function<void()>& work) {
+  const under_way here;
   std::exception_ptr thrown;
   PyThreadState* const state = PyEval_SaveThread();
   try {

@@ -2,11 +2,13 @@
 #include <pybind11/pybind11.h>
 
 #include "commands.hpp"
+#include "leaving.hpp"
 #include "refused.hpp"
 #include "systems.hpp"
 
 /// What nysalt/__init__.py is made of. Its arguments are those of the program, in a dict; documents are JSON.
 PYBIND11_MODULE(_nysalt, module) {
+  nysalt::python::leave_from_computations();
   nysalt::python::tell_refusals();
   nysalt::python::add_systems(module);
   nysalt::python::add_commands(module);
