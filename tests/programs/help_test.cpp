@@ -64,8 +64,7 @@ std::vector<std::string> commands_of(const std::string& page) {
 }
 
 void must_end_well(const scratch& folder, const std::string& arguments) {
-  constexpr int patience = 300;  // s: `recommend` learns and times all that there is, here beside other tests
-  const auto done = shell(folder, "\"$nysalt\" " + arguments, patience);
+  const auto done = run(folder, arguments);
   BOOST_TEST(done.code == 0, "nysalt " << arguments << ": " << done.code << ", " << done.err);
 }
 
