@@ -89,11 +89,11 @@ int main() {
 }
 
 // Expected output:
-// the error of a step: c = 0.014396 +- 1e-05, usable: yes
+// the error of a step: c = 0.014385 +- 7e-09, usable: yes
 // the turning: c = 0.014573 +- 8e-08, usable: yes
 //
 // after a hundred revolutions the ellipse has turned by, and the planet is off by
-// error of a step  -0.05829 +- 0.00001   0.063
+// error of a step  -0.06196 +- 0.00001   0.061
 // turning          -0.00006 +- 0.00002   0.140
 // chin4a           -0.22450 +- 0.00000   0.195
 // pefrl            -0.59907 +- 0.00010   0.524
