@@ -18,6 +18,7 @@
 #include "nysalt/families/composition.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/own_loss.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/verlet.hpp"
@@ -252,6 +253,14 @@ static_assert(nysalt::Ensemble<around_the_circle, nysalt::harmonic_oscillator>);
 // [/ensemble]
 static_assert(!nysalt::Ensemble<quarter_turns, nysalt::harmonic_oscillator>);
 
+// [own_loss]
+/// The error of the positions after five steps.
+const nysalt::own_loss of_place{
+    "place", 5,
+    []<class T>(const nysalt::phase_point<T, 1>&, const nysalt::phase_point<T, 1>& finish,
+                const nysalt::phase_point<T, 1>& wanted) -> T { return finish.q[0] - wanted.q[0]; }};
+// [/own_loss]
+
 // [objective]
 /// How wrong the phase of A(a) B(1/2) A(1 - 2a) B(1/2) A(a) is on an oscillator, z = h omega: half the trace
 /// of the exact step is cos z.
@@ -411,6 +420,20 @@ BOOST_AUTO_TEST_CASE(a_reference_and_an_ensemble_of_ones_own) {
   auto x = start;
   exact.advance(system, x, std::numbers::pi / 2.0);
   BOOST_TEST(std::abs(x.q[0] - start.p[0]) <= 4 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(a_loss_of_ones_own_says_what_its_residuals_are) {
+  const nysalt::harmonic_oscillator system(1.0);
+  const auto error = nysalt::own_error<nysalt::harmonic_oscillator, double>(system, of_place.error);
+  using C = decltype(error)::scalar;
+  auto finish = at(3.0, 4.0).cast<C>();
+  finish.q[0] = C::variable(3.0, 1);
+  C r;
+  error.of(at(1.0, 0.0), finish, at(2.5, 7.0), &r);
+  BOOST_TEST(error.residuals == 1U);
+  BOOST_TEST(r.value == 0.5);
+  BOOST_TEST(r.derivative[0] == 0.0);
+  BOOST_TEST(r.derivative[1] == 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(an_objective_tells_its_own_slope) {
