@@ -60,8 +60,8 @@ inline squares from_column(const Eigen::VectorXd& column, Eigen::Index parameter
   return result;
 }
 
-inline Eigen::VectorXd zero_column(Eigen::Index parameters) {
-  return Eigen::VectorXd::Zero(1 + parameters + parameters * (parameters + 1) / 2);
+inline Eigen::Index terms_of_column(Eigen::Index parameters) {
+  return 1 + parameters + parameters * (parameters + 1) / 2;
 }
 
 template <class Loss>
@@ -79,7 +79,7 @@ std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen
       }
     }
   };
-  return loss.sums(theta, true, zero_column(loss.parameters()), of_stretch);
+  return loss.sums(theta, true, terms_of_column(loss.parameters()), of_stretch);
 }
 
 }  // namespace detail
@@ -94,8 +94,7 @@ std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& t
     terms[0] = sum;
   };
   std::vector<double> result;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
-  for (const auto& sum : loss.sums(theta, false, zero, of_stretch)) result.push_back(sum[0]);
+  for (const auto& sum : loss.sums(theta, false, 1, of_stretch)) result.push_back(sum[0]);
   return result;
 }
 /// The loss, of all ranks. Cost: one pass over the data.
@@ -119,7 +118,8 @@ std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen:
 template <class Loss>
 squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
   const auto by_trajectory = detail::squares_by_trajectory(loss, theta);
-  const auto sum = loss.share().sum(by_trajectory, detail::zero_column(loss.parameters()));
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(detail::terms_of_column(loss.parameters()));
+  const auto sum = loss.share().sum(by_trajectory, zero);
   return detail::from_column(sum, loss.parameters());
 }
 /// A loss over data as a function of theta alone. Refers to the loss.
@@ -138,9 +138,12 @@ std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::V
       for (std::size_t i = 0; i < r.parameters; ++i) terms[term++] = r.values[k] * r.slope(k, i) * 2.0;
     }
   };
-  const Eigen::MatrixXd zero =
-      Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
-  return loss.sums(theta, true, zero, of_stretch);
+  const auto residuals = static_cast<Eigen::Index>(loss.residuals());
+  std::vector<Eigen::MatrixXd> result;
+  for (const auto& sum : loss.sums(theta, true, loss.parameters() * residuals, of_stretch)) {
+    result.push_back(sum.reshaped(loss.parameters(), residuals));
+  }
+  return result;
 }
 
 }  // namespace nysalt

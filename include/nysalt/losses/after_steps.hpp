@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -37,13 +38,17 @@ struct residuals_of_stretch {
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
 };
 
+/// What is made of them: as many terms as were asked for. Called from several threads at a time.
+template <Scalar R>
+using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
+
 /// The mean over all stretches of K steps of the sum over residuals of r^2; what they are a stretch_error
 /// says.
 ///
 /// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// stretches; neither its lanes nor the threads change a bit of a sum.
 /// What a loss over data offers the learner: scalar, parameters(), trajectories(), share(), residuals(), and
-/// sums(theta, with_slopes, zero, of_stretch). Of trajectories that ranks share, each has its own.
+/// sums(theta, with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
@@ -85,13 +90,13 @@ class after_steps {
   std::int64_t evaluations() const { return evaluations_; }
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
-  /// the residuals, added in the order of time. `zero` says how many terms there are. Throws what the error
-  /// does: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over
-  /// dual<R, 2> for each stretch and two parameters.
-  template <class Sum>
-  std::vector<Sum> sums(const Eigen::VectorXd& theta, bool with_slopes, const Sum& zero,
-                        const auto& of_stretch) const {
-    std::vector<Sum> result(trajectories(), zero);
+  /// the residuals, so many terms, added in the order of time. Throws what the error does: the library's own
+  /// nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each
+  /// stretch and two parameters.
+  std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
+                                    const terms_of_stretch<R>& of_stretch) const {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
+    std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
     const auto visit = [&](std::int64_t index) {
       const auto& part = parts_[static_cast<std::size_t>(index)];
@@ -106,24 +111,22 @@ class after_steps {
       residuals_of_stretch<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
                                 std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
       std::vector<C> of_directions(residuals());
-      std::vector<R> terms(static_cast<std::size_t>(zero.size()));
+      std::vector<R> added(static_cast<std::size_t>(terms));
       std::size_t trajectory = part.first_trajectory;
       std::size_t stretch = starts_.first_of[trajectory];
-      Sum sum = zero;  // of one trajectory: local, so that it may stay in registers
+      Eigen::VectorXd sum = zero;  // of one trajectory
       for (std::size_t entry = 0; entry < part.entries.size(); ++entry) {
         for (std::size_t d = 0; d < steppers.size(); ++d) {
           residuals_after(steppers[d], part.entries[entry], entry, x, of_directions);
           take(of_directions, d, with_slopes, r);
         }
-        of_stretch(r, terms);
+        of_stretch(r, added);
         for (int k = 0; k < lanes_in<R> && stretch < part.end; ++k, ++stretch) {
           for (; stretch == starts_.first_of[trajectory + 1]; ++trajectory) {
             result[trajectory] = sum * weight_;
             sum = zero;
           }
-          for (Eigen::Index i = 0; i < sum.size(); ++i) {
-            sum.data()[i] += lane(terms[static_cast<std::size_t>(i)], k);
-          }
+          for (Eigen::Index i = 0; i < terms; ++i) sum[i] += lane(added[static_cast<std::size_t>(i)], k);
         }
       }
       result[trajectory] = sum * weight_;
