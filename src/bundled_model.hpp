@@ -197,7 +197,6 @@ class bundled_model final : public bundled_system {
 
   learnable make_learnable(const learn_plan& plan, const counter& progress) const override {
     require_learnable(plan.family, plan.where, plan.how, plan.step);
-    std::optional<learnable> result;
     const run_time_family family = placed(plan.family, plan.where);
     const int parts = noise_parts(family);
     fit_options options = options_for(family, plan.how, plan.threads);
@@ -218,26 +217,22 @@ class bundled_model final : public bundled_system {
     if (plan.kept && kept == nullptr) kept = &plan.kept->template emplace<two_sets>();
     auto& data = (kept != nullptr ? *kept : fresh)[0];
     auto& held_out = (kept != nullptr ? *kept : fresh)[1];
-    const auto with_reference = [&](const auto& its) {
-      const auto make = [&](auto& pairs, std::uint64_t seed) {
-        extend_data(system_, *starts_, its,
-                    {.step = plan.step,
-                     .horizon = plan.how.horizon,
-                     .trajectories = plan.how.trajectories,
-                     .seed = seed,
-                     .noise_parts = parts,
-                     .threads = plan.threads,
-                     .ranks = &world(),
-                     .progress = progress},
-                    pairs);
-      };
-      make(data, plan.seed);
-      make(held_out, plan.held_out_seed);
-      result.emplace(
-          learnable{make_learning_problem(family, system_, data, held_out, options), data.energies});
+    const auto its_reference = reference().at(plan.step, plan.how.fine_step, parts);
+    const auto make = [&](auto& pairs, std::uint64_t seed) {
+      extend_data(system_, *starts_, its_reference,
+                  {.step = plan.step,
+                   .horizon = plan.how.horizon,
+                   .trajectories = plan.how.trajectories,
+                   .seed = seed,
+                   .noise_parts = parts,
+                   .threads = plan.threads,
+                   .ranks = &world(),
+                   .progress = progress},
+                  pairs);
     };
-    reference().at(plan.step, plan.how.fine_step, parts, with_reference);
-    return std::move(*result);
+    make(data, plan.seed);
+    make(held_out, plan.held_out_seed);
+    return {make_learning_problem(family, system_, data, held_out, options), data.energies};
   }
 
   void require_measure(const asked_metric& metric, const trajectories_plan& plan,
@@ -266,13 +261,10 @@ class bundled_model final : public bundled_system {
     trajectory_options options = options_of(plan.trajectories, progress);
     options.null_model = plan.null_model;
     options.perturbation = plan.perturbation;
-    std::vector<trajectory_errors_result> result;
     const int parts = parts_of_noise(system_, std::span<const tabulated>(methods));
-    reference().at(plan.trajectories.step, plan.fine_step, parts, [&](const auto& its) {
-      result = trajectory_errors(system_, its, *starts_, methods, std::span<const measure_type>(measures),
-                                 options);
-    });
-    return result;
+    const auto its = reference().at(plan.trajectories.step, plan.fine_step, parts);
+    return trajectory_errors(system_, its, *starts_, methods, std::span<const measure_type>(measures),
+                             options);
   }
 
   acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,

@@ -5,22 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <type_traits>
 
-#include "nysalt/references/exact_linear.hpp"
-#include "nysalt/references/fine_paths.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "chosen_reference.hpp"
 #include "nysalt/systems/in_bath.hpp"
-#include "nysalt/systems/linear_chain.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
-
-/// Systems whose flow is known exactly: it is the reference unless a fine step is asked for.
-template <class S>
-inline constexpr bool has_exact_flow =
-    std::is_same_v<S, harmonic_oscillator> || std::is_same_v<S, linear_chain>;
 
 /// A fine step that divides the step, and each of so many equal parts of it: the one that was asked for, or
 /// the largest below `most`. Throws refusal where it does not divide.
@@ -62,14 +52,13 @@ class model_reference {
                             std::max(parts, 1));
   }
 
-  /// Calls f(reference).
-  void at(double step, std::optional<double> asked, int parts, const auto& f) const {
+  chosen_reference<S> at(double step, std::optional<double> asked, int parts) const {
     const auto fine = fine_step(step, asked, parts);
-    if (system_->bath().acts()) return f(fine_paths<>(*fine));
+    if (system_->bath().acts()) return chosen_reference<S>(fine_paths<>(*fine));
     if constexpr (has_exact_flow<S>) {
-      if (!fine) return f(exact_linear(*system_));
+      if (!fine) return chosen_reference<S>(exact_linear(*system_));
     }
-    f(fine_steps<>(*fine));
+    return chosen_reference<S>(fine_steps<>(*fine));
   }
 
   /// To rank methods by errors far above rounding: srkn11b at ten times the step leaves little more, and what

@@ -43,6 +43,7 @@ class ensemble_run {
   static constexpr int N = Stepper::dimension;
   static constexpr int width = lanes_in<T>;
   using runs = lockstep<Stepper, T>;
+  using state = phase_point<T, N>;
 
  public:
   /// At their starts. Throws std::invalid_argument if there are none, or one does not fit.
@@ -50,7 +51,7 @@ class ensemble_run {
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, int threads = 1)
       : stepper_(&stepper), first_(first), count_(count) {
-    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const auto& start) {
+    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const state& start) {
       return runs(*stepper_, start, size, first_ + block);
     });
   }
@@ -62,7 +63,7 @@ class ensemble_run {
                std::int64_t count, const saved_runs& saved, int threads = 1)
       : stepper_(&stepper), first_(first), count_(count) {
     require_fitting(saved);
-    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const auto& start) {
+    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const state& start) {
       return take_up(saved, block, size, start);
     });
   }
@@ -129,7 +130,9 @@ class ensemble_run {
   }
 
  private:
-  void begin(const auto& ensemble, std::uint64_t seed, int threads, const auto& make) {
+  using make_runs = std::function<runs(std::int64_t block, int size, const state& start)>;
+
+  void begin(const auto& ensemble, std::uint64_t seed, int threads, const make_runs& make) {
     if (count_ < 1 || first_ < 0) {
       throw std::invalid_argument(
           fmt::format("ensemble_run: {} trajectories from {} on: cannot be", count_, first_));
@@ -158,7 +161,7 @@ class ensemble_run {
     step_ = saved.step;
   }
 
-  runs take_up(const saved_runs& saved, std::int64_t block, int count, const auto& start) {
+  runs take_up(const saved_runs& saved, std::int64_t block, int count, const state& start) {
     const auto n = size(stepper_->system());
     open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + block)};
     typename runs::losses lost{};
@@ -178,7 +181,7 @@ class ensemble_run {
   std::int64_t count_;
   std::int64_t step_ = 0;
   std::vector<std::optional<runs>> blocks_;
-  std::vector<phase_point<T, N>> starts_;  // until they were looked at
+  std::vector<state> starts_;  // until they were looked at
 };
 
 }  // namespace nysalt

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -39,8 +40,7 @@ inline failure describe_thrown(const std::exception_ptr& thrown, std::string& te
 /// words; alone, the very exception. So all ranks catch it, or none does. Lower ranks have lower
 /// trajectories, so that it is the exception of the first that has one, as in for_each_block(). Cost: one
 /// number from and to all ranks.
-template <class Work>
-void together(const communicator& ranks, const Work& work) {
+inline void together(const communicator& ranks, const std::function<void()>& work) {
   if (ranks.is_alone()) {
     work();
     return;
@@ -64,8 +64,7 @@ void together(const communicator& ranks, const Work& work) {
 }
 
 /// The same of what rank 0 alone does, such as writing a file. Meanwhile the others leave it the processor.
-template <class Work>
-void on_first(const communicator& ranks, const Work& work) {
+inline void on_first(const communicator& ranks, const std::function<void()>& work) {
   struct meeting {
     const communicator& ranks;
     ~meeting() { ranks.meet(); }  // whether or not the work succeeds

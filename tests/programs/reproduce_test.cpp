@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(the_linear_claims_have_known_verdicts) {
 
 BOOST_AUTO_TEST_CASE(quick_runs_go_through_all_exhibits_and_write_them) {
   const scratch folder("reproduce");
-  const auto done = shell(folder, "\"$nysalt\" reproduce --quick --json --output results", 300);
+  const auto done = run(folder, "reproduce --quick --json --output results");
   BOOST_TEST_REQUIRE(done.code == 0, done.err);
   const auto all = json_of(done);
   must_be_whole(all);

@@ -45,7 +45,7 @@ def test_a_long_call_ends(call):
     with pytest.raises(KeyboardInterrupt):
         call()
     taken = time.monotonic() - began
-    assert taken < 10  # alone it would take minutes at least; a block or a pass is done before it ends
+    assert taken < 60  # alone it would take minutes at least; a block or a pass is done before it ends
     timer.join()
 
 
@@ -140,5 +140,5 @@ assert thread.is_alive()
 @pytest.mark.parametrize("call", ["run", "learn", "slow_path", "energies"])
 def test_python_may_end_during_a_call_of_another_thread(call):
     done = subprocess.run([sys.executable, "-c", LEAVING.replace("CALL", call)], capture_output=True, text=True,
-                          timeout=60)
+                          timeout=600)
     assert (done.returncode, done.stderr) == (0, "")

@@ -18,7 +18,7 @@ struct finished {
 
 /// One line of the shell in the folder, where "$nysalt" is the program, with no input and a time limit in
 /// seconds that only a program which hangs can reach.
-finished shell(const scratch& folder, const std::string& line, int limit = 60);
+finished shell(const scratch& folder, const std::string& line, int limit = 600);
 
 /// `nysalt arguments` in the folder.
 finished run(const scratch& folder, const std::string& arguments);
