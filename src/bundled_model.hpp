@@ -30,6 +30,7 @@
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/learning/extend_data.hpp"
+#include "nysalt/learning/make_problem.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"

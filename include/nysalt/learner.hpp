@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nysalt/learning/fit.hpp"
+#include "nysalt/learning/make_problem.hpp"
 #include "nysalt/learning/require_valid.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/method.hpp"
@@ -24,7 +25,7 @@ struct learn_options {
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
   int max_iterations = 200;      ///< of the search from each start
   int threads = 1;               ///< changes no bit of what is learned
-  loss_choice loss{};            ///< what is minimised; by default the paper's one-step loss
+  loss_choice loss{};            ///< what is minimised, if not an own_loss; by default that of one step
   bool classical_starts = true;  ///< begin at the family's classical members and further starts too
   int random_starts = 0;         ///< further ones, normal around the first with the deviation 0.3
   bool guarded = true;           ///< false: an unstable optimum is found, and said not to be usable
@@ -39,29 +40,35 @@ struct learned {
   fit_summary summary;     ///< its `usable` says whether to use the method
 };
 
-/// theta that minimises a loss over `data`, by default the one-step loss [li_lu_tao_ye_2023, section 3.1]. Of
-/// several starts (the family's own, its classical members, and what the options add) it is the minimum with
-/// the least mean square error at the end of the held-out trajectories, which should come from another seed,
-/// among those that the stability_guard admits; see learning/search.hpp for where it admits none.
+/// theta that minimises a loss over `data`: that of the options, by default the one-step loss
+/// [li_lu_tao_ye_2023, section 3.1], or one own_loss. Of several starts (the family's own, its classical
+/// members, and what the options add) it is the minimum with the least mean square error at the end of the
+/// held-out trajectories, or the least own loss on them, among those that the stability_guard admits; see
+/// learning/search.hpp for where it admits none. The held-out data should come from another seed.
 ///
 /// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if
 /// check_force() finds the system's force, kick or derivative wrong at some states of the data (unless
-/// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss,
-/// a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be trusted is returned with
-/// usable = false. Cost: some 20 to 80 passes over the data for each start, each a plain step with
-/// derivatives a pair; R carries the pairs, and changes no bit. Memory: two or three copies of the data.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+/// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss
+/// (or two of them), a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be
+/// trusted is returned with usable = false. Cost: some 20 to 80 passes over the data for each start, each a
+/// plain step with derivatives a pair; R carries the pairs, and changes no bit. Memory: two or three copies
+/// of the data.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>, class... Own>
+  requires(sizeof...(Own) <= 1)
 fit learn(const run_time_family& family, const S& system, const flow_map_data<S::dimension>& data,
-          const flow_map_data<S::dimension>& held_out, const fit_options& options = {}) {
+          const flow_map_data<S::dimension>& held_out, const fit_options& options = {},
+          const own_loss<Own>&... own) {
   require_valid(data, system);
   if (options.check_force) require_sound_force(system, data);
-  return solve(make_learning_problem<S, R>(family, system, data, held_out, options));
+  return solve(make_learning_problem<S, R>(family, system, data, held_out, options, own...));
 }
 
 /// The same for a family as a type, whose method is one too.
-template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>>
+template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>, class... Own>
+  requires(sizeof...(Own) <= 1)
 learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimension>& data,
-                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {}) {
+                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {},
+                 const own_loss<Own>&... own) {
   require_suited<F, S>();
   fit_options its{.coordinates = options.coordinates,
                   .loss = options.loss,
@@ -77,7 +84,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
   if (options.classical_starts) {
     its.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());
   }
-  const auto [theta, summary] = learn<S, R>(as_data, system, data, held_out, its);
+  const auto [theta, summary] = learn<S, R>(as_data, system, data, held_out, its, own...);
   const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
   // A covariance loss asks no data, and has seen no energies.
   const auto energies = summary.is_of_data ? data.energies : std::nullopt;

@@ -10,7 +10,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/fit.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learning/make_problem.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "parts.hpp"

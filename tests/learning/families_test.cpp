@@ -40,7 +40,7 @@ data_sets made_by(const auto& reference, int threads = 1) {
 /// units of increments of .1 or more, over the least singular value of the Jacobian.
 double recovery_error(const data_sets& sets, const run_time_family& family, const Eigen::VectorXd& theta) {
   const metric<2> measure(galaxy, sets.data, coordinates::qp);
-  const after_steps<henon_heiles> loss(family, galaxy, sets.data, measure);
+  const after_steps<henon_heiles> loss(family, galaxy, sets.data, state_error<henon_heiles>(measure));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares_at(loss, theta).normal_matrix);
   return std::sqrt(4.0) * 100.0 * eps / 0.1 / std::sqrt(solver.eigenvalues()[0]);
 }

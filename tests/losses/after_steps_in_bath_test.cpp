@@ -55,7 +55,8 @@ flow_map_data<2> in_parts(flow_map_data<2> data, int parts) {
 template <Family F>
 double loss_of(const flow_map_data<2>& data, const parameters_of<nystrom>& theta, int steps = 1) {
   const metric<2> measure(warm, data, coordinates::qp);
-  const after_steps<galaxy> loss(run_time_family(F()), warm, data, measure, {.steps = steps});
+  const after_steps<galaxy> loss(run_time_family(F()), warm, data, state_error<galaxy>(measure),
+                                 {.steps = steps});
   return loss_value(loss, column_of(theta));
 }
 
@@ -128,7 +129,7 @@ flow_map_data<2> uneven_data() {
 template <Scalar R>
 std::vector<Eigen::VectorXd> gradients(const flow_map_data<2>& data, int threads, int steps = 1) {
   const metric<2> measure(warm, data, coordinates::qp);
-  const after_steps<galaxy, R> loss(run_time_family(symmetric()), warm, data, measure,
+  const after_steps<galaxy, R> loss(run_time_family(symmetric()), warm, data, state_error<galaxy, R>(measure),
                                     {.steps = steps, .threads = threads});
   return trajectory_gradients(loss, column_of(elsewhere));
 }

@@ -12,6 +12,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/losses/energy_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 
@@ -22,9 +23,13 @@ namespace {
 
 using wrong = std::invalid_argument;
 
-constexpr after_steps_options five_steps{.steps = 5};
-constexpr after_steps_options apart{.steps = 5, .overlap = false};
-constexpr after_steps_options ten_of_energy{.steps = 10, .energy = true};
+struct asked {
+  after_steps_options options{};
+  bool of_energy = false;
+};
+constexpr asked five_steps{{.steps = 5}};
+constexpr asked apart{{.steps = 5, .overlap = false}};
+constexpr asked ten_of_energy{{.steps = 10}, true};
 
 const henon_heiles galaxy;
 
@@ -51,17 +56,24 @@ bool same(const squares& a, const squares& b) {
   return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
 }
 
+stretch_error<henon_heiles> error_of(const asked& what, const flow_map_data<2>& data,
+                                     const metric<2>& measure) {
+  return what.of_energy ? energy_error(galaxy, data) : state_error<henon_heiles>(measure);
+}
+
 template <Family F>
-void check_bits(const after_steps_options& options, std::size_t stretches) {
+void check_bits(const asked& what, std::size_t stretches) {
+  const auto& options = what.options;
   const auto data = uneven_data();
   const metric<2> measure(galaxy, data, coordinates::qp);
-  const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, options);
+  const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, options, what.of_energy);
   const Eigen::VectorXd theta = column_of(elsewhere<F>());
   const auto expected = blocks(theta);
   for (const int threads : {1, 2}) {
     auto in_threads = options;
     in_threads.threads = threads;
-    const after_steps<henon_heiles> loss(run_time_family(F()), galaxy, data, measure, in_threads);
+    const after_steps<henon_heiles> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure),
+                                         in_threads);
     BOOST_TEST_CONTEXT(F::name << " over " << options.steps << " steps") {
       BOOST_TEST(blocks.stretches() == stretches);
       BOOST_TEST(same(squares_at(loss, theta), expected));
@@ -126,7 +138,8 @@ BOOST_AUTO_TEST_CASE(any_number_of_parameters_goes_two_at_a_time) {
 BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
   const auto data = uneven_data();
   const metric<2> measure(galaxy, data, coordinates::qp);
-  const after_steps<henon_heiles> loss(run_time_family(nystrom()), galaxy, data, measure, ten_of_energy);
+  const after_steps<henon_heiles> loss(run_time_family(nystrom()), galaxy, data, energy_error(galaxy, data),
+                                       ten_of_energy.options);
   const auto theta = elsewhere<nystrom>();
   const double expected = energy_loss_by_hand(data, theta);
   // An energy below 1 rounds in some 20 operations for each of 10 steps, over errors of some 1e-4 or more.
@@ -138,8 +151,9 @@ BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const auto data = uneven_data();
   const metric<2> measure(galaxy, data, coordinates::qp);
-  for (const auto& options : {five_steps, ten_of_energy}) {
-    const after_steps<henon_heiles> loss(run_time_family(aba<4>()), galaxy, data, measure, options);
+  for (const auto& what : {five_steps, ten_of_energy}) {
+    const after_steps<henon_heiles> loss(run_time_family(aba<4>()), galaxy, data,
+                                         error_of(what, data, measure), what.options);
     const Eigen::VectorXd theta = column_of(elsewhere<aba<4>>());
     const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
     const auto value = [&](const Eigen::VectorXd& at) { return loss_value(loss, at); };
@@ -150,7 +164,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
       // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
       // hundred roundings.
       const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(loss_value(loss, theta)) / s;
-      BOOST_TEST_CONTEXT(options.steps << " steps, parameter " << k) {
+      BOOST_TEST_CONTEXT(what.options.steps << " steps, parameter " << k) {
         BOOST_TEST(std::abs(ours[k] - difference(s)) <= 2.0 * error + rounding);
         BOOST_TEST(std::abs(ours[k] - difference(s)) <= 1e-4 * ours.norm());  // which says something
       }
@@ -163,7 +177,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const metric<2> measure(galaxy, data, coordinates::qp);
   const auto made = [&](int steps) {
     return [&, steps] {
-      after_steps<henon_heiles>(run_time_family(nystrom()), galaxy, data, measure, {.steps = steps});
+      after_steps<henon_heiles>(run_time_family(nystrom()), galaxy, data, state_error<henon_heiles>(measure),
+                                {.steps = steps});
     };
   };
   BOOST_TEST(refuses<wrong>(made(41), {"41 steps", "longer horizon"}));
@@ -173,8 +188,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const black_box box;
   const normal_around<1> starts({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
   const auto of_box = make_flow_map_data(box, starts, fine_steps<>(0.05), {.step = 0.4, .trajectories = 3});
-  const metric<1> of_pairs(box, of_box, coordinates::qp);
-  BOOST_TEST(refuses<wrong>(
-      [&] { after_steps<black_box>(run_time_family(nystrom()), box, of_box, of_pairs, {.energy = true}); },
-      {"energy loss", "potential", "black_box"}));
+  BOOST_TEST(refuses<wrong>([&] { energy_error(box, of_box); }, {"energy loss", "potential", "black_box"}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The least objective and error measure: what docs/concepts shows, and that they do their work.
+// The least loss, objective and error measure: what docs/concepts shows, and that they do their work.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "nysalt/analysis/error_measure.hpp"
 #include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/own_loss.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "quartic_well.hpp"
 
@@ -16,6 +17,14 @@ using namespace nysalt::test;
 namespace {
 
 constexpr double eps = 0x1p-52;
+
+// [own_loss]
+/// The error of the positions after five steps.
+const nysalt::own_loss of_place{
+    "place", 5,
+    []<class T>(const nysalt::phase_point<T, 1>&, const nysalt::phase_point<T, 1>& finish,
+                const nysalt::phase_point<T, 1>& wanted) -> T { return finish.q[0] - wanted.q[0]; }};
+// [/own_loss]
 
 // [objective]
 /// How wrong the phase of A(a) B(1/2) A(1 - 2a) B(1/2) A(a) is on an oscillator, z = h omega: half the trace
@@ -48,6 +57,20 @@ auto first_coordinate(const S&) {
 // [/error_measure]
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_loss_of_ones_own_says_what_its_residuals_are) {
+  const nysalt::harmonic_oscillator system(1.0);
+  const auto error = nysalt::own_error<nysalt::harmonic_oscillator, double>(system, of_place.error);
+  using C = decltype(error)::scalar;
+  auto finish = at(3.0, 4.0).cast<C>();
+  finish.q[0] = C::variable(3.0, 1);
+  C r;
+  error.of(at(1.0, 0.0), finish, at(2.5, 7.0), &r);
+  BOOST_TEST(error.residuals == 1U);
+  BOOST_TEST(r.value == 0.5);
+  BOOST_TEST(r.derivative[0] == 0.0);
+  BOOST_TEST(r.derivative[1] == 1.0);
+}
 
 BOOST_AUTO_TEST_CASE(an_objective_tells_its_own_slope) {
   const auto loss = phase_error(1.5);

@@ -7,6 +7,7 @@
 
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/state_error.hpp"
 
 namespace nysalt::test {
 
@@ -14,7 +15,8 @@ template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>>
 struct one_step : after_steps<S, R> {
   one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
            int threads = 1)
-      : after_steps<S, R>(run_time_family(F()), system, data, measure, {.threads = threads}) {}
+      : after_steps<S, R>(run_time_family(F()), system, data, state_error<S, R>(measure),
+                          {.threads = threads}) {}
 };
 
 template <Family F, SeparableSystem S, Scalar R>

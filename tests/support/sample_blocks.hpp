@@ -33,8 +33,8 @@ class sample_blocks {
   using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1, 0, most, 1>;
 
   sample_blocks(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
-                const after_steps_options& options = {})
-      : system_(&system), data_(&data), metric_(&measure), options_(options) {
+                const after_steps_options& options = {}, bool of_energy = false)
+      : system_(&system), data_(&data), metric_(&measure), options_(options), of_energy_(of_energy) {
     const auto steps = static_cast<std::size_t>(options.steps);
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       std::size_t pair = data.first_of[m];
@@ -44,12 +44,12 @@ class sample_blocks {
       }
     }
     if constexpr (HasEnergy<S>) {
-      if (options.energy) energy_scale_ = 1.0 / size_of_kinetic_energy();
+      if (of_energy) energy_scale_ = 1.0 / size_of_kinetic_energy();
     }
   }
 
   std::size_t stretches() const { return stretches_.size(); }
-  int residuals_of_stretch() const { return options_.energy ? 1 : static_cast<int>(metric_->residuals()); }
+  int residuals_of_stretch() const { return of_energy_ ? 1 : static_cast<int>(metric_->residuals()); }
 
   /// The residuals of one stretch over double, or anything that carries derivatives by theta.
   template <Scalar C>
@@ -59,7 +59,7 @@ class sample_blocks {
     auto x = data_->start[pair].template cast<C>();
     for (int n = 0; n < options_.steps; ++n) one.step(x);
     residuals<C> r(residuals_of_stretch());
-    if (options_.energy) {
+    if (of_energy_) {
       if constexpr (HasEnergy<S, C>) {
         const auto start = data_->start[pair].template cast<C>();
         r[0] = (energy<C>(*system_, x) - energy<C>(*system_, start)) * energy_scale_;
@@ -146,6 +146,7 @@ class sample_blocks {
   const flow_map_data<S::dimension>* data_;
   const metric<S::dimension>* metric_;
   after_steps_options options_;
+  bool of_energy_;  // instead of the state's error
   double energy_scale_ = 1.0;
   std::vector<stretch> stretches_;
 };

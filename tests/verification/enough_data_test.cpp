@@ -120,7 +120,8 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   // On new data, in the measure that many data tell.
   const metric<6> measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);
-  const after_steps<fpu_chain<3>> loss(family, chain, unseen, measure, {.threads = 2});
+  const after_steps<fpu_chain<3>> loss(family, chain, unseen, state_error<fpu_chain<3>>(measure),
+                                       {.threads = 2});
   const double least = loss_value(loss, fits.truth.theta);
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {

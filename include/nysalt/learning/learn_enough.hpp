@@ -21,10 +21,10 @@ struct learned_enough {
 /// learn() with as many trajectories as it takes, see until_enough(): from first.trajectories on, at most as
 /// many as fit into memory. Each time data are made for as many more, and the held-out data, of another seed,
 /// have as many too. What comes out is what learn() gives for that number. Throws what these do.
-template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R>
+template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R, class... Own>
 learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble, const R& reference,
                                data_options first, std::uint64_t held_out_seed, enough_options enough = {},
-                               const learn_options<F>& options = {}) {
+                               const learn_options<F>& options = {}, const own_loss<Own>&... own) {
   flow_map_data<S::dimension> data;
   flow_map_data<S::dimension> held_out;
   const auto grow = [&](flow_map_data<S::dimension>& its, std::int64_t trajectories, std::uint64_t seed) {
@@ -38,7 +38,7 @@ learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemb
   const auto learn_with = [&](std::int64_t trajectories) {
     grow(data, trajectories, first.seed);
     grow(held_out, trajectories, held_out_seed);
-    found.emplace(learn(family, system, data, held_out, options));
+    found.emplace(learn(family, system, data, held_out, options, own...));
     return found->summary;
   };
   const auto course = until_enough(first.trajectories, enough, learn_with);

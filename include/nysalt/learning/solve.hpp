@@ -102,7 +102,7 @@ fit solve(const learning_problem& problem) {
   };
   search_task task{.family = &problem.family,
                    .loss = has_data ? problem.loss : objective_of(*problem.law, problem.family),
-                   .judge = problem.loss_at_end,
+                   .judge = problem.judge,
                    .admits =
                        [&](const Eigen::VectorXd& theta) {
                          return !problem.options.guarded || objection_of_guard(theta).empty();

@@ -5,25 +5,23 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "nysalt/counted.hpp"
-#include "nysalt/energy.hpp"
 #include "nysalt/ensemble_loop.hpp"
-#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/stretch_error.hpp"
 #include "nysalt/losses/stretches_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
 
-/// Of which error the loss is, and after how many steps.
+/// After how many steps an error counts.
 struct after_steps_options {
   int steps = 1;        ///< K, steps of a stretch
-  bool energy = false;  ///< that of the energy, instead of the state's
   bool overlap = true;  ///< a stretch begins at each pair, else where the last one ended
   int threads = 1;      ///< changes no bit
 };
@@ -39,10 +37,8 @@ struct residuals_of_stretch {
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
 };
 
-/// The mean over all stretches of K steps of the sum over residuals of r^2, with
-///   state    r = Sigma^{-1/2} (K steps from the start - the data there): for K = 1 the paper's loss
-///            [li_lu_tao_ye_2023, equation (3.5)]
-///   energy   r = (H after K steps - H at the start)/the root mean square of K(p) at the starts.
+/// The mean over all stretches of K steps of the sum over residuals of r^2; what they are a stretch_error
+/// says.
 ///
 /// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// stretches; neither its lanes nor the threads change a bit of a sum.
@@ -56,14 +52,14 @@ class after_steps {
  public:
   using scalar = R;  ///< carries the stretches
 
-  /// Refers to system and metric, and copies the data. Throws std::invalid_argument if no trajectory is so
-  /// long, if the energy is asked for and not known, or if the system is in a noisy bath and the data do not
-  /// hold the noise that the letters O of the word need.
+  /// Refers to the system and to what the error refers to, and copies the data. Throws std::invalid_argument
+  /// if no trajectory is so long, or if the system is in a noisy bath and the data do not hold the noise that
+  /// the letters O of the word need.
   after_steps(const run_time_family& family, const S& system, const flow_map_data<N>& data,
-              const metric<N>& measure, const after_steps_options& options = {})
+              stretch_error<S, R> error, const after_steps_options& options = {})
       : family_(family),
         system_(&system),
-        metric_(&measure),
+        error_(std::move(error)),
         step_(data.step),
         options_(options),
         share_(data.share()),
@@ -77,24 +73,21 @@ class after_steps {
     }
     weight_ = 1.0 / static_cast<double>(stretches);
     parts_ = gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data));
-    if (options.energy) energy_scale_ = scale_of_energy(data);
   }
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }  ///< which trajectories this rank has
-  /// Number of residuals of a stretch: those of the metric, or 1 for the energy.
-  std::size_t residuals() const {
-    return options_.energy ? 1 : static_cast<std::size_t>(metric_->residuals());
-  }
+  const shard& share() const { return share_; }                ///< which trajectories this rank has
+  std::size_t residuals() const { return error_.residuals; }   ///< number of those of a stretch
+  const stretch_error<S, R>& error() const { return error_; }  ///< what they are
   /// Force evaluations of all passes so far at this rank, as `counted` counts them for one stretch after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
-  /// the residuals, added in the order of time. `zero` says how many terms there are. Throws nothing:
-  /// inadmissible theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each stretch and
-  /// two parameters.
+  /// the residuals, added in the order of time. `zero` says how many terms there are. Throws what the error
+  /// does: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over
+  /// dual<R, 2> for each stretch and two parameters.
   template <class Sum>
   std::vector<Sum> sums(const Eigen::VectorXd& theta, bool with_slopes, const Sum& zero,
                         const auto& of_stretch) const {
@@ -173,13 +166,8 @@ class after_steps {
       x.q[i] = C(entry.start.q[i]);
       x.p[i] = C(entry.start.p[i]);
     }
-    const auto before = options_.energy ? energy_of(x) : C(0.0);
     for (int n = 0; n < options_.steps; ++n) stepper.step(x, number, n);
-    if (options_.energy) {
-      r[0] = (energy_of(x) - before) * energy_scale_;
-    } else {
-      metric_->residual(x.q, x.p, entry.finish, r.data());
-    }
+    error_.of(entry.start, x, entry.finish, r.data());
   }
 
   static void take(const std::vector<C>& of_directions, std::size_t d, bool with_slopes,
@@ -191,31 +179,6 @@ class after_steps {
         const std::size_t parameter = d * directions_at_a_time + i;
         if (parameter < r.parameters) r.slopes[k * r.parameters + parameter] = of_directions[k].derivative[i];
       }
-    }
-  }
-
-  C energy_of(const phase_point<C, N>& x) const {
-    if constexpr (HasEnergy<S, C>) {
-      return energy<C>(*system_, x);
-    } else {
-      return C(0.0);
-    }
-  }
-
-  /// 1/the root mean square of K(p).
-  double scale_of_energy(const flow_map_data<N>& data) const {
-    if constexpr (HasEnergy<S, C> && HasEnergy<S>) {
-      std::vector<double> squares(data.trajectories(), 0.0);
-      for (std::size_t m = 0; m < data.trajectories(); ++m) {
-        for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
-          const double k = kinetic_energy<double>(*system_, data.start[n].p);
-          squares[m] += k * k;
-        }
-      }
-      return 1.0 / std::sqrt(data.share().sum(squares) / static_cast<double>(data.all_pairs()));
-    } else {
-      throw std::invalid_argument(fmt::format(
-          "an energy loss needs the potential of {} as a template over any scalar", describe(*system_)));
     }
   }
 
@@ -238,10 +201,9 @@ class after_steps {
 
   run_time_family family_;
   const S* system_;
-  const metric<N>* metric_;
+  stretch_error<S, R> error_;
   double step_;
   double weight_ = 1.0;  // of a stretch
-  double energy_scale_ = 1.0;
   after_steps_options options_;
   shard share_;
   stretch_starts starts_;

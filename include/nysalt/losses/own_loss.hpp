@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSL-1.0
+// A loss of the user's: one function.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "nysalt/losses/stretch_error.hpp"
+
+namespace nysalt {
+
+/// The mean over all stretches of K steps of the sum of the squares of the residuals that `error` returns:
+///
+///   const own_loss of_place{"place", 5, []<class T>(const phase_point<T, 2>& start,
+///                                                   const phase_point<T, 2>& finish,
+///                                                   const phase_point<T, 2>& wanted) -> vector<T, 2> {
+///                             return finish.q - wanted.q;
+///                           }};
+///
+/// A stretch goes from `start`; the method ends it at `finish`, the data at `wanted`. T is any scalar: in it
+/// go derivatives by theta, and stretches side by side, so a function is written as a system's potential is.
+/// It returns a T, a std::array<T, n> or a vector<T, n>; n may be Eigen::Dynamic, and is then the same for
+/// all states, those of zeros too. What is not finite makes the search turn back. Weights are the function's
+/// own, given and not estimated. It is called from several threads at a time.
+template <class Error>
+struct own_loss {
+  std::string name;  ///< what a fit_summary calls it, with K behind
+  int steps;         ///< K, steps of a stretch
+  Error error;       ///< error(start, finish, wanted): the residuals
+
+  /// As of the library's losses, such as "place:5".
+  std::string description() const { return fmt::format("{}:{}", name, steps); }
+};
+/// As it is written.
+template <class Error>
+own_loss(std::string, int, Error) -> own_loss<Error>;
+
+namespace detail {
+
+/// How many residuals over T a result holds: Eigen::Dynamic if its size tells, 0 if it is none.
+template <class Result, class T>
+inline constexpr int residuals_in = 0;
+template <class T>
+inline constexpr int residuals_in<T, T> = 1;
+template <class T, std::size_t n>
+inline constexpr int residuals_in<std::array<T, n>, T> = static_cast<int>(n);
+template <class T, int n, int options, int most>
+inline constexpr int residuals_in<Eigen::Matrix<T, n, 1, options, most, 1>, T> = n;
+
+}  // namespace detail
+
+/// The residuals that a function returns, see own_loss. Throws std::invalid_argument if there are none; while
+/// it is asked, if there are not as many for one stretch as for another.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>, class Error>
+stretch_error<S, R> own_error(const S& system, const Error& error) {
+  using C = typename stretch_error<S, R>::scalar;
+  using point = typename stretch_error<S, R>::point;
+  constexpr bool is_asked_so = std::invocable<const Error&, const point&, const point&, const point&>;
+  static_assert(is_asked_so,
+                "nysalt: an own loss is a function of (start, finish, wanted), each a `phase_point<T, N>` of "
+                "the system's dimension N, and const, for any scalar T");
+  if constexpr (is_asked_so) {
+    using result =
+        std::remove_cvref_t<std::invoke_result_t<const Error&, const point&, const point&, const point&>>;
+    constexpr int known = detail::residuals_in<result, C>;
+    static_assert(
+        known != 0,
+        "nysalt: an own loss returns its residuals over the T of its states, at least one: a `T`, a "
+        "`std::array<T, n>` or a `vector<T, n>`; of an expression, say `-> vector<T, n>`");
+    auto count = static_cast<std::size_t>(known);
+    if constexpr (known == Eigen::Dynamic) {
+      point zero{make_vector<C>(system), make_vector<C>(system)};
+      zero.q.fill(C(0.0));
+      zero.p.fill(C(0.0));
+      count = static_cast<std::size_t>(error(zero, zero, zero).size());
+      if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
+    }
+    return {.residuals = count,
+            .of = [error, count](const auto& start, const point& finish, const auto& wanted, C* r) {
+              const auto its = error(start.template cast<C>(), finish, wanted.template cast<C>());
+              if constexpr (std::same_as<result, C>) {
+                r[0] = its;
+              } else {
+                if (static_cast<std::size_t>(its.size()) != count) {
+                  throw std::invalid_argument(fmt::format(
+                      "an own loss returns {} residuals for one stretch, and {} for another: return as many "
+                      "for each",
+                      count, its.size()));
+                }
+                std::copy(its.begin(), its.end(), r);
+              }
+            }};
+  }
+}
+
+}  // namespace nysalt

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/stretch_error.hpp"
+
+namespace nysalt {
+
+/// r = Sigma^{-1/2} (K steps from the start - the data there); for K = 1 the paper's loss
+/// [li_lu_tao_ye_2023, equation (3.5)]. Refers to the metric, whose weights are estimates.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+stretch_error<S, R> state_error(const metric<S::dimension>& measure) {
+  return {.residuals = static_cast<std::size_t>(measure.residuals()),
+          .of = [its = &measure](const auto&, const auto& finish, const auto& wanted,
+                                 auto* r) { its->residual(finish.q, finish.p, wanted, r); },
+          .weight_deviations = &measure.weight_deviations()};
+}
+
+}  // namespace nysalt

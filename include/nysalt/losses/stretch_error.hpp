@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// What the residuals of a stretch of steps are.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "nysalt/losses/stretches_in_lanes.hpp"
+
+namespace nysalt {
+
+/// What a loss over data squares and adds up, of whatever kind: state_error(), energy_error(), own_error().
+/// The kind is no part of the type, as a pass over the data is dear to compile: one is for all kinds, and
+/// asks once for each stretch, pack of lanes and two parameters, beside the steps of these.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+struct stretch_error {
+  using scalar = dual<R, directions_at_a_time>;     ///< residuals with their derivatives
+  using data_point = phase_point<R, S::dimension>;  ///< states of the data, in the lanes of R
+  using point = phase_point<scalar, S::dimension>;  ///< a state that the method comes to
+
+  std::size_t residuals;  ///< how many a stretch has
+  /// Writes r[0..residuals) of the stretch from start, which the method ends at finish, and the data at
+  /// wanted. Called from several threads at a time.
+  std::function<void(const data_point& start, const point& finish, const data_point& wanted, scalar* r)> of;
+  /// Where weights are estimates from the data: row k, column m is what trajectory m adds to the relative
+  /// error of residual k's mean square. Else nullptr.
+  const Eigen::MatrixXd* weight_deviations = nullptr;
+};
+
+}  // namespace nysalt

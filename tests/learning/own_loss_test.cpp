@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+// A loss of one's own is learned as the library's are: found, judged, and given its errors.
+#include "nysalt/losses/own_loss.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "../support/one_step.hpp"
+#include "../support/refusal.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/learner.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+
+const henon_heiles galaxy;
+const run_time_family family{nystrom()};
+
+flow_map_data<2> data_of(std::uint64_t seed) {
+  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
+  return make_flow_map_data(galaxy, starts, fine_steps<>(0.025),
+                            {.step = 0.5, .horizon = 2.0, .trajectories = 30, .seed = seed});
+}
+
+/// The state's error after three steps, with weights that a metric has estimated, or others.
+auto state_after_three(const metric<2>& measure, double of_positions = 1.0) {
+  const auto error = [&measure, of_positions]<class T>(const phase_point<T, 2>&,
+                                                       const phase_point<T, 2>& finish,
+                                                       const phase_point<T, 2>& wanted) {
+    std::array<T, 4> r;
+    measure.residual(finish.q, finish.p, wanted, r.data());
+    r[0] = r[0] * of_positions;
+    r[1] = r[1] * of_positions;
+    return r;
+  };
+  return own_loss{"my state", 3, error};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
+  const auto data = data_of(1);
+  const auto held_out = data_of(2);
+  const metric<2> measure(galaxy, data, coordinates::qp);
+  const loss_choice three_steps{loss_choice::kind::state, 3};
+  const auto usual =
+      learn(nystrom{}, galaxy, data, held_out, {.loss = three_steps, .classical_starts = false});
+  const auto learned_with = [&](const auto& loss, int threads = 1) {
+    return learn(nystrom{}, galaxy, data, held_out, {.threads = threads, .classical_starts = false}, loss);
+  };
+  const auto own = learned_with(state_after_three(measure));
+  const auto other = learned_with(state_after_three(measure, 2.0));
+  BOOST_TEST_CONTEXT(usual.summary.full() << own.summary.full() << other.summary.full()) {
+    BOOST_TEST((own.method.parameters() == usual.method.parameters()));
+    BOOST_TEST((other.method.parameters() != usual.method.parameters()));
+    BOOST_TEST(
+        (learned_with(state_after_three(measure), 2).method.parameters() == usual.method.parameters()));
+    BOOST_TEST(own.summary.loss == usual.summary.loss);
+    BOOST_TEST(own.summary.held_out_loss == usual.summary.held_out_loss);
+    BOOST_TEST(own.summary.held_out_start_loss == usual.summary.held_out_start_loss);
+    BOOST_TEST(own.summary.trajectory_error == usual.summary.trajectory_error);
+    BOOST_TEST(own.summary.loss_name == "my state:3");
+    BOOST_TEST(own.summary.usable);
+    BOOST_TEST(other.summary.usable);
+    BOOST_TEST(other.summary.held_out_loss > own.summary.held_out_loss);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
+  const auto data = data_of(1);
+  const metric<2> measure(galaxy, data, coordinates::qp);
+  const auto problem =
+      make_learning_problem(family, galaxy, data, data_of(2), {}, state_after_three(measure));
+  const auto usual =
+      make_learning_problem(family, galaxy, data, data_of(2), {.loss = {loss_choice::kind::state, 3}});
+  const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
+  const after_steps<henon_heiles> loss(family, galaxy, data, state_error<henon_heiles>(measure),
+                                       {.steps = 3});
+  const auto by_residual = residual_gradients(loss, theta);
+  const auto ours = problem.scores(theta);
+  const auto with_weights = usual.scores(theta);
+  BOOST_REQUIRE(ours.of_each.size() == by_residual.size());
+  int differ = 0;
+  for (std::size_t m = 0; m < by_residual.size(); ++m) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2);
+    for (Eigen::Index k = 0; k < 4; ++k) gradient += by_residual[m].col(k);
+    BOOST_TEST((ours.of_each[m] == gradient));
+    // The library's weights are estimates, of which each trajectory has its part.
+    differ += (with_weights.of_each[m] - gradient).norm() > 0.01 * gradient.norm();
+  }
+  BOOST_TEST(differ > 20);  // of thirty
+}
+
+BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
+  const auto data = data_of(1);
+  const auto held_out = data_of(2);
+  const metric<2> measure(galaxy, data, coordinates::qp);
+  const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
+  const auto own = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure, 2.0));
+  BOOST_TEST(own.judge(theta) == own.held_out.sum(own.held_out_losses(theta)));
+  BOOST_TEST(own.judge(theta) != own.loss_at_end(theta));
+  const auto usual =
+      make_learning_problem(family, galaxy, data, held_out, {.loss = {loss_choice::kind::state, 3}});
+  BOOST_TEST(usual.judge(theta) == usual.loss_at_end(theta));
+  BOOST_TEST(usual.judge(theta) != usual.held_out.sum(usual.held_out_losses(theta)));
+}
+
+BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
+  const auto data = data_of(1);
+  const auto held_out = data_of(2);
+  const metric<2> measure(galaxy, data, coordinates::qp);
+  const auto cut_off_at = [&](double bound) {
+    const auto all = state_after_three(measure).error;
+    const auto error = [=](const auto& start, const auto& finish, const auto& wanted) {
+      using std::sqrt;
+      auto r = all(start, finish, wanted);
+      r[3] = r[3] + 0.0 * sqrt(bound - (finish.p[0] - wanted.p[0]) * (finish.p[0] - wanted.p[0]));
+      return r;
+    };
+    return learn(nystrom{}, galaxy, data, held_out, {}, own_loss{"cut off", 3, error}).summary;
+  };
+  BOOST_TEST(cut_off_at(1.0).usable);
+  const auto nowhere = cut_off_at(-1.0);
+  BOOST_TEST(!nowhere.usable);
+  BOOST_TEST(!nowhere.reason.empty());
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const auto data = data_of(1);
+  const metric<2> measure(galaxy, data, coordinates::qp);
+  auto loss = state_after_three(measure);
+  const auto refused = [&](const fit_options& options, std::initializer_list<std::string_view> words) {
+    return refuses<wrong>([&] { make_learning_problem(family, galaxy, data, data, options, loss); }, words);
+  };
+  BOOST_TEST(!refused({}, {}));
+  BOOST_TEST(refused({.loss = loss_named("energy:6")}, {"energy:6", "my state:3", "one loss"}));
+  BOOST_TEST(refused({.loss = loss_named("covariance")}, {"covariance", "my state:3"}));
+  loss.steps = 5;
+  BOOST_TEST(refused({}, {"5 steps", "longer horizon"}));
+  loss.steps = 0;
+  BOOST_TEST(refused({}, {"0 steps"}));
+}
