@@ -61,6 +61,17 @@ std::string name_in(const given& arguments) {
   refuse("the name of a Hamiltonian must be one line that can be printed, got {}", shown(arguments["name"]));
 }
 
+std::int64_t dimension_in(const given& arguments) {
+  constexpr std::int64_t most = 10'000'000;  // numbers: ten such arrays take a gigabyte
+  std::int64_t dimension = 0;
+  arguments.take("dimension", dimension);
+  if (dimension < 1) refuse("dimension must be at least 1, got {}", dimension);
+  if (dimension > most) {
+    refuse("dimension must be at most {}, or states do not fit into memory, got {}", most, dimension);
+  }
+  return dimension;
+}
+
 std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimension) {
   std::vector<double> all{1.0};
   arguments.take("inverse_mass", all);
@@ -79,8 +90,7 @@ std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimen
 own_functions own_functions_of(const given& arguments, std::shared_ptr<functions_of_python>& kept) {
   own_functions its{};
   its.name = name_in(arguments);
-  arguments.take("dimension", its.dimension);
-  if (its.dimension < 1) refuse("dimension must be at least 1, got {}", its.dimension);
+  its.dimension = dimension_in(arguments);
   its.inverse_masses = inverse_masses_in(arguments, its.dimension);
   arguments.take("frequency", its.frequency);
   if (arguments.has("frequency") && !(its.frequency > 0.0)) {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "made_with.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "catalogue.hpp"
 #include "json.hpp"
 #include "method_source.hpp"
-#include "number.hpp"
+#include "recorded_options.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -37,49 +35,15 @@ cited_setup setup_of(const scheme& learned) {
   return its;
 }
 
-/// Options as they were given, lists taken apart: TOML, as this program wrote it.
-class given_options {
- public:
-  explicit given_options(const std::string& toml) {
-    std::istringstream text(toml);
-    for (const auto& item : CLI::ConfigTOML().from_config(text)) {
-      if (!item.parents.empty()) command_ = item.parents.front();
-      for (const auto& joined : item.inputs) {
-        for (const auto& one : CLI::detail::split(joined, ',')) all_.emplace_back(item.name, one);
-      }
-    }
-  }
-
-  const std::string& command() const { return command_; }
-  std::vector<std::string> of(const std::string& option) const {
-    std::vector<std::string> values;
-    for (const auto& [name, value] : all_) {
-      if (name == option) values.push_back(value);
-    }
-    return values;
-  }
-  std::string one_of(const std::string& option, const std::string& otherwise) const {
-    const auto values = of(option);
-    return values.empty() ? otherwise : values.front();
-  }
-  bool is_positive(const std::string& option) const {
-    return number_from(one_of(option, "0")).value_or(0.0) > 0.0;
-  }
-
- private:
-  std::string command_;
-  std::vector<std::pair<std::string, std::string>> all_;
-};
-
 /// What `recommend` ranks: all families if none are named, and what is classical.
-void add_candidates(const given_options& given, cited_setup& to) {
+void add_candidates(const recorded_options& given, cited_setup& to) {
   to.learned = given.of("families");
   if (to.learned.empty()) to.learned = family_names();
   to.methods = method_names();
   to.metrics = {given.one_of("metric", recommend_command().metric)};
 }
 
-cited_setup setup_of(const given_options& given) {
+cited_setup setup_of(const recorded_options& given) {
   cited_setup its;
   its.in_bath = given.is_positive("friction") || given.is_positive("sigma");
   if (given.command() == "stability") {
@@ -110,7 +74,7 @@ void add_manifest(const fs::path& path, const fs::path& result, std::vector<cite
   if (!manifest.is_object() || !manifest.contains("options") || !manifest["options"].is_string()) {
     refuse("this is not a manifest of nysalt");
   }
-  const given_options given(manifest["options"].get<std::string>());
+  const recorded_options given(manifest["options"].get<std::string>());
   const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability"};
   if (std::ranges::find(known, given.command()) == known.end()) {
     refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));

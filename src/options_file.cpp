@@ -90,6 +90,9 @@ std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) cons
     if (item.parents.empty() && !running.empty()) item.parents = {running.front()->get_name()};
     require_known(item);
   }
+  std::erase_if(items, [&](const auto& item) {  // what several commands have would be taken from any section
+    return !running.empty() && item.parents.front() != running.front()->get_name();
+  });
   return items;
 }
 

@@ -17,6 +17,7 @@
 #include "support/in_lanes.hpp"
 #include "support/refusal.hpp"
 #include "support/rounding.hpp"
+#include "support/same_pairs.hpp"
 #include "support/statistics.hpp"
 
 using namespace nysalt;
@@ -36,17 +37,6 @@ flow_map_data<6> made(const data_options& options, const auto& system) {
   return make_flow_map_data(system, law, fine_paths(fine), options);
 }
 flow_map_data<6> made(const data_options& options) { return made(options, chain); }
-
-bool same_bits(const flow_map_data<6>& a, const flow_map_data<6>& b) {
-  const auto same = [](const auto& x, const auto& y) { return test::same_bits(x, y); };
-  const auto same_check = [](const auto& x, const auto& y) {
-    return x.first == y.first && test::same_bits(x.second, y.second);
-  };
-  return std::equal(a.start.begin(), a.start.end(), b.start.begin(), b.start.end(), same) &&
-         std::equal(a.finish.begin(), a.finish.end(), b.finish.begin(), b.finish.end(), same) &&
-         std::equal(a.finer.begin(), a.finer.end(), b.finer.begin(), b.finer.end(), same_check) &&
-         a.noise == b.noise && a.evaluations == b.evaluations;
-}
 
 /// The noise of a path from one fine step to another, drawn again.
 numbers noise_between(std::uint64_t seed, std::uint64_t trajectory, std::int64_t from, std::int64_t to) {
@@ -125,7 +115,7 @@ BOOST_AUTO_TEST_CASE(parts_change_no_state_and_are_of_one_path) {
     const auto count = static_cast<std::size_t>(parts);
     double worst = 0.0;
     for (std::size_t n = 0; n < data.pairs(); ++n) {
-      BOOST_TEST(test::same_bits(data.finish[n], none.finish[n]));
+      BOOST_TEST(same_bits(data.finish[n], none.finish[n]));
       numbers whole;
       coarse_graining(2.0 * 0.012 / parts)
           .over(std::span<const numbers>(data.noise).subspan(n * count, count), whole);
@@ -183,8 +173,8 @@ BOOST_AUTO_TEST_CASE(checks_see_the_same_path_at_half_the_step) {
     };
     const std::uint64_t m = pair / 5;
     const auto n = static_cast<std::int64_t>(pair % 5);
-    BOOST_TEST(test::same_bits(finish, finer({7, m, n})));
-    BOOST_TEST(!test::same_bits(finish, finer({7, m, n + 1})));
+    BOOST_TEST(same_bits(finish, finer({7, m, n})));
+    BOOST_TEST(!same_bits(finish, finer({7, m, n + 1})));
     // The same noise: sigma h in momenta as kicks feel it, not sigma sqrt(step).
     BOOST_TEST(distance(finish, data.finish[pair]) < 0.3 * 0.1 * std::sqrt(0.012));
   }

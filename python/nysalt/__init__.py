@@ -136,6 +136,7 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
     trajectory n: a function of these two numbers alone, such as one of np.random.default_rng([seed, n]).
     `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
     is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters.
+    The dimension is at most ten million.
 
     This is the slow path. Every force is a call of Python, some microseconds instead of some nanoseconds;
     one trajectory goes at a time, on one thread, with the interpreter's lock. Derivatives for learning are

@@ -14,6 +14,7 @@
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "parts.hpp"
+#include "thinned.hpp"
 
 namespace nysalt::program::paper {
 
@@ -21,27 +22,6 @@ namespace {
 
 using pairs = flow_map_data<fpu_chain<3>::dimension>;
 using parameters = std::vector<double>;
-
-/// The same trajectories at `factor` times the step, the last of them cut to `horizon`. Checks of the
-/// reference are of the old step: none.
-pairs thinned(const pairs& data, std::size_t factor, double horizon) {
-  pairs result = data;
-  result.step = data.step * static_cast<double>(factor);
-  result.start.clear();
-  result.finish.clear();
-  result.finer.clear();
-  result.first_of = {0};
-  const auto wanted = static_cast<std::size_t>(std::llround(horizon / data.step));
-  for (std::size_t m = 0; m < data.trajectories(); ++m) {
-    const std::size_t end = std::min(data.first_of[m + 1], data.first_of[m] + wanted);
-    for (std::size_t n = data.first_of[m]; n + factor <= end; n += factor) {
-      result.start.push_back(data.start[n]);
-      result.finish.push_back(data.finish[n + factor - 1]);
-    }
-    result.first_of.push_back(result.pairs());
-  }
-  return result;
-}
 
 struct printed_row {
   std::size_t factor;  // of the step .001

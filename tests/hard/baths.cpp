@@ -148,12 +148,11 @@ verdict no_temperature(extent how) {
                    fmt::format("O at the end has the order {:.2f} only", of_end));
   }
   result.show(
-      {.name = "no_temperature",
-       .panels = {{.title = "T = 0: the damped oscillator at t = 8",
-                   .x_label = "step",
-                   .y_label = "error of the state",
-                   .log_log = true,
-                   .curves = std::move(curves)}}},
+      {{.title = "T = 0: the damped oscillator at t = 8",
+        .x_label = "step",
+        .y_label = "error of the state",
+        .log_log = true,
+        .curves = std::move(curves)}},
       "Damping alone: the splitting between bath and motion has order 2 at most, whatever the method.");
   return result;
 }

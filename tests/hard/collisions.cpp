@@ -72,12 +72,11 @@ verdict close_approach(extent how) {
                   worst));
 
   result.require(lost, "where it is above 2, Verlet's is found not to come back");
-  result.show({.name = "close_approach",
-               .panels = {{.title = "Two atoms collide",
-                           .x_label = "energy of the collision",
-                           .y_label = "largest |H - H_0|/H_0 in it",
-                           .log_log = true,
-                           .curves = std::move(curves)}}},
+  result.show({{.title = "Two atoms collide",
+                .x_label = "energy of the collision",
+                .y_label = "largest |H - H_0|/H_0 in it",
+                .log_log = true,
+                .curves = std::move(curves)}},
               "Largest energy error in a collision, at 0.002 per evaluation. Above an energy of some 1000 "
               "small errors are no "
               "good news: steps pass over the core, and atoms through each other, unnoticed.");
@@ -198,7 +197,7 @@ verdict wells_near_the_edge(extent how) {
           "h = 1.1, beyond the edge of the springs alone: diverged at step {}, finite until there: {}",
           outside.diverged_at.value_or(-1), outside.finite ? "yes" : "no"));
   result.show(
-      {.name = "phi4_edge", .panels = {energy_panel("phi^4 chain, Verlet", std::move(curves))}},
+      {energy_panel("phi^4 chain, Verlet", std::move(curves))},
       "16 wells of energy 2 each, Verlet. The edge is that of the frequencies that a well may reach, not of "
       "those at rest, and a third below it lie nonlinear resonances.");
   return result;

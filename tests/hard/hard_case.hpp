@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,9 +15,10 @@ namespace nysalt::hard {
 /// A test takes a second, the page some minutes.
 enum class extent { quick, full };
 
-struct captioned_picture {
-  figure picture;
+struct captioned_panels {
+  std::vector<panel> panels;
   std::string caption;
+  int width;  // in pixels
 };
 
 /// What was measured, in sentences, and whether it is as it must be.
@@ -29,22 +31,23 @@ class verdict {
   }
   /// What is worth knowing.
   void note(std::string measured) { measured_.push_back(std::move(measured)); }
-  void show(figure picture, std::string caption) {
-    pictures_.push_back({std::move(picture), std::move(caption)});
+  /// Once at most: the picture has the name of the case.
+  void show(std::vector<panel> panels, std::string caption, int width = figure().width) {
+    picture_ = {std::move(panels), std::move(caption), width};
   }
 
   bool holds() const { return holds_; }
   const std::vector<std::string>& measured() const { return measured_; }
-  const std::vector<captioned_picture>& pictures() const { return pictures_; }
+  const std::optional<captioned_panels>& picture() const { return picture_; }
 
  private:
   bool holds_ = true;
   std::vector<std::string> measured_;
-  std::vector<captioned_picture> pictures_;
+  std::optional<captioned_panels> picture_;
 };
 
 struct hard_case {
-  std::string name;  // in words with _ between them
+  std::string name;  // in words with _ between them; also that of its picture
   std::string what;
   std::string must_hold;
   std::string must_fail;  // beside it: what the same judgement must reject

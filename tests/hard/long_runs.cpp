@@ -190,15 +190,13 @@ verdict many_steps(extent how) {
   plain.rms.label = "plain";
   kept.rms.label = "compensated<double>";
   kept.rms.emphasised = true;
-  result.show(
-      {.name = "many_steps",
-       .panels = {{.title = "Verlet on an oscillator, h omega = 0.01",
-                   .x_label = "steps",
-                   .y_label = "what rounding did to the energy, rms",
-                   .log_log = true,
-                   .curves = {plain.rms, kept.rms, predicted(h, false, "plain, predicted", plain.rms.x),
-                              predicted(h, true, "compensated, predicted", plain.rms.x)}}}},
-      "Of the quantity that Verlet conserves exactly but for rounding, over 16 trajectories.");
+  result.show({{.title = "Verlet on an oscillator, h omega = 0.01",
+                .x_label = "steps",
+                .y_label = "what rounding did to the energy, rms",
+                .log_log = true,
+                .curves = {plain.rms, kept.rms, predicted(h, false, "plain, predicted", plain.rms.x),
+                           predicted(h, true, "compensated, predicted", plain.rms.x)}}},
+              "Of the quantity that Verlet conserves exactly but for rounding, over 16 trajectories.");
   return result;
 }
 

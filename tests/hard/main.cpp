@@ -85,7 +85,9 @@ page page_of(const std::vector<finished_topic>& all) {
       result.list({"**Must hold:** " + its.must_hold, "**Must fail:** " + its.must_fail});
       result.text(out.holds() ? "Measured:" : "Measured, and **not as it must be**:");
       result.list(out.measured());
-      for (const auto& [picture, caption] : out.pictures()) result.picture(picture, caption);
+      if (const auto& shown = out.picture()) {
+        result.picture({.name = its.name, .panels = shown->panels, .width = shown->width}, shown->caption);
+      }
     }
   }
   return result;

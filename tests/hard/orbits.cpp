@@ -98,11 +98,9 @@ verdict ellipses(const ellipse& its, extent how) {
           "Runge and Kutta's method is found to drift: {:.1e} in the first half, {:.1e} in the second",
           drifting.early, drifting.late));
   curves.push_back(std::move(drifting.shown));
-  result.show(
-      {.name = fmt::format("kepler_{:.0f}", 100.0 * its.eccentricity),
-       .panels = {energy_panel(fmt::format("Kepler, eccentricity {}", its.eccentricity), std::move(curves))}},
-      fmt::format("Energy error of an ellipse of eccentricity {} at {} per evaluation.", its.eccentricity,
-                  its.per_evaluation));
+  result.show({energy_panel(fmt::format("Kepler, eccentricity {}", its.eccentricity), std::move(curves))},
+              fmt::format("Energy error of an ellipse of eccentricity {} at {} per evaluation.",
+                          its.eccentricity, its.per_evaluation));
   return result;
 }
 
@@ -169,8 +167,7 @@ verdict chaos(extent how) {
                  fmt::format("Runge and Kutta's drifts: {:.1e} in the first half, {:.1e} in the second",
                              drifting.early, drifting.late));
   panels.front().curves.push_back(std::move(drifting.shown));
-  result.show({.name = "henon_heiles", .panels = std::move(panels), .width = 1300},
-              "Energy error of chaotic motion at 0.04 per evaluation.");
+  result.show(std::move(panels), "Energy error of chaotic motion at 0.04 per evaluation.", 1300);
   return result;
 }
 
@@ -223,12 +220,12 @@ topic orbits() {
       "drift doubles it). Angular momentum is conserved to rounding.";
   const std::string of_runge = "The classical method of Runge and Kutta drifts.";
   return {"Eccentric and chaotic orbits",
-          {{"kepler_6", "Kepler's ellipse of eccentricity 0.6.", of_kepler, of_runge,
+          {{"kepler_60", "Kepler's ellipse of eccentricity 0.6.", of_kepler, of_runge,
             [](extent how) {
               return ellipses({0.6, 0.01}, how);
             }},
-           {"kepler_9", "Of eccentricity 0.9: 32 times faster at the pericentre than on a circle.", of_kepler,
-            of_runge,
+           {"kepler_90", "Of eccentricity 0.9: 32 times faster at the pericentre than on a circle.",
+            of_kepler, of_runge,
             [](extent how) {
               return ellipses({0.9, 0.001}, how);
             }},

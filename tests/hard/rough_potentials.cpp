@@ -141,17 +141,16 @@ verdict absolute_value(extent how) {
       check_force(system, {vector<double, 1>(-0.7), vector<double, 1>(0.4), vector<double, 1>(0.0)});
   result.note(fmt::format("check_force, at -0.7, 0.4 and the kink itself: {}", check.report()));
   result.show(
-      {.name = "kink",
-       .panels = {energy_panel("V = |q| from p = 0.55, 0.04 per evaluation", std::move(over_time)),
-                  {.title = "V = |q|, one crossing",
-                   .x_label = "step per evaluation",
-                   .y_label = "largest |H - H_0|",
-                   .log_log = true,
-                   .curves = std::move(over_step)}},
-       .width = 1560},
+      {energy_panel("V = |q| from p = 0.55, 0.04 per evaluation", std::move(over_time)),
+       {.title = "V = |q|, one crossing",
+        .x_label = "step per evaluation",
+        .y_label = "largest |H - H_0|",
+        .log_log = true,
+        .curves = std::move(over_step)}},
       "A kink takes from every method its order, and from some trajectories the bound too: that "
       "of the energy error is owed to smooth forces. Left, one on which every crossing meets the step at "
-      "nearly the same phase, so that the errors add up, in Verlet's method as in others.");
+      "nearly the same phase, so that the errors add up, in Verlet's method as in others.",
+      1560);
   return result;
 }
 
@@ -242,8 +241,7 @@ verdict without_bottom(extent how) {
             : fmt::format("at 1.1 of it: diverged at step {}", story.diverged_at.value_or(-1)));
     curves.push_back(story.shown);
   }
-  result.show({.name = "unbounded", .panels = {energy_panel("No bottom", std::move(curves))}},
-              "The energy error until the run is stopped.");
+  result.show({energy_panel("No bottom", std::move(curves))}, "The energy error until the run is stopped.");
   return result;
 }
 

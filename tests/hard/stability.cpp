@@ -203,13 +203,12 @@ verdict windows_of_classical_methods(extent how) {
   const tabulated two_windows = nystrom_with_two_windows();
   const auto windows = stability_windows(two_windows);
   result.show(
-      {.name = "windows",
-       .panels = {ends_of_window(tabulated(verlet{}), stability_windows(tabulated(verlet{})).front(), steps),
-                  ends_of_window(two_windows, windows.at(1), steps)},
-       .width = 1200},
+      {ends_of_window(tabulated(verlet{}), stability_windows(tabulated(verlet{})).front(), steps),
+       ends_of_window(two_windows, windows.at(1), steps)},
       "The ends of the only window of Verlet, and of the second one of the two-stage word (1/2, 0.4): "
       "1 % of the width inside (solid) the energy swings by a fixed factor for ever, 0.1 % outside it "
-      "grows until the run is stopped.");
+      "grows until the run is stopped.",
+      1200);
   return result;
 }
 

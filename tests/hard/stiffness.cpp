@@ -71,8 +71,7 @@ verdict resonance(extent how) {
         energy_panel(fmt::format("h omega = {} pi", k),
                      {std::move(resonant.shown), std::move(beside.shown), std::move(word.shown)}));
   }
-  result.show({.name = "resonance", .panels = std::move(panels), .width = 1500},
-              "The FPU chain of omega = 50 at resonant steps.");
+  result.show(std::move(panels), "The FPU chain of omega = 50 at resonant steps.", 1500);
   return result;
 }
 
@@ -148,8 +147,7 @@ verdict very_stiff(extent how) {
     panels.push_back(
         energy_panel(fmt::format("omega = {:g}", omega), {std::move(rotated.shown), std::move(plain.shown)}));
   }
-  result.show({.name = "very_stiff", .panels = std::move(panels), .width = 1200},
-              "Steps of the impulse method are not bound to the stiff frequency.");
+  result.show(std::move(panels), "Steps of the impulse method are not bound to the stiff frequency.", 1200);
   return result;
 }
 
@@ -188,10 +186,8 @@ verdict strong_soft_springs(extent how) {
                   trap * fastest,
                   trapped.diverged_at ? fmt::format("diverged at step {}", *trapped.diverged_at)
                                       : fmt::format("energy error {:.1e}", trapped.largest)));
-  result.show({.name = "strong_soft_springs",
-               .panels = {energy_panel("FPU, soft energy of omega^2", std::move(curves))},
-               .width = 1000},
-              "Soft springs that hold as much as stiff ones, methods at equal cost.");
+  result.show({energy_panel("FPU, soft energy of omega^2", std::move(curves))},
+              "Soft springs that hold as much as stiff ones, methods at equal cost.", 1000);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
+#include "../support/central_difference.hpp"
 #include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "../support/tableau.hpp"
@@ -133,21 +134,16 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const S system;
   const metric<2> measure(system, data, coordinates::modes);
   const one_step<nystrom, S> loss(system, data, measure);
+  const auto value = [&](const parameters_of<nystrom>& theta) { return loss_value(loss, theta); };
   draws random;
   for (int n = 0; n < 5; ++n) {
     const auto theta = random_theta<nystrom>(random);
     const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto difference = [&](double s) {
-        auto ahead = theta;
-        auto behind = theta;
-        ahead[k] += s;
-        behind[k] -= s;
-        return (loss_value(loss, ahead) - loss_value(loss, behind)) / (2.0 * s);
-      };
-      // Truncation falls to a quarter with s, so it is a third of the change; each of 140 squares rounds.
+      const central_difference difference(value, theta, k);
       const double s = 1e-4;
-      const double error = std::abs(difference(s) - difference(2.0 * s)) / 3.0;
+      const double error = difference.truncation(s);
+      // Each of 140 squares rounds.
       const double rounding = 140.0 * eps * loss_value(loss, theta) / s;
       const auto index = static_cast<Eigen::Index>(k);
       BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {

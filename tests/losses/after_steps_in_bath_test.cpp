@@ -2,6 +2,7 @@
 // The loss of a family in a bath: a step with the noise that the data hold.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/central_difference.hpp"
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -180,17 +181,12 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const metric<2> measure(warm, data, coordinates::qp);
   const one_step<symmetric, galaxy> loss(warm, data, measure);
   const Eigen::VectorXd ours = squares_at(loss, elsewhere).gradient();
+  const auto value = [&](const parameters_of<nystrom>& theta) { return loss_value(loss, theta); };
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto difference = [&](double s) {
-      auto ahead = elsewhere;
-      auto behind = elsewhere;
-      ahead[k] += s;
-      behind[k] -= s;
-      return (loss_value(loss, ahead) - loss_value(loss, behind)) / (2.0 * s);
-    };
-    // Truncation falls to a quarter with s, so it is a third of the change; each of 800 squares rounds.
+    const central_difference difference(value, elsewhere, k);
     const double s = 1e-4;
-    const double error = std::abs(difference(s) - difference(2.0 * s)) / 3.0;
+    const double error = difference.truncation(s);
+    // Each of 800 squares rounds.
     const double rounding = 800.0 * eps * loss_value(loss, elsewhere) / s;
     const double off = std::abs(ours[static_cast<Eigen::Index>(k)] - difference(s));
     BOOST_TEST(off <= 2.0 * error + rounding);

@@ -3,6 +3,7 @@
 // parameters.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/central_difference.hpp"
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -155,18 +156,13 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
                                          error_of(what, data, measure), what.options);
     const Eigen::VectorXd theta = column_of(elsewhere<aba<4>>());
     const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
+    const auto value = [&](const Eigen::VectorXd& at) { return loss_value(loss, at); };
     for (Eigen::Index k = 0; k < 3; ++k) {
-      const auto difference = [&](double s) {
-        auto ahead = theta;
-        auto behind = theta;
-        ahead[k] += s;
-        behind[k] -= s;
-        return (loss_value(loss, ahead) - loss_value(loss, behind)) / (2.0 * s);
-      };
-      // Truncation falls to a quarter with s, so it is a third of the change. A residual is the difference of
-      // numbers below 1, or below the increments' inverse 1/.05, after some hundred roundings.
+      const central_difference difference(value, theta, k);
       const double s = 1e-4;
-      const double error = std::abs(difference(s) - difference(2.0 * s)) / 3.0;
+      const double error = difference.truncation(s);
+      // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
+      // hundred roundings.
       const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(loss_value(loss, theta)) / s;
       BOOST_TEST_CONTEXT(what.options.steps << " steps, parameter " << k) {
         BOOST_TEST(std::abs(ours[k] - difference(s)) <= 2.0 * error + rounding);

@@ -61,6 +61,19 @@ BOOST_AUTO_TEST_CASE(a_section_is_of_its_command) {
                   learned.substr(0, learned.find(" --seed 4")) + " --fix b1=0.5 --json") == typed(learned));
 }
 
+BOOST_AUTO_TEST_CASE(a_section_of_another_command_changes_nothing) {
+  const std::string line = "compare --methods verlet --steps 0.01 --trajectories 3 --json";
+  BOOST_TEST(with("[learn]\nseed = 9\n[cite]\nmethods = \"bcss2\"\n", line) == typed(line));
+  BOOST_TEST(with("[compare]\nseed = 9\n", line) != typed(line));
+
+  // Nor is it written down with what was made.
+  const folder_with folder("[learn]\nstep = 0.02\ntrajectories = 3\n[recommend]\nhorizon = 2\nseed = 9\n");
+  BOOST_TEST_REQUIRE(run(folder, "learn --config options.toml --output scheme.json").code == 0);
+  const auto manifest = nlohmann::ordered_json::parse(contents(folder / "scheme.json.manifest.json"));
+  BOOST_TEST(manifest["seed"] == 1);
+  BOOST_TEST(manifest["options"] == "learn.step=0.02\nlearn.trajectories=3\nlearn.output=\"scheme.json\"\n");
+}
+
 BOOST_AUTO_TEST_CASE(a_list_may_also_be_one_text) {
   BOOST_TEST(
       with(

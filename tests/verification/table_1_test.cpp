@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "../../src/reproduction/thinned.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learner.hpp"
@@ -13,30 +14,13 @@
 #include "nysalt/systems/fpu_chain.hpp"
 
 using namespace nysalt;
+using program::paper::thinned;
 
 namespace {
 
 using chain = fpu_chain<3>;
 using pairs = flow_map_data<chain::dimension>;
 using parameters = parameters_of<nystrom>;
-
-/// The same trajectories at `factor` times the step. The checks of the reference are of the old step: none.
-pairs thinned(const pairs& data, std::size_t factor) {
-  pairs result = data;
-  result.step = data.step * static_cast<double>(factor);
-  result.start.clear();
-  result.finish.clear();
-  result.finer.clear();
-  result.first_of = {0};
-  for (std::size_t m = 0; m < data.trajectories(); ++m) {
-    for (std::size_t n = data.first_of[m]; n + factor <= data.first_of[m + 1]; n += factor) {
-      result.start.push_back(data.start[n]);
-      result.finish.push_back(data.finish[n + factor - 1]);
-    }
-    result.first_of.push_back(result.pairs());
-  }
-  return result;
-}
 
 struct row {
   std::size_t factor;  // of the step .001
@@ -56,14 +40,16 @@ BOOST_AUTO_TEST_CASE(the_table_is_reproduced_whatever_generates_the_data) {
   std::map<std::pair<std::size_t, std::uint64_t>, parameters> first;  // by factor and seed
   for (const auto& generator : generators) {
     const fine_steps reference(1e-6, member<nystrom>(generator));
+    constexpr double horizon = 0.5;
     std::vector<pairs> by_seed;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      by_seed.push_back(make_flow_map_data(system, law, reference, {.step = 1e-3, .seed = seed}));
+      by_seed.push_back(
+          make_flow_map_data(system, law, reference, {.step = 1e-3, .horizon = horizon, .seed = seed}));
     }
     for (const auto& [factor, expected, seed_scatter] : table_1) {
       for (std::size_t s = 0; s < by_seed.size(); ++s) {
-        const auto data = thinned(by_seed[s], factor);
-        const auto held_out = thinned(by_seed[(s + 1) % by_seed.size()], factor);
+        const auto data = thinned(by_seed[s], factor, horizon);
+        const auto held_out = thinned(by_seed[(s + 1) % by_seed.size()], factor, horizon);
         const auto fit = learn(nystrom{}, system, data, held_out);
         const auto found = fit.method.parameters();
         BOOST_TEST_CONTEXT(fit.summary.full() << "generator " << generator[0]) {

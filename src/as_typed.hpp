@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+// A command line as a shell would take it again.
+#pragma once
+
+#include <string>
+
+namespace nysalt::program {
+
+std::string as_typed(int argc, char** argv);
+
+}  // namespace nysalt::program

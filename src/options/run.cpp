@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "subcommand.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../comma_list.hpp"
+#include "../commands.hpp"
+#include "number_option.hpp"
+#include "shared_options.hpp"
+
+namespace nysalt::program {
+
+subcommand offer_run(CLI::App& app, common_settings& common) {
+  struct run_as_typed {
+    run_command asked;
+    std::vector<std::string> observables;
+  };
+  const auto typed = std::make_shared<run_as_typed>();
+  auto& asked = typed->asked;
+  auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
+  add_system(command, asked.system);
+  add_placement(command, asked.placement);
+  command.add_option("--method", asked.method, "a name of nysalt list, or the file of a scheme or table")
+      ->required();
+  add_number(command, "--step", asked.step, "of the method")->default_str("")->required();
+  add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
+  add_number(command, "--trajectories", asked.trajectories, "how many");
+  command.add_option("--observables", typed->observables, "what to sample [that of the system]");
+  add_number(command, "--sample-every", asked.sample_every, "so many steps");
+  command.add_option("--output", asked.output, "file: CSV, or .h5, .npy [standard output]");
+  command.add_flag("--plot", asked.plot, "draw the first trajectory beside the output");
+  command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the run is stopped");
+  add_number(command, "--every", asked.every, "so many steps a checkpoint is made");
+  command.add_flag("--resume", asked.resume, "go on from the checkpoint");
+  add_common(command, common);
+  add_force(command, common, "run a scheme at another step or system than it was learned for");
+  command.footer(
+      "Examples:\n"
+      "  nysalt run --system fpu --method verlet --step 0.01 --horizon 1 --sample-every 10\n"
+      "  nysalt run --system pendulum --method srkn6b --step 0.5 --horizon 100 --trajectories 8 "
+      "--observables energy,q1 --output out.csv\n"
+      "  nysalt run --system fpu --method verlet --step 0.001 --horizon 1e5 --sample-every 1000 --output "
+      "out.csv "
+      "--checkpoint out.checkpoint --every 1000000");
+  const auto run_it = [typed, &asked, &common] {
+    asked.observables = entries_of(typed->observables, "--observables");
+    return run(asked, common);
+  };
+  return {&command, run_it};
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+// Options that several commands have.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "../settings.hpp"
+
+namespace nysalt::program {
+
+/// Those of every command.
+void add_common(CLI::App& command, common_settings& common);
+void add_force(CLI::App& command, common_settings& common, const char* what);
+
+/// A system, what it is in, and where trajectories start in it; `start` says what --start is.
+void add_system(CLI::App& command, system_settings& system,
+                const char* start = "law, gibbs or trajectory [gibbs in a bath, else law]");
+
+/// How methods meet a bath.
+void add_placement(CLI::App& command, std::string& placement);
+
+/// How to search, and what to learn from; some options begin with the prefix, "--" or "--learn-".
+void add_search(CLI::App& command, learn_settings& how, const std::string& prefix);
+void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix);
+
+}  // namespace nysalt::program

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "subcommand.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../comma_list.hpp"
+#include "../commands.hpp"
+#include "../world.hpp"
+#include "number_option.hpp"
+#include "nysalt/together.hpp"
+#include "shared_options.hpp"
+
+namespace nysalt::program {
+
+subcommand offer_stability(CLI::App& app, common_settings& common) {
+  struct stability_as_typed {
+    stability_command asked;
+    system_settings system;
+    std::vector<std::string> parameters;
+  };
+  const auto typed = std::make_shared<stability_as_typed>();
+  auto& asked = typed->asked;
+  auto& command = *app.add_subcommand("stability", "for which z = h omega a method is stable");
+  command.add_option("--method", asked.method, "a name, or the file of a scheme or table");
+  command.add_option("--family", asked.family, "with --parameters");
+  command.add_option("--parameters", typed->parameters, "of the family, joined by commas");
+  add_system(command, typed->system,
+             "law, gibbs or trajectory: as run takes it; frequencies are those of law");
+  add_number(command, "--step", asked.step, "with --system: is the system stable there?");
+  command.add_option("--output", asked.output, "write trace/2 over z as CSV");
+  command.add_flag("--plot", asked.plot, "draw it beside the output: windows, and the system's z");
+  add_common(command, common);
+  add_force(command, common, "look at a scheme at another step or system than it was learned for");
+  command.footer(
+      "Examples:\n"
+      "  nysalt stability --family nystrom --parameters 0.5,0.4\n"
+      "  nysalt stability --method bcss3 --system fpu --step 0.04\n"
+      "  nysalt stability --method mclachlan2 --system kepler --step 0.1 --output trace.csv --plot");
+  const auto run_it = [typed, &asked, &command, &common] {
+    asked.parameters = numbers_of(typed->parameters, "--parameters");
+    for (const char* option :
+         {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space", "--eccentricity",
+          "--spread", "--start", "--friction", "--sigma", "--temperature", "--step"}) {
+      if (command.count(option) > 0) asked.system = typed->system;
+    }
+    int code = done;
+    on_first(world(), [&] { code = stability(asked, common); });
+    broadcast(world(), code);
+    return code;
+  };
+  return {&command, run_it};
+}
+
+}  // namespace nysalt::program

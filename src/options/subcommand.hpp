@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+// The subcommands as the command line offers them: options, their help, and what runs when they are read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "../settings.hpp"
+
+namespace nysalt::program {
+
+struct subcommand {
+  const CLI::App* options;
+  /// Once they are read. Returns the exit code; throws refusal, also for options that do not go together.
+  std::function<int()> run;
+};
+
+// Each is added to the program; its common options are read into `common`, which must outlive it.
+subcommand offer_cite(CLI::App& app, common_settings& common);
+subcommand offer_compare(CLI::App& app, common_settings& common);
+subcommand offer_learn(CLI::App& app, common_settings& common);
+subcommand offer_list(CLI::App& app, common_settings& common);
+subcommand offer_recommend(CLI::App& app, common_settings& common);
+subcommand offer_reproduce(CLI::App& app, common_settings& common);
+subcommand offer_run(CLI::App& app, common_settings& common);
+subcommand offer_stability(CLI::App& app, common_settings& common);
+
+}  // namespace nysalt::program

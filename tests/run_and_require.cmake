@@ -1,0 +1,26 @@
+# What checks of whole folders do: run a program, and look into what it said and wrote.
+
+# Sets output to all that the command says.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT code EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nended with '${code}':\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(require_match text pattern)
+  if(NOT "${text}" MATCHES "${pattern}")
+    message(FATAL_ERROR "'${pattern}' is not in:\n${text}")
+  endif()
+endfunction()
+
+# Whether a text has the path, and not as the end of another.
+function(names_path text path result)
+  string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" path "${path}")
+  set(${result} FALSE PARENT_SCOPE)
+  if("${text}" MATCHES "(^|[^a-z0-9}])${path}")
+    set(${result} TRUE PARENT_SCOPE)
+  endif()
+endfunction()
