@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How the loop over trajectories goes on several threads; what no type of a system is in.
+// How blocks of trajectories are gone through on several threads.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensemble_blocks.hpp"
 
 namespace nysalt {
 
