@@ -197,7 +197,7 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
                                        const flow_map_data<S::dimension>& held_out,
                                        const fit_options& options, const own_loss<Own>&... own) {
   std::optional<detail::other_loss<S, R>> other;
-  (other.emplace(own.description(), own.steps, own_error<S, R>(system, own.error)), ...);
+  ((other = {own.description(), own.steps, own_error<S, R>(system, own.error)}), ...);
   if (other && options.loss != loss_choice{}) {
     throw std::invalid_argument(
         fmt::format("learn: it is one loss that is minimised, {} or {}: leave the "

@@ -54,6 +54,20 @@ inline constexpr int residuals_in<std::array<T, n>, T> = static_cast<int>(n);
 template <class T, int n, int options, int most>
 inline constexpr int residuals_in<Eigen::Matrix<T, n, 1, options, most, 1>, T> = n;
 
+template <class T>
+void write_residuals(const T& one, std::size_t, T* r) {
+  *r = one;
+}
+template <class Several, class T>
+void write_residuals(const Several& all, std::size_t count, T* r) {
+  if (static_cast<std::size_t>(all.size()) != count) {
+    throw std::invalid_argument(fmt::format(
+        "an own loss returns {} residuals for one stretch, and {} for another: return as many for each",
+        count, all.size()));
+  }
+  std::copy(all.begin(), all.end(), r);
+}
+
 }  // namespace detail
 
 /// The residuals that a function returns, see own_loss. Throws std::invalid_argument if there are none; while
@@ -85,17 +99,7 @@ stretch_error<S, R> own_error(const S& system, const Error& error) {
     return {.residuals = count,
             .of = [error, count](const auto& start, const point& finish, const auto& wanted, C* r) {
               const auto its = error(start.template cast<C>(), finish, wanted.template cast<C>());
-              if constexpr (std::same_as<result, C>) {
-                r[0] = its;
-              } else {
-                if (static_cast<std::size_t>(its.size()) != count) {
-                  throw std::invalid_argument(fmt::format(
-                      "an own loss returns {} residuals for one stretch, and {} for another: return as many "
-                      "for each",
-                      count, its.size()));
-                }
-                std::copy(its.begin(), its.end(), r);
-              }
+              detail::write_residuals(its, count, r);
             }};
   }
 }
