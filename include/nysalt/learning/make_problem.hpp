@@ -132,19 +132,21 @@ learning_problem make_problem(const run_time_family& family, const S& system,
   const auto one_step = loss_over(held_out, of_state, 1);
   const auto at_end = loss_over(held_out, of_state, shortest_of(held_out), false);
 
+  // Each function keeps the metric that its loss refers to.
   learning_problem problem{
       .family = family,
       .options = options,
       .step = data.step,
-      .loss = [loss](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
+      .loss = [loss, measure](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
       .scores = [loss, measure](const Eigen::VectorXd& theta) { return scores(*loss, theta); },
       .held_out = held_out.share(),
-      .held_out_losses = [held](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
+      .held_out_losses = [held,
+                          measure](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
       .one_step_loss = [one_step,
                         measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
-      .loss_at_end = [at_end](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
-      .judge = [its =
-                    other ? held : at_end](const Eigen::VectorXd& theta) { return loss_value(*its, theta); },
+      .loss_at_end = [at_end, measure](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
+      .judge = [its = other ? held : at_end,
+                measure](const Eigen::VectorXd& theta) { return loss_value(*its, theta); },
       .evaluations =
           [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
             return of_data + ranks.total(loss->evaluations() + held->evaluations() + one_step->evaluations() +
