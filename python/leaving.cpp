@@ -16,7 +16,8 @@ constinit std::atomic<int> computations = 0;
 
 void leave(int status, void* /* none */) {
   if (computations == 0) return;
-  std::fflush(nullptr);
+  std::fflush(stdout);
+  std::fflush(stderr);
   _exit(status);
 }
 

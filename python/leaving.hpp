@@ -15,7 +15,7 @@ class under_way {
 };
 
 /// From now on: when Python has ended, and with computations under way, the process leaves with its own exit
-/// status and with C's streams written, but without what else was to be done at its exit.
+/// status and with C's standard streams written, but without what else was to be done at its exit.
 void leave_from_computations();
 
 }  // namespace nysalt::python

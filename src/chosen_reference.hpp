@@ -21,7 +21,7 @@ template <class S>
 inline constexpr bool has_exact_flow =
     std::is_same_v<S, harmonic_oscillator> || std::is_same_v<S, linear_chain>;
 
-/// For the system S, in a bath or in none: a flow sees no noise, and leaves xi alone.
+/// A PathReference for the system S, in a bath or in none, where there is no noise to tell of.
 template <class S>
 class chosen_reference {
  public:

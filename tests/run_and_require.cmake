@@ -1,11 +1,11 @@
 # What checks of whole folders do: run a program, and look into what it said and wrote.
 
-# Sets output to all that the command says.
+# Sets output to what the command prints.
 function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT code EQUAL 0)
     list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}\nended with '${code}':\n${output}")
+    message(FATAL_ERROR "${command}\nended with '${code}':\n${output}${errors}")
   endif()
   set(output "${output}" PARENT_SCOPE)
 endfunction()

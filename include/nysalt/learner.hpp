@@ -19,13 +19,13 @@ namespace nysalt {
 /// The same options with parameters as the family holds them.
 template <Family F>
 struct learn_options {
-  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the error counts
+  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the state's error counts
   parameters_of<F> start = F::start();                        ///< where the first search begins
   /// A value for each parameter that is not to be learned.
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
   int max_iterations = 200;      ///< of the search from each start
   int threads = 1;               ///< changes no bit of what is learned
-  loss_choice loss{};            ///< what is minimised, if not an own_loss; by default that of one step
+  loss_choice loss{};            ///< minimised unless an own_loss is given; by default the error of one step
   bool classical_starts = true;  ///< begin at the family's classical members and further starts too
   int random_starts = 0;         ///< further ones, normal around the first with the deviation 0.3
   bool guarded = true;           ///< false: an unstable optimum is found, and said not to be usable

@@ -155,6 +155,34 @@ BOOST_AUTO_TEST_CASE(a_pass_over_the_data_is_one_sum_whatever_the_data) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_own_loss_that_throws_on_one_rank_throws_on_all) {
+  const std::string words = "of this trajectory there is nothing to say";
+  const double place = starts(1, 70).q[0];
+  std::mutex guard;
+  int refused = 0;
+  run_ranks(3, [&](const thread_communicator& ours) {
+    const auto data = make(96, 1, ours);
+    const auto error = [&]<class T>(const phase_point<T, 1>& start, const phase_point<T, 1>& finish,
+                                    const phase_point<T, 1>& wanted) -> T {
+      const auto q = start.q[0].value;
+      for (int k = 0; k < lanes_in<decltype(T::value)>; ++k) {
+        if (lane(q, k) == place) throw std::invalid_argument(words);
+      }
+      return finish.q[0] - wanted.q[0];
+    };
+    const own_loss of_place{"place", 1, error};
+    const auto problem = make_learning_problem(run_time_family(nystrom{}), swing, data, data, {}, of_place);
+    try {
+      problem.loss(problem.family.starts.front().theta);
+    } catch (const std::invalid_argument& its) {
+      const std::lock_guard lock(guard);
+      BOOST_TEST(its.what() == words);
+      ++refused;
+    }
+  });
+  BOOST_TEST(refused == 3);
+}
+
 BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
   const std::string words =
       "the data hold what is not finite: p1 is nan in the finish of pair 352, in trajectory 70";

@@ -42,6 +42,33 @@ auto state_after_three(const metric<2>& measure, double of_positions = 1.0) {
   return own_loss{"my state", 3, error};
 }
 
+/// A loss that asks no stretches, (theta_0 - .45)^2 (theta_0 - .55)^2 + (theta_1 - .4)^2: it has two minima,
+/// both 0. Each trajectory has an equal part of it.
+class two_minima {
+ public:
+  using scalar = double;
+
+  explicit two_minima(const shard& share) : share_(share) {}
+
+  Eigen::Index parameters() const { return 2; }
+  std::size_t residuals() const { return 2; }
+  const shard& share() const { return share_; }
+
+  std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool, Eigen::Index terms,
+                                    const terms_of_stretch<double>& of_stretch) const {
+    const double left = theta[0] - 0.45;
+    const double right = theta[0] - 0.55;
+    const residuals_of_stretch<double> r{2, {left * right, theta[1] - 0.4}, {left + right, 0.0, 0.0, 1.0}};
+    std::vector<double> numbers(static_cast<std::size_t>(terms));
+    of_stretch(r, numbers);
+    const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(numbers.data(), terms);
+    return {static_cast<std::size_t>(share_.count()), all / static_cast<double>(share_.total())};
+  }
+
+ private:
+  shard share_;
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
@@ -111,6 +138,30 @@ BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
   BOOST_TEST(usual.judge(theta) != usual.held_out.sum(usual.held_out_losses(theta)));
 }
 
+BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decides) {
+  const auto data = data_of(1);
+  const two_minima loss(data.share());
+  const fit_options options{.start = Eigen::Vector2d(0.46, 0.41),
+                            .further_starts = {{"the other", Eigen::Vector2d(0.54, 0.39)}}};
+  auto problem = make_learning_problem(family, galaxy, data, data_of(2), options);
+  problem.loss = objective_of(loss);
+  problem.scores = [&](const Eigen::VectorXd& theta) {
+    return trajectory_scores(trajectory_gradients(loss, theta), loss.share());
+  };
+  problem.held_out_losses = [&](const Eigen::VectorXd& theta) { return trajectory_losses(loss, theta); };
+  problem.facts.loss_name = "two minima";
+  for (const double wanted : {0.45, 0.55}) {
+    problem.judge = [=](const Eigen::VectorXd& theta) { return std::abs(theta[0] - wanted); };
+    const fit found = solve(problem);
+    BOOST_TEST_CONTEXT(found.summary.full()) {
+      BOOST_TEST(std::abs(found.theta[0] - wanted) < 0.01);  // they are .1 apart
+      BOOST_TEST(std::abs(found.theta[1] - 0.4) < 0.01);
+      BOOST_TEST(found.summary.from == (wanted < 0.5 ? "start" : "the other"));
+      BOOST_TEST(found.summary.loss_name == "two minima");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
@@ -141,6 +192,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(!refused({}, {}));
   BOOST_TEST(refused({.loss = loss_named("energy:6")}, {"energy:6", "my state:3", "one loss"}));
   BOOST_TEST(refused({.loss = loss_named("covariance")}, {"covariance", "my state:3"}));
+  for (const char* name : {"", "state", "energy", "covariance", "two\nlines"}) {
+    loss.name = name;
+    BOOST_TEST(refused({}, {"cannot be called", name}));
+  }
+  loss.name = "mine";
   loss.steps = 5;
   BOOST_TEST(refused({}, {"5 steps", "longer horizon"}));
   loss.steps = 0;

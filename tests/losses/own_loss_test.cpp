@@ -4,8 +4,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "../support/central_difference.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/same_squares.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -47,10 +49,6 @@ squares squares_of(const S& system, const flow_map_data<S::dimension>& data, con
   const after_steps<S, R> loss(run_time_family(nystrom()), system, data, error,
                                {.steps = 5, .threads = threads});
   return squares_at(loss, elsewhere);
-}
-
-bool same(const squares& a, const squares& b) {
-  return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
 }
 
 /// Weights of q and p, as a metric has them.
@@ -180,17 +178,10 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   for (Eigen::Index k = 0; k < 3; ++k) theta[k] += 0.01 * static_cast<double>(k + 1);
   const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const auto difference = [&](double s) {
-      auto ahead = theta;
-      auto behind = theta;
-      ahead[k] += s;
-      behind[k] -= s;
-      return (loss_value(loss, ahead) - loss_value(loss, behind)) / (2.0 * s);
-    };
-    // Truncation falls to a quarter with s, so it is a third of the change. A residual is the difference of
-    // numbers below 2 after some hundred roundings.
+    const central_difference difference([&](const auto& x) { return loss_value(loss, x); }, theta, k);
+    // A residual is the difference of numbers below 2 after some hundred roundings.
     const double s = 1e-4;
-    const double error = std::abs(difference(s) - difference(2.0 * s)) / 3.0;
+    const double error = difference.truncation(s);
     const double rounding = 2.0 * 100.0 * eps * 2.0 * std::sqrt(loss_value(loss, theta)) / s;
     BOOST_TEST_CONTEXT("parameter " << k) {
       BOOST_TEST(std::abs(ours[k] - difference(s)) <= 2.0 * error + rounding);

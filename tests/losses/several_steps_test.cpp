@@ -7,6 +7,7 @@
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/same_squares.hpp"
 #include "../support/sample_blocks.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -50,10 +51,6 @@ parameters_of<F> elsewhere() {
   auto theta = F::start();
   for (std::size_t k = 0; k < theta.size(); ++k) theta[k] += 0.01 * static_cast<double>(k + 1);
   return theta;
-}
-
-bool same(const squares& a, const squares& b) {
-  return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
 }
 
 stretch_error<henon_heiles> error_of(const asked& what, const flow_map_data<2>& data,

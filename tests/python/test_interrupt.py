@@ -108,7 +108,7 @@ def test_a_second_ctrl_c_is_not_lost():
 
 
 LEAVING = """
-import ctypes, threading, time
+import ctypes, sys, threading, time
 import numpy as np
 
 # Called last, after the destructors of nysalt's static objects and of its libraries': a process that gets there
@@ -134,6 +134,8 @@ thread = threading.Thread(target=calls["CALL"], daemon=True)
 thread.start()
 time.sleep(0.2)
 assert thread.is_alive()
+libc.fputs(b"written at the end", ctypes.c_void_p.in_dll(libc, "stdout"))  # C's own stream, which a pipe fills
+sys.exit(3)
 """
 
 
@@ -141,4 +143,4 @@ assert thread.is_alive()
 def test_python_may_end_during_a_call_of_another_thread(call):
     done = subprocess.run([sys.executable, "-c", LEAVING.replace("CALL", call)], capture_output=True, text=True,
                           timeout=600)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert (done.returncode, done.stdout, done.stderr) == (3, "written at the end", "")

@@ -87,6 +87,16 @@ int shortest_of(const flow_map_data<N>& data) {
   return static_cast<int>(std::max<std::int64_t>(of_all, 1));
 }
 
+/// A summary must not take one loss for another, and names it in a line.
+inline void require_name(const std::string& name) {
+  const bool is_taken = name == "state" || name == "energy" || name == "covariance";
+  if (!name.empty() && !is_taken && name.find_first_of("\n\r") == std::string::npos) return;
+  throw std::invalid_argument(
+      fmt::format("learn: an own loss cannot be called '{}': take a name of one line that is none of state, "
+                  "energy and covariance",
+                  name));
+}
+
 /// A loss other than those of loss_choice.
 template <SeparableSystem S, Scalar R>
 struct other_loss {
@@ -198,6 +208,7 @@ learning_problem make_learning_problem(const run_time_family& family, const S& s
                                        const flow_map_data<S::dimension>& data,
                                        const flow_map_data<S::dimension>& held_out,
                                        const fit_options& options, const own_loss<Own>&... own) {
+  (detail::require_name(own.name), ...);
   std::optional<detail::other_loss<S, R>> other;
   ((other = {own.description(), own.steps, own_error<S, R>(system, own.error)}), ...);
   if (other && options.loss != loss_choice{}) {

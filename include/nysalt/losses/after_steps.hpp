@@ -17,6 +17,7 @@
 #include "nysalt/losses/stretches_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt {
 
@@ -42,13 +43,13 @@ struct residuals_of_stretch {
 template <Scalar R>
 using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
 
-/// The mean over all stretches of K steps of the sum over residuals of r^2; what they are a stretch_error
-/// says.
+/// The mean over all stretches of K steps of the sum over residuals of r^2; a stretch_error says what
+/// they are.
 ///
 /// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// stretches; neither its lanes nor the threads change a bit of a sum.
-/// What a loss over data offers the learner: scalar, parameters(), trajectories(), share(), residuals(), and
-/// sums(theta, with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
+/// What a loss over data offers the learner: scalar, parameters(), share(), residuals(), and sums(theta,
+/// with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
@@ -90,9 +91,9 @@ class after_steps {
   std::int64_t evaluations() const { return evaluations_; }
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
-  /// the residuals, so many terms, added in the order of time. Throws what the error does: the library's own
-  /// nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over dual<R, 2> for each
-  /// stretch and two parameters.
+  /// the residuals, so many terms, added in the order of time. Throws what the error does, on all ranks if on
+  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over
+  /// dual<R, 2> for each stretch and two parameters.
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
                                     const terms_of_stretch<R>& of_stretch) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
@@ -133,7 +134,12 @@ class after_steps {
       const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
-    for_each_trajectory(std::ssize(parts_), options_.threads, visit);
+    const auto pass = [&] { for_each_trajectory(std::ssize(parts_), options_.threads, visit); };
+    if (error_.may_throw) {
+      together(share_.ranks(), pass);
+    } else {
+      pass();
+    }
     return result;
   }
 

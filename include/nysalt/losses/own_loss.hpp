@@ -31,14 +31,14 @@ namespace nysalt {
 /// own, given and not estimated. It is called from several threads at a time.
 template <class Error>
 struct own_loss {
-  std::string name;  ///< what a fit_summary calls it, with K behind
+  std::string name;  ///< what a fit_summary calls it, with K behind: one line, not that of another loss
   int steps;         ///< K, steps of a stretch
   Error error;       ///< error(start, finish, wanted): the residuals
 
   /// As of the library's losses, such as "place:5".
   std::string description() const { return fmt::format("{}:{}", name, steps); }
 };
-/// As it is written.
+/// Deduced from its three parts.
 template <class Error>
 own_loss(std::string, int, Error) -> own_loss<Error>;
 
@@ -97,10 +97,12 @@ stretch_error<S, R> own_error(const S& system, const Error& error) {
       if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
     }
     return {.residuals = count,
-            .of = [error, count](const auto& start, const point& finish, const auto& wanted, C* r) {
-              const auto its = error(start.template cast<C>(), finish, wanted.template cast<C>());
-              detail::write_residuals(its, count, r);
-            }};
+            .of =
+                [error, count](const auto& start, const point& finish, const auto& wanted, C* r) {
+                  const auto its = error(start.template cast<C>(), finish, wanted.template cast<C>());
+                  detail::write_residuals(its, count, r);
+                },
+            .may_throw = true};
   }
 }
 

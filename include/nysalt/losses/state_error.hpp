@@ -16,4 +16,8 @@ stretch_error<S, R> state_error(const metric<S::dimension>& measure) {
           .weight_deviations = &measure.weight_deviations()};
 }
 
+/// A metric that is gone by then cannot be referred to.
+template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+stretch_error<S, R> state_error(metric<S::dimension>&& measure) = delete;
+
 }  // namespace nysalt

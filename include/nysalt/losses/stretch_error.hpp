@@ -10,8 +10,8 @@
 namespace nysalt {
 
 /// What a loss over data squares and adds up, of whatever kind: state_error(), energy_error(), own_error().
-/// The kind is no part of the type, as a pass over the data is dear to compile: one is for all kinds, and
-/// asks once for each stretch, pack of lanes and two parameters, beside the steps of these.
+/// The kind is no part of the type, as a pass over the data is dear to compile: one serves all kinds. It
+/// calls `of` once for each pack of stretches and each two parameters, which costs little beside their steps.
 template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
 struct stretch_error {
   using scalar = dual<R, directions_at_a_time>;     ///< residuals with their derivatives
@@ -25,6 +25,7 @@ struct stretch_error {
   /// Where weights are estimates from the data: row k, column m is what trajectory m adds to the relative
   /// error of residual k's mean square. Else nullptr.
   const Eigen::MatrixXd* weight_deviations = nullptr;
+  bool may_throw = false;  ///< whether `of` may, so that ranks that share the data must agree on it
 };
 
 }  // namespace nysalt
