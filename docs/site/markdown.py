@@ -184,7 +184,7 @@ def staged(text, label, target_of, keys):
             out.append(line)
         elif title:
             level, name, anchor = next(anchors)
-            name = staged_line(name, target_of, ())
+            name = staged_line(code.sub(r"\2", name), target_of, ())  # Doxygen shows the marks of code in titles
             if level == 1 and not out:
                 out.append(f"# {name} {{#{label}}}")
                 if label != "index" and sum(1 for below, _, _ in found if below == 2) > 3:

@@ -15,7 +15,7 @@ def staged(text):
 class Pages(unittest.TestCase):
     def test_have_anchors_of_their_own(self):
         self.assertEqual(staged("# A b\n## C `d`, e\n## C `d`, e"),
-                         ["# A b {#page}", "## C `d`, e {#page--c-d-e}", "## C `d`, e {#page--c-d-e-1}"])
+                         ["# A b {#page}", "## C d, e {#page--c-d-e}", "## C d, e {#page--c-d-e-1}"])
         self.assertEqual(markdown.slug("Where it *pays*: [a](b.md) & more"), "where-it-pays-a--more")
 
     def test_of_many_parts_have_a_table_of_contents(self):
