@@ -51,6 +51,11 @@ struct flow_map_data {
   /// noise_parts - 1.
   std::vector<vector<double, N>> noise;
 
+  /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
+  /// among them: at all ranks the same. They are where trial runs begin, and where frequencies are looked
+  /// for.
+  std::vector<phase_point<double, N>> further_starts;
+
   /// A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
 
@@ -186,6 +191,45 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
 }
 
+/// Further starts of an ensemble: 128 in its order and the 64 most energetic of 896 that come next, as rare
+/// energetic starts meet the highest frequencies; fewer where states are large, or the ensemble has no more.
+/// Of an ensemble whose states are dear to make, as many as there are trajectories, 64 at most.
+template <SeparableSystem S, Ensemble<S> E>
+std::vector<phase_point<double, S::dimension>> further_starts_of(const S& system, const E& ensemble,
+                                                                 const data_options& options) {
+  using state = phase_point<double, S::dimension>;
+  constexpr std::int64_t plain = 128;
+  constexpr std::int64_t energetic = 64;
+  constexpr std::int64_t pool = 896;
+  constexpr double numbers = 2e6;  // 16 MB
+  constexpr bool are_dear = MakesBlocks<E, S, scalar_of_lanes<lanes_of<S>>>;
+  const auto fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
+  std::int64_t most = std::min(are_dear ? std::min(energetic, options.trajectories) : plain + pool, fit);
+  const std::int64_t first = options.first + options.trajectories;
+  if constexpr (requires {
+                  { ensemble.size() } -> std::convertible_to<std::size_t>;
+                }) {
+    most = std::min(most, static_cast<std::int64_t>(ensemble.size()) - first);
+  }
+  std::vector<state> result;
+  std::vector<std::pair<double, state>> by_energy;
+  for (std::int64_t n = 0; n < most; ++n) {
+    state start = sound_start(system, ensemble, options.seed, first + n);
+    if (n < plain) {
+      result.push_back(std::move(start));
+    } else if constexpr (HasEnergy<S>) {
+      by_energy.emplace_back(energy<double>(system, start), std::move(start));
+    }
+  }
+  const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
+  const auto is_higher = [](const auto& a, const auto& b) { return a.first > b.first; };
+  std::partial_sort(by_energy.begin(), by_energy.begin() + taken, by_energy.end(), is_higher);
+  for (std::ptrdiff_t k = 0; k < taken; ++k) {
+    result.push_back(std::move(by_energy[static_cast<std::size_t>(k)].second));
+  }
+  return result;
+}
+
 /// finish = that of the finer reference from the same start, for every so many of all pairs.
 template <SeparableSystem S, Reference<S> R>
 std::int64_t check_reference(const S& system, const R& reference, const data_options& options,
@@ -289,6 +333,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
   });
   detail::add_up(data);
+  data.further_starts = detail::further_starts_of(system, ensemble, options);
   if (options.ranks->is_alone()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);

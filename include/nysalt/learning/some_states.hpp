@@ -2,11 +2,15 @@
 // A few states of data, wherever they are.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 
@@ -32,14 +36,108 @@ std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eige
   return result;
 }
 
-/// The starts of some hundred pairs, evenly spread: at all ranks.
+namespace detail {
+
+/// `most` of the numbers below `all`, which rise: one at random in each of so many equal parts, always the
+/// same. Evenly spaced numbers would meet a period of the data, such as the length of trajectories.
+inline std::vector<std::size_t> stratified(std::size_t all, std::size_t most) {
+  std::vector<std::size_t> result;
+  if (all <= most) {
+    for (std::size_t n = 0; n < all; ++n) result.push_back(n);
+    return result;
+  }
+  std::mt19937_64 bits{1};
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t begin = k * all / most;
+    const std::size_t end = (k + 1) * all / most;
+    result.push_back(begin + bits() % (end - begin));
+  }
+  return result;
+}
+
+/// Numbers, among those of all ranks, of the pairs at whose starts the force changes most along itself and
+/// along a direction of chance: where the highest frequency may be.
+template <SeparableSystem S>
+std::vector<std::size_t> stiffest_pairs(const S& system, const flow_map_data<S::dimension>& data,
+                                        std::size_t most) {
+  std::vector<double> scored;  // a score and a number, of one pair after the other
+  if constexpr (ForceDerivativeOver<S, double, field::whole>) {
+    const Eigen::Index n = size(system);
+    lifted_room<double, S::dimension> room(n);
+    auto f = make_vector<double>(system);
+    auto g = make_vector<double>(system);
+    std::mt19937_64 bits{1};
+    auto chance = f;
+    for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+    chance /= chance.norm();
+    std::vector<std::pair<double, std::size_t>> scores;
+    for (std::size_t pair = 0; pair < data.pairs(); ++pair) {
+      const auto& q = data.start[pair].q;
+      force<double>(system, q, f);
+      const double length = f.norm();
+      if (length > 0.0) f /= length;
+      f += chance;
+      force_along<field::whole, double>(system, q, f, g, room);
+      scores.emplace_back(-g.norm(), data.first_pair() + pair);  // the largest come first
+    }
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(most, scores.size()));
+    std::partial_sort(scores.begin(), scores.begin() + kept, scores.end());
+    for (std::ptrdiff_t k = 0; k < kept; ++k) {
+      scored.push_back(scores[static_cast<std::size_t>(k)].first);
+      scored.push_back(static_cast<double>(scores[static_cast<std::size_t>(k)].second));
+    }
+    scored = one_after_the_other(data.share().ranks(), scored);
+  }
+  std::vector<std::pair<double, std::size_t>> all;
+  for (std::size_t k = 0; k + 1 < scored.size(); k += 2) {
+    all.emplace_back(scored[k], static_cast<std::size_t>(scored[k + 1]));
+  }
+  std::ranges::sort(all);
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < std::min(most, all.size()); ++k) result.push_back(all[k].second);
+  return result;
+}
+
+}  // namespace detail
+
+/// States of data, at all ranks.
 template <int N>
-std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data, Eigen::Index dimension) {
-  constexpr std::size_t most = 128;
+struct states_of_data {
+  std::vector<phase_point<double, N>> states;  ///< typical ones, then such as are likely to be extreme
+  std::size_t typical;                         ///< number of the former
+};
+
+/// Starts of some hundred pairs, spread over all; then of 32 more where the force changes most, and the
+/// further starts. Cost: two evaluations a pair.
+template <SeparableSystem S>
+states_of_data<S::dimension> some_states(const S& system, const flow_map_data<S::dimension>& data) {
+  constexpr std::size_t spread = 128;
+  constexpr std::size_t stiffest = 32;
+  auto result = starts_of(data, size(system), detail::stratified(data.all_pairs(), spread));
+  const std::size_t typical = result.size();
+  auto pairs = detail::stiffest_pairs(system, data, stiffest);
+  std::ranges::sort(pairs);
+  const auto add = [&](const auto& more) { result.insert(result.end(), more.begin(), more.end()); };
+  add(starts_of(data, size(system), pairs));
+  add(data.further_starts);
+  return {std::move(result), typical};
+}
+
+/// Where trial runs begin: up to 64 trajectories of the data, and the further starts: at all ranks.
+template <SeparableSystem S>
+std::vector<phase_point<double, S::dimension>> starts_of_trial(const S& system,
+                                                               const flow_map_data<S::dimension>& data) {
+  constexpr std::size_t most = 64;
+  const auto trajectories = static_cast<std::size_t>(data.share().total());
   std::vector<std::size_t> pairs;
-  const std::size_t all = data.all_pairs();
-  for (std::size_t n = 0; n < all; n += all / most + 1) pairs.push_back(n);
-  return starts_of(data, dimension, pairs);
+  // Ranks know the first pairs of their own trajectories alone; those of all have the same length but for a
+  // few, so that pairs in the middle of nowhere are starts as good as any: states of the same motion.
+  for (const std::size_t m : detail::stratified(trajectories, most)) {
+    pairs.push_back(m * (data.all_pairs() / trajectories));
+  }
+  auto states = starts_of(data, size(system), pairs);
+  states.insert(states.end(), data.further_starts.begin(), data.further_starts.end());
+  return states;
 }
 
 }  // namespace nysalt
