@@ -149,10 +149,17 @@ class bundled_model final : public bundled_system {
   }
 
   stability_guard guard(bool rotations) const override {
-    states_in_double states;
-    constexpr std::uint64_t enough = 64;
-    for (std::uint64_t n = 0; n < enough; ++n) states.push_back(law_(1, n));
+    const auto states = detail::typical_and_energetic_starts(system_, law_, 1, 0, 64);
     return stability_guard(system_, states, rotations);
+  }
+
+  trial_result trial(const tabulated& method, const trajectories_plan& plan) const override {
+    states_in_double states =
+        starts_ ? detail::typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
+                : detail::typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
+    if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
+    return trial_run(system_, method, plan.step, states,
+                     {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
   }
 
   void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,

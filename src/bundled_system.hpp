@@ -22,6 +22,7 @@
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/until_enough.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/trial_run.hpp"
 #include "settings.hpp"
 
 namespace nysalt {
@@ -146,6 +147,9 @@ class bundled_system {
 
   /// Of its bands, or of the frequencies along some starts by its law.
   virtual stability_guard guard(bool rotations) const = 0;
+  /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
+  /// ones.
+  virtual trial_result trial(const tabulated& method, const trajectories_plan& plan) const = 0;
   /// Throws refusal for a word that the system does not serve.
   virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.

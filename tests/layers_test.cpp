@@ -27,7 +27,7 @@ const std::vector<std::vector<std::string>> layers{
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "communicator", "communicators/", "shard",
      "together", "progress_of_share", "ensemble", "ensembles/", "ensemble_blocks", "ensemble_threads",
-     "ensemble_loop", "integrate_ensemble", "ensemble_run", "flow_map_data"},
+     "ensemble_loop", "integrate_ensemble", "ensemble_run", "flow_map_data", "trial_run"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},
     {"report/"},

@@ -191,34 +191,37 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
 }
 
-/// Further starts of an ensemble: 128 in its order and the 64 most energetic of 896 that come next, as rare
-/// energetic starts meet the highest frequencies; fewer where states are large, or the ensemble has no more.
-/// Of an ensemble whose states are dear to make, as many as there are trajectories, 64 at most.
+/// Starts of an ensemble from number `first` on: 128 in its order and the 64 most energetic of 896 that come
+/// next, as energetic starts, which are rare, meet the highest frequencies; fewer where states are large, or
+/// the ensemble has no more. Of an ensemble whose states are dear to make, `most_of_dear` and 64 at most.
 template <SeparableSystem S, Ensemble<S> E>
-std::vector<phase_point<double, S::dimension>> further_starts_of(const S& system, const E& ensemble,
-                                                                 const data_options& options) {
+std::vector<phase_point<double, S::dimension>> typical_and_energetic_starts(
+    const S& system, const E& ensemble, std::uint64_t seed, std::int64_t first, std::int64_t most_of_dear) {
+  using T = scalar_of_lanes<lanes_of<S>>;
   using state = phase_point<double, S::dimension>;
   constexpr std::int64_t plain = 128;
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;
   constexpr double numbers = 2e6;  // 16 MB
-  constexpr bool are_dear = MakesBlocks<E, S, scalar_of_lanes<lanes_of<S>>>;
-  const auto fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
-  std::int64_t most = std::min(are_dear ? std::min(energetic, options.trajectories) : plain + pool, fit);
-  const std::int64_t first = options.first + options.trajectories;
-  if constexpr (requires {
-                  { ensemble.size() } -> std::convertible_to<std::size_t>;
-                }) {
+  bool is_dear = MakesBlocks<E, S, T>;
+  if constexpr (requires { ensemble.is_dear(); }) is_dear = ensemble.is_dear();
+  const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
+  std::int64_t most = std::min(is_dear ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
+  if constexpr (requires { ensemble.size(); }) {
     most = std::min(most, static_cast<std::int64_t>(ensemble.size()) - first);
   }
   std::vector<state> result;
   std::vector<std::pair<double, state>> by_energy;
-  for (std::int64_t n = 0; n < most; ++n) {
-    state start = sound_start(system, ensemble, options.seed, first + n);
-    if (n < plain) {
-      result.push_back(std::move(start));
-    } else if constexpr (HasEnergy<S>) {
-      by_energy.emplace_back(energy<double>(system, start), std::move(start));
+  for (std::int64_t n = 0; n < most; n += lanes_of<S>) {
+    const auto count = static_cast<int>(std::min<std::int64_t>(lanes_of<S>, most - n));
+    const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
+    for (int k = 0; k < count; ++k) {
+      state start = lane(block, k);
+      if (n + k < plain) {
+        result.push_back(std::move(start));
+      } else if constexpr (HasEnergy<S>) {
+        by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
+      }
     }
   }
   const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
@@ -333,7 +336,8 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
   });
   detail::add_up(data);
-  data.further_starts = detail::further_starts_of(system, ensemble, options);
+  data.further_starts = detail::typical_and_energetic_starts(
+      system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   if (options.ranks->is_alone()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);

@@ -214,8 +214,8 @@ BOOST_AUTO_TEST_CASE(stability_gives_windows) {
              plain +
                  " system:text step:number highest_frequency:number highest_z:number "
                  "frequency_source:text declared:number of_law:number along_starts:number starts:integer "
-                 "bands:list stable:flag margin:number gaps:list stable_steps:list safe_step:number "
-                 "warnings:list");
+                 "bands:list stable:flag margin:number gaps:list stable_steps:list linear_step:number "
+                 "trial:object linearly_stable:flag safe_step:number warnings:list");
   for (const auto& band : of_system["bands"]) {
     BOOST_TEST(shape(band) == "low:number high:number stable:flag margin:number touching:null");
     BOOST_TEST(band["stable"] == (band["high"] <= 2.0 / 0.05));
@@ -228,7 +228,8 @@ BOOST_AUTO_TEST_CASE(stability_of_words_that_rotate) {
       shape(all) ==
       "method:text letters:text coefficients:list order:integer evaluations_per_step:integer limit:null "
       "limit_per_evaluation:null windows:list touching:list system:text step:number stable:flag "
-      "magnification:object resonance:object warnings:list");
+      "magnification:object resonant_pair:null resonance:object trial:object linearly_stable:flag "
+      "safe_step:null warnings:list");
   BOOST_TEST(shape(all["magnification"]) == "mode:number factor:number steps:integer");
   BOOST_TEST(shape(all["resonance"]) == "mode:number multiple:number step:number");
 }

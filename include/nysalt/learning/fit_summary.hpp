@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nysalt/trial_run.hpp"
@@ -16,6 +18,12 @@ namespace nysalt {
 /// What to do with a fit. nothing_gained: it may be used, but a classical method that costs as much is as
 /// good.
 enum class verdict { usable, nothing_gained, not_usable };
+
+/// usable, nothing gained or not usable, as programs and files write it.
+constexpr std::string_view to_string(verdict v) {
+  constexpr std::array<std::string_view, 3> names{"usable", "nothing gained", "not usable"};
+  return names[static_cast<std::size_t>(v)];
+}
 
 /// One entry of theta.
 struct fitted_parameter {

@@ -229,9 +229,10 @@ fit solve(const learning_problem& problem) {
     if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
     std::ranges::stable_sort(members, {}, &detail::contender::loss);
   }
+  const bool has_settled = found.best.converged || found.best.in_valley || found.best.is_held;
   const bool is_chosen_sound = !options.guarded || chosen.withstands();
   for (const auto& member : members) {
-    if (!options.guarded) break;
+    if (!options.guarded || !has_settled) break;
     const bool may_replace = detail::is_better(member, chosen, share) || !is_chosen_sound;
     if (!may_replace || !member.withstands()) continue;
     if (!found.unguarded) found.unguarded = found.best;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -137,6 +138,10 @@ class fpu_chain {
   std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
+  }
+  /// In a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  std::vector<frequency_band> frequency_bands_at(double temperature) const {
+    return frequency_bands(std::max(2.0, 12.5 * temperature));
   }
   std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
 

@@ -93,6 +93,10 @@ class long_fpu_chain {
   std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
     return in_turn_.frequency_bands(soft_energy);
   }
+  /// As fpu_chain.
+  std::vector<frequency_band> frequency_bands_at(double temperature) const {
+    return in_turn_.frequency_bands_at(temperature);
+  }
   std::string description() const { return sentence("long_fpu_chain(pairs={}, omega={})", pairs(), omega()); }
 
  private:
