@@ -115,7 +115,9 @@ stability_guard guard_along(const S& system, const flow_map_data<S::dimension>& 
   auto [states, typical] = some_states(system, data);
   const auto extreme = some_states(system, held_out).states;
   states.insert(states.end(), extreme.begin(), extreme.end());
-  return {system, states, rotations, options.planned_steps, typical};
+  // Over ten thousand steps, as at first: what grows more slowly a trial run tells.
+  constexpr std::int64_t most_steps = 10'000;
+  return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
 }
 
 /// A loss other than those of loss_choice.

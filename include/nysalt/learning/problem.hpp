@@ -29,8 +29,8 @@ struct fit_options {
   int random_starts = 0;                           ///< beside all these, normal around the first
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
-  /// How many steps a run with the method will take at most: over so many the guard looks at growth, and so
-  /// long is a trial run. A proposal of Hybrid Monte Carlo takes few.
+  /// How many steps a run with the method will take at most: so long is a trial run, and over so many, up to
+  /// 10,000, the guard looks at growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
   bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
   std::uint64_t seed = 1;    ///< of the random starts

@@ -61,6 +61,10 @@ inline void require_same(const communicator& ranks, const Eigen::VectorXd& theta
 }
 
 inline void require_sound(const run_time_family& family, const fit_options& options) {
+  if (options.planned_steps < 1) {
+    throw std::invalid_argument(
+        fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));
+  }
   if (options.max_iterations < 0 || options.random_starts < 0) {
     throw std::invalid_argument(
         fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
