@@ -17,24 +17,24 @@
 namespace nysalt::detail {
 
 /// sum_k coefficient[k] x^k of any degree.
-struct polynomial {
+struct dense_polynomial {
   std::vector<double> coefficient;
 
-  polynomial times_x() const {
-    polynomial result{{0.0}};
+  dense_polynomial times_x() const {
+    dense_polynomial result{{0.0}};
     result.coefficient.insert(result.coefficient.end(), coefficient.begin(), coefficient.end());
     return result;
   }
-  polynomial& operator+=(const polynomial& b) {
+  dense_polynomial& operator+=(const dense_polynomial& b) {
     coefficient.resize(std::max(coefficient.size(), b.coefficient.size()));
     for (std::size_t k = 0; k < b.coefficient.size(); ++k) coefficient[k] += b.coefficient[k];
     return *this;
   }
-  polynomial& operator*=(double c) {
+  dense_polynomial& operator*=(double c) {
     for (double& a : coefficient) a *= c;
     return *this;
   }
-  friend polynomial operator*(double c, polynomial a) { return a *= c; }
+  friend dense_polynomial operator*(double c, dense_polynomial a) { return a *= c; }
 
   /// What is left of the value at x, divided by x^first, without the terms below x^first.
   double tail(std::size_t first, double x) const {
@@ -64,18 +64,18 @@ inline double stumpff(int k, double x) {
 /// from the others; but which does depends on z.
 inline Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
                                           bool symmetric, double x) {
-  const auto times_x = [](const polynomial& a) { return a.times_x(); };
-  polynomial qq{{1.0}}, pq{{0.0}}, qp{{0.0}}, pp{{1.0}};
+  const auto times_x = [](const dense_polynomial& a) { return a.times_x(); };
+  dense_polynomial qq{{1.0}}, pq{{0.0}}, qp{{0.0}}, pp{{1.0}};
   step_on_oscillator(word, coefficients, 0.0, times_x, qq, pq);
   step_on_oscillator(word, coefficients, 0.0, times_x, qp, pp);
-  polynomial half_trace = 0.5 * qq;
+  dense_polynomial half_trace = 0.5 * qq;
   half_trace += 0.5 * pp;
   Eigen::VectorXd defects(symmetric ? 3 : 4);
   defects[0] = half_trace.tail(2, x) - stumpff(4, x);
   defects[1] = qp.tail(1, x) + stumpff(3, x);
   defects[2] = pq.tail(2, x) - stumpff(3, x);
   if (!symmetric) {
-    polynomial half_difference = 0.5 * qq;
+    dense_polynomial half_difference = 0.5 * qq;
     half_difference += -0.5 * pp;
     defects[3] = half_difference.tail(1, x);
   }
