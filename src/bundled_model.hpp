@@ -31,6 +31,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/learning/extend_data.hpp"
 #include "nysalt/learning/make_problem.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
@@ -89,6 +90,10 @@ class bundled_model final : public bundled_system {
   std::vector<frequency_band> frequency_bands() const override {
     if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
     return {};
+  }
+  std::optional<double> frequency_to_fit() const override {
+    if constexpr (HasModes<S> || HasFrequencyBands<S>) return detail::frequency_to_fit(system_);
+    return std::nullopt;
   }
   std::vector<std::string> observables() const override { return observable_names(system_); }
   void require_observable(const std::string& name) const override { observable<double>(system_, name); }

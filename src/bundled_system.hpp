@@ -127,6 +127,9 @@ class bundled_system {
   virtual nlohmann::ordered_json parameters() const = 0;
   /// Empty if there is no bound.
   virtual std::vector<frequency_band> frequency_bands() const = 0;
+  /// The frequency whose phase is kept by phase-fitted methods; nothing if neither modes nor bands are
+  /// declared.
+  virtual std::optional<double> frequency_to_fit() const = 0;
   virtual std::vector<std::string> observables() const = 0;
   /// Throws refusal for one that there is not, before any work is done.
   virtual void require_observable(const std::string& name) const = 0;

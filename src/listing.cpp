@@ -5,7 +5,6 @@
 
 #include "bundled_system.hpp"
 #include "catalogue.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "stability.hpp"
 
 namespace nysalt::program {
@@ -50,12 +49,14 @@ json methods_json() {
                    {"limit_per_evaluation", limit},
                    {"source", source}});
   }
-  all.push_back({{"name", adaptive_method},
-                 {"letters", s_aia2::word::letters()},
-                 {"order", s_aia2::order},
-                 {"evaluations_per_step", s_aia2::word::evaluations_per_step},
-                 {"limit_per_evaluation", nullptr},
-                 {"source", adaptive_source}});
+  for (const auto& known : adaptive_methods()) {
+    all.push_back({{"name", known.name},
+                   {"letters", known.letters.letters()},
+                   {"order", known.properties.order},
+                   {"evaluations_per_step", known.letters.evaluations_per_step},
+                   {"limit_per_evaluation", nullptr},
+                   {"source", known.source}});
+  }
   return all;
 }
 

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "catalogue.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"
 #include "stability_margin.hpp"
@@ -60,10 +58,13 @@ method_source find_method(const std::string& typed, const held_methods& held) {
   for (const auto& known : classical_methods()) {
     if (known.method.name() == text) source.fixed = known.method;
   }
+  for (const auto& known : adaptive_methods()) {
+    if (known.name == text) source.adaptive = &known;
+  }
   if (source.fixed) {
     source.evaluations_per_step = source.fixed->letters().evaluations_per_step;
-  } else if (text == adaptive_method) {
-    source.evaluations_per_step = s_aia2::word::evaluations_per_step;
+  } else if (source.adaptive != nullptr) {
+    source.evaluations_per_step = source.adaptive->letters.evaluations_per_step;
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
     source.evaluations_per_step = family_named(*source.family).letters.evaluations_per_step;
@@ -115,14 +116,14 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
     return from_scheme(source, system, step, force);
   }
-  if (source.is_adaptive()) {
-    const auto fastest = highest_frequency(system);
-    if (!fastest) {
+  if (source.adaptive != nullptr) {
+    const auto frequency = source.adaptive->frequency(system);
+    if (!frequency) {
       refuse("{} needs a highest frequency, and {} declares none: take another method", source.typed,
              system.description());
     }
     try {
-      return tabulated(s_aia2(step * *fastest));
+      return source.adaptive->at(step * *frequency);
     } catch (const std::invalid_argument& problem) {
       refuse("{} at step {}: {}", source.typed, step, problem.what());
     }

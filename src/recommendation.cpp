@@ -9,7 +9,6 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/served_letters.hpp"
 #include "seconds.hpp"
 #include "seeds.hpp"
@@ -77,8 +76,8 @@ void recommendation::plan_classical() {
       its.symmetric = method.symmetric;
       its.rotates = has_rotation(method.letters());
     } else {
-      its.order = s_aia2::order;
-      its.symmetric = s_aia2::symmetric;
+      its.order = its.source.adaptive->properties.order;
+      its.symmetric = its.source.adaptive->properties.symmetric;
     }
     consider(std::move(its));
   }
@@ -171,7 +170,7 @@ void recommendation::prepare(candidate& its, const std::vector<double>& from, bo
     its.method = its.learned->method;
     const fit_summary& fit = its.learned->fit;
     if (!fit.usable) its.reason = "the fit is not usable: " + fit.reason;
-  } catch (const refusal& problem) {  // s_aia2 where it is not defined
+  } catch (const refusal& problem) {  // an adaptive method where it is not defined
     its.reason = problem.what();
   }
 }

@@ -22,7 +22,7 @@ const std::vector<std::vector<std::string>> layers{
     {"system", "requirements", "force", "energy", "energy_range", "lanes", "bath", "noise", "noise_intervals",
      "quadratic_part", "stiffness_modes", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "conservative_part", "noise_seam", "prepared_word",
-     "prepared_run_time_word", "palindrome", "served_letters", "stepper"},
+     "prepared_run_time_word", "palindrome", "served_letters", "stepper", "step_on_oscillator"},
     {"langevin", "family", "families/", "run_time_family", "theta_curve", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
     {"derivatives/", "reference", "references/", "tree_sum", "communicator", "communicators/", "shard",

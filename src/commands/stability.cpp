@@ -44,7 +44,7 @@ subject subject_of(const stability_command& command, const bundled_system* syste
     return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
   if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
   if (source.fixed) return {source.typed, *source.fixed};
-  if (source.is_adaptive()) {
+  if (source.adaptive != nullptr) {
     refuse("{} depends on step and highest frequency: give --step, and --system if it is not fpu",
            source.typed);
   }

@@ -20,10 +20,13 @@
 #include "nysalt/ensembles/kepler_law.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/chin.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -67,15 +70,17 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
   const auto must_all_be = [](const std::string& metric, const error_measure<6>& measure) {
     const auto all = document(
-        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b --steps 0.02 --fine-step 1e-4 "
+        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b,phase_fitted_chin4a --steps 0.02 "
+        "--fine-step 1e-4 "
         "--trajectories 20 "
         "--learn-trajectories 5 " +
         metric);
     const auto& theta = all["fits"][0]["parameters"];
-    BOOST_REQUIRE(all["rows"].size() == 3U);
+    BOOST_REQUIRE(all["rows"].size() == 4U);
     must_be(all["rows"][0], member<nystrom>({theta["b1"], theta["beta1"]}), measure);
     must_be(all["rows"][1], s_aia2(.02 * chain.frequency_bands().back().high), measure);
     must_be(all["rows"][2], srkn6b(), measure);
+    must_be(all["rows"][3], phase_fitted_for<fg_chin, chin4a>(chain, .02), measure);
   };
   must_all_be("", path_measure(chain, stiff_energy));
   must_all_be("--observable kinetic_energy", path_measure(chain, kinetic));

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/step_on_oscillator.hpp"
 
 namespace nysalt {
 
