@@ -11,7 +11,9 @@
 #include <random>
 #include <ranges>
 #include <stdexcept>
+#include <vector>
 
+#include "nysalt/derivatives/differences.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
 #include "nysalt/force.hpp"
 
@@ -32,9 +34,9 @@ struct stiffness_range {
 
 /// Over all states (a range of phase_point<double, N>), of the whole force or of its soft part. Both ends are
 /// known to 1 % and mostly rounded outwards, see ends_of_spectrum(); who needs a bound adds a percent. The
-/// same states give the same bits. Cost: some 8 to 40 directional derivatives a state, less below 8
-/// dimensions. Throws std::invalid_argument if there are no states, or one where the force has no finite
-/// derivative.
+/// same states give the same bits. Differences of a black box go a part of how far the states lie apart.
+/// Cost: some 8 to 40 directional derivatives a state, less below 8 dimensions. Throws std::invalid_argument
+/// if there are no states, or one where the force has no finite derivative.
 template <field F = field::whole, NystromSystem S>
   requires ForceDerivativeOver<S, double, F> stiffness_range
   stiffness_along(const S& system, const std::ranges::range auto& states) {
@@ -55,10 +57,26 @@ template <field F = field::whole, NystromSystem S>
     lifted_room<double, S::dimension> room(n);
     auto v = make_vector<double>(system);
     auto g = make_vector<double>(system);
+    constexpr bool differs = F == field::whole && derivative_calls<S> == 2;
+    Eigen::VectorXd lengths;
+    auto f = v;
+    if constexpr (differs) {
+      std::vector<Eigen::VectorXd> points;
+      for (const auto& state : states) points.push_back(state.q);
+      if (!points.empty()) lengths = detail::lengths_of(points);
+    }
     for (const auto& state : states) {
+      if constexpr (differs) system.force(state.q, f);
       const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
         v = root.cwiseProduct(x);
-        force_along<F, double>(system, state.q, v, g, room);
+        if constexpr (differs) {
+          const double times = v.cwiseQuotient(lengths).cwiseAbs().maxCoeff();  // of a displacement
+          v /= times;
+          directional_derivative(system, state.q, v, f, g);
+          g *= times;
+        } else {
+          force_along<F, double>(system, state.q, v, g, room);
+        }
         return -root.cwiseProduct(g);
       };
       const auto ends = ends_of_spectrum(multiply, start);
