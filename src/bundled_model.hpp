@@ -363,6 +363,8 @@ class bundled_model final : public bundled_system {
              progress);
   }
 
+  int derivative_calls() const override { return nysalt::derivative_calls<S>; }
+
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
     return evaluations_of_run(system_, method, plan.step, plan.steps, (*starts_)(plan.seed, 0));
   }
