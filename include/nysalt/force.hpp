@@ -60,47 +60,62 @@ void black_box_derivative(const S& system, const vector<double, S::dimension>& q
 inline constexpr double noise_of_forces = 1e4 * std::numeric_limits<double>::epsilon();
 
 /// result = d/ds value_at(s, vector) at 0 by central differences, `middle` being the value there. The step is
-/// part_of_displacement at first. It falls while the value bends: while the second difference is more than a
-/// small part of the first, and exceeds `noise`. It rises, up to `farthest`, while the first is hardly above
-/// the noise. Entries are summed with the weights |v_i|, so that no unit of a coordinate matters. Cost: 2
-/// values for each step that is tried.
+/// part_of_displacement at first. It rises, up to `farthest`, while the first difference is hardly above the
+/// `noise` of values. Where the second difference is more than a small part of the first, and more than
+/// noise, or the first nearly as large as the value itself, as it is where the displacement is far too long,
+/// the step falls until the slopes at two steps agree, or agree no better. Entries are summed with the
+/// weights |v_i|, so that no unit of a coordinate matters. Cost: 2 values for each step that is tried.
 template <class V>
 void adapted_difference(const auto& value_at, const V& middle, const V& v, double noise, double farthest,
                         V& result) {
-  constexpr double bent = 3e-4;         // of a sine, s = 6e-4 L: the error s^2/(6 L^2) is below 1e-7
-  constexpr double hardly_bent = 0.03;  // what grows again from there is noise
-  constexpr int most = 40;              // powers of ten
+  constexpr double bent = 3e-4;    // of a sine, s = 6e-4 L: the error s^2/(6 L^2) is below 1e-7
+  constexpr double agreed = 1e-5;  // with ten times the step: the error is a hundredth of that
+  constexpr double noisy = 0.03;   // what agrees as well as that, and no better at a smaller step
+  constexpr int most = 40;         // powers of ten
   double s = part_of_displacement;
-  double least = std::numeric_limits<double>::infinity();
+  double least_change = std::numeric_limits<double>::infinity();
   V behind = middle;
+  V before = middle;
   V best = middle;
   bool has_fallen = false;
   for (int n = 0; n < most; ++n) {
     value_at(s, result);
     value_at(-s, behind);
+    double size = 0.0;
     double first = 0.0;
     double second = 0.0;
+    double slope = 0.0;
+    double change = 0.0;
     for (Eigen::Index i = 0; i < v.size(); ++i) {
+      size += std::abs(v[i] * middle[i]);
       first += std::abs(v[i] * (result[i] - behind[i]));
       second += std::abs(v[i] * (result[i] - 2.0 * middle[i] + behind[i]));
       result[i] = (result[i] - behind[i]) / (2.0 * s);
+      slope += std::abs(v[i] * result[i]);
+      change += std::abs(v[i] * (result[i] - before[i]));
     }
-    if (second > bent * first && second > noise) {
-      if (second < least * first) {
-        least = second / first;
-        best = result;
-      } else if (least < hardly_bent) {
-        break;
+    const bool is_bent = second > bent * first && second > noise;
+    const bool is_far = first > 0.1 * size && first > noise;
+    if (is_bent || is_far) {
+      if (has_fallen) {
+        if (change <= agreed * slope) return;
+        if (change < least_change * slope) {
+          least_change = change / slope;
+          best = result;
+        } else if (least_change < noisy) {
+          break;
+        }
       }
-      s *= 0.1;
+      before = result;
       has_fallen = true;
-    } else if (first < 1e4 * noise && !has_fallen && 10.0 * s <= farthest) {
+      s *= 0.1;
+    } else if (first < 1e5 * noise && !has_fallen && 10.0 * s <= farthest) {
       s *= 10.0;
     } else {
       return;
     }
   }
-  if (least < std::numeric_limits<double>::infinity()) result = best;
+  if (least_change < std::numeric_limits<double>::infinity()) result = best;
 }
 
 /// How many times v, displacements may be without going beyond 1e-4 of where q is.
