@@ -154,14 +154,14 @@ class bundled_model final : public bundled_system {
   }
 
   stability_guard guard(bool rotations) const override {
-    const auto states = detail::typical_and_energetic_starts(system_, law_, 1, 0, 64);
+    const auto states = typical_and_energetic_starts(system_, law_, 1, 0, 64);
     return stability_guard(system_, states, rotations);
   }
 
   trial_result trial(const tabulated& method, const trajectories_plan& plan) const override {
     states_in_double states =
-        starts_ ? detail::typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
-                : detail::typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
+        starts_ ? typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
+                : typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
     if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
     return trial_run(system_, method, plan.step, states,
                      {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
@@ -374,6 +374,8 @@ class bundled_model final : public bundled_system {
     run_from(starts_type(system_, nysalt::listed<S::dimension>(std::move(states))), method, sampled, take,
              progress);
   }
+
+  int derivative_calls() const override { return nysalt::derivative_calls<S>; }
 
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
     return evaluations_of_run(system_, method, plan.step, plan.steps, (*starts_)(plan.seed, 0));

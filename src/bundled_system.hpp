@@ -207,6 +207,8 @@ class bundled_system {
   virtual void integrate(const tabulated& method, const trajectories_plan& plan, std::span<double> q,
                          std::span<double> p, const counter& progress) const = 0;
 
+  /// Calls of the system that one f'(q) v takes in a gradient kick.
+  virtual int derivative_calls() const = 0;
   /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
   /// step after them costs the same.
   virtual std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const = 0;

@@ -81,6 +81,7 @@ void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : command_.methods) {
     sources.push_back(find_method(typed, command_.held));
+    charge(sources.back(), *system_);
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
   }

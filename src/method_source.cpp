@@ -19,11 +19,15 @@ namespace {
 
 constexpr std::string_view to_learn = "learned:";
 
+void count(method_source& source, const auto& word) {
+  source.evaluations_per_step = word.evaluations_per_step;
+  source.force_derivatives = word.force_derivatives;
+}
+
 void take_file(method_source& source, method_file file) {
   source.learned = std::move(file.learned);
   source.fixed = std::move(file.table);
-  source.evaluations_per_step =
-      source.learned ? source.learned->evaluations_per_step() : source.fixed->letters().evaluations_per_step;
+  count(source, source.learned ? source.learned->letters() : source.fixed->letters());
 }
 
 bool is_file_name(const std::string& text) {
@@ -62,12 +66,12 @@ method_source find_method(const std::string& typed, const held_methods& held) {
     if (known.name == text) source.adaptive = &known;
   }
   if (source.fixed) {
-    source.evaluations_per_step = source.fixed->letters().evaluations_per_step;
+    count(source, source.fixed->letters());
   } else if (source.adaptive != nullptr) {
-    source.evaluations_per_step = source.adaptive->letters.evaluations_per_step;
+    count(source, source.adaptive->letters);
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
-    source.evaluations_per_step = family_named(*source.family).letters.evaluations_per_step;
+    count(source, family_named(*source.family).letters);
   } else if (is_file_name(text)) {
     take_file(source, read_method_file(text));
   } else {
@@ -75,6 +79,10 @@ method_source find_method(const std::string& typed, const held_methods& held) {
            text, listed(method_names()), listed(family_names()));
   }
   return source;
+}
+
+void charge(method_source& source, const bundled_system& system) {
+  source.evaluations_per_step += (system.derivative_calls() - 1) * source.force_derivatives;
 }
 
 bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }

@@ -115,6 +115,7 @@ bool recommendation::is_fixed_in(const run_time_family& family) const {
 /// Takes part, or is left out with the reason why.
 void recommendation::consider(candidate its) {
   const std::string name = its.source.typed;
+  charge(its.source, *system_);
   const auto leave_out = [&](const std::string& why) { left_out_.emplace_back(name, why); };
   if ((command_.reversible || command_.metric == "acceptance") && !its.symmetric) {
     return leave_out("it is not reversible");

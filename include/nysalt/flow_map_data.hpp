@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "nysalt/energy_range.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/progress_of_share.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/shard.hpp"
@@ -191,60 +193,32 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
 }
 
-/// Starts of an ensemble from number `first` on: 128 in its order and the 64 most energetic of 896 that come
-/// next, as energetic starts, which are rare, meet the highest frequencies; fewer where states are large, or
-/// the ensemble has no more. Of an ensemble whose states are dear to make, `most_of_dear` and 64 at most.
-template <SeparableSystem S, Ensemble<S> E>
-std::vector<phase_point<double, S::dimension>> typical_and_energetic_starts(
-    const S& system, const E& ensemble, std::uint64_t seed, std::int64_t first, std::int64_t most_of_dear) {
-  using T = scalar_of_lanes<lanes_of<S>>;
-  using state = phase_point<double, S::dimension>;
-  constexpr std::int64_t plain = 128;
-  constexpr std::int64_t energetic = 64;
-  constexpr std::int64_t pool = 896;
-  constexpr double numbers = 2e6;  // 16 MB
-  bool is_dear = MakesBlocks<E, S, T>;
-  if constexpr (requires { ensemble.is_dear(); }) is_dear = ensemble.is_dear();
-  const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
-  std::int64_t most = std::min(is_dear ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
-  if constexpr (requires { ensemble.size(); }) {
-    most = std::min(most, static_cast<std::int64_t>(ensemble.size()) - first);
-  }
-  std::vector<state> result;
-  std::vector<std::pair<double, state>> by_energy;
-  for (std::int64_t n = 0; n < most; n += lanes_of<S>) {
-    const auto count = static_cast<int>(std::min<std::int64_t>(lanes_of<S>, most - n));
-    const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
-    for (int k = 0; k < count; ++k) {
-      state start = lane(block, k);
-      if (n + k < plain) {
-        result.push_back(std::move(start));
-      } else if constexpr (HasEnergy<S>) {
-        by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
-      }
-    }
-  }
-  const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
-  const auto is_higher = [](const auto& a, const auto& b) { return a.first > b.first; };
-  std::partial_sort(by_energy.begin(), by_energy.begin() + taken, by_energy.end(), is_higher);
-  for (std::ptrdiff_t k = 0; k < taken; ++k) {
-    result.push_back(std::move(by_energy[static_cast<std::size_t>(k)].second));
+/// Numbers of some pairs of all, rising: one somewhere in each of as many equal parts. Where is drawn, so
+/// that no length of trajectories makes all of them starts, say.
+inline std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
+  std::mt19937_64 bits{1};
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t from = all / most * k + all % most * k / most;
+    const std::size_t to = all / most * (k + 1) + all % most * (k + 1) / most;
+    const double share = static_cast<double>(bits() >> 11U) * 0x1p-53;
+    if (from == to) continue;
+    result.push_back(from + static_cast<std::size_t>(share * static_cast<double>(to - from)));
   }
   return result;
 }
 
-/// finish = that of the finer reference from the same start, for every so many of all pairs.
+/// finish = that of the finer reference from the same start, for a few of all pairs.
 template <SeparableSystem S, Reference<S> R>
 std::int64_t check_reference(const S& system, const R& reference, const data_options& options,
                              flow_map_data<S::dimension>& data) {
   constexpr std::size_t checks = 16;  // enough for the size of an error
   const counted<S> watched(system);
   const R finer = reference.finer();
-  std::size_t trajectory = 0;
-  const std::size_t between = data.all_pairs() / checks + 1;
-  const std::size_t from_here = (between - data.first_pair() % between) % between;
-  for (std::size_t pair = from_here; pair < data.pairs(); pair += between) {
-    while (data.first_of[trajectory + 1] <= pair) ++trajectory;
+  for (const std::size_t number : spread_pairs(data.all_pairs(), checks)) {
+    if (number < data.first_pair() || number >= data.first_pair() + data.pairs()) continue;
+    const std::size_t pair = number - data.first_pair();
+    const std::size_t trajectory = data.trajectory_of(pair);
     const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
                         static_cast<std::int64_t>(pair - data.first_of[trajectory])};
     data.finer.emplace_back(pair, data.start[pair]);
@@ -336,7 +310,7 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
   });
   detail::add_up(data);
-  data.further_starts = detail::typical_and_energetic_starts(
+  data.further_starts = typical_and_energetic_starts(
       system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   if (options.ranks->is_alone()) data.shared.reset();
   data.step = options.step;

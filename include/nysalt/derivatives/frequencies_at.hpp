@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/force.hpp"
@@ -25,18 +26,16 @@ template <class S>
 concept HasDifferentiableVelocity = NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
     (HasKineticEnergy<S, double>&& HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
 
-/// V''(q), or that of the soft part.
+/// V''(q), or that of the soft part, where the Jacobian of the force is taken.
 template <field F, System S>
-Eigen::MatrixXd potential_hessian(const S& system, const vector<double, S::dimension>& q) {
-  const Eigen::Index n = size(system);
-  lifted_room<double, S::dimension> room(n);
-  auto v = make_vector<double>(system);
-  auto g = make_vector<double>(system);
+Eigen::MatrixXd potential_hessian(force_jacobian<F, S>& jacobian, const vector<double, S::dimension>& q) {
+  const Eigen::Index n = q.size();
+  jacobian.move_to(q);
+  vector<double, S::dimension> v = q;
   Eigen::MatrixXd hessian(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     for (Eigen::Index i = 0; i < n; ++i) v[i] = i == j ? 1.0 : 0.0;
-    force_along<F, double>(system, q, v, g, room);
-    for (Eigen::Index i = 0; i < n; ++i) hessian(i, j) = -g[i];
+    hessian.col(j) = -jacobian.times(v);
   }
   return 0.5 * (hessian + hessian.transpose());
 }
@@ -76,11 +75,12 @@ Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimensio
 /// the eigenvalues of a matrix of that size.
 template <SeparableSystem S>
   requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
-      const S& system, const phase_point<double, S::dimension>& state) {
+      const S& system, force_jacobian<field::whole, S>& jacobian,
+      const phase_point<double, S::dimension>& state) {
     const Eigen::MatrixXd factor = detail::kinetic_factor(system, state.p);
     if (factor.size() == 0) return {};
     const Eigen::MatrixXd stiffness =
-        factor.transpose() * detail::potential_hessian<field::whole>(system, state.q) * factor;
+        factor.transpose() * detail::potential_hessian(jacobian, state.q) * factor;
     if (!stiffness.allFinite()) {
       throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
     }
@@ -88,6 +88,14 @@ template <SeparableSystem S>
     std::vector<double> result;
     for (const double x : solver.eigenvalues()) result.push_back(std::sqrt(std::max(0.0, x)));
     return result;
+  }
+
+/// The same at a single state.
+template <SeparableSystem S>
+  requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
+      const S& system, const phase_point<double, S::dimension>& state) {
+    force_jacobian<field::whole, S> jacobian(system, std::span(&state, 1));
+    return frequencies_at(system, jacobian, state);
   }
 
 /// Frequencies along some states.
@@ -123,13 +131,15 @@ frequencies_along frequencies_of_states(const S& system, const std::ranges::rang
   if constexpr (detail::HasDifferentiableVelocity<S> && ForceDerivativeOver<S, double, field::whole>) {
     if (size(system) <= most_for_all_frequencies) {
       result.are_complete = true;
-      for (const auto& state : states) result.of_state.push_back(frequencies_at(system, state));
+      force_jacobian<field::whole, S> jacobian(system, states);
+      for (const auto& state : states) result.of_state.push_back(frequencies_at(system, jacobian, state));
       return result;
     }
   }
   if constexpr (NystromSystem<S>) {
-    for (const auto& state : states) {
-      result.of_state.push_back({stiffness_along(system, std::span(&state, 1)).highest_frequency()});
+    if (std::ranges::empty(states)) return result;
+    for (const double square : stiffness_along(system, states).highest_of_state) {
+      result.of_state.push_back({std::sqrt(std::max(0.0, square))});
     }
   }
   return result;

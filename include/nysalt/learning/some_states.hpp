@@ -3,14 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/force.hpp"
 
 namespace nysalt {
 
@@ -38,23 +39,6 @@ std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eige
 
 namespace detail {
 
-/// `most` of the numbers below `all`, which rise: one at random in each of so many equal parts, always the
-/// same. Evenly spaced numbers would meet a period of the data, such as the length of trajectories.
-inline std::vector<std::size_t> stratified(std::size_t all, std::size_t most) {
-  std::vector<std::size_t> result;
-  if (all <= most) {
-    for (std::size_t n = 0; n < all; ++n) result.push_back(n);
-    return result;
-  }
-  std::mt19937_64 bits{1};
-  for (std::size_t k = 0; k < most; ++k) {
-    const std::size_t begin = k * all / most;
-    const std::size_t end = (k + 1) * all / most;
-    result.push_back(begin + bits() % (end - begin));
-  }
-  return result;
-}
-
 /// Numbers, among those of all ranks, of the pairs at whose starts the force changes most along itself and
 /// along a direction of chance: where the highest frequency may be.
 template <SeparableSystem S>
@@ -62,23 +46,23 @@ std::vector<std::size_t> stiffest_pairs(const S& system, const flow_map_data<S::
                                         std::size_t most) {
   std::vector<double> scored;  // a score and a number, of one pair after the other
   if constexpr (ForceDerivativeOver<S, double, field::whole>) {
-    const Eigen::Index n = size(system);
-    lifted_room<double, S::dimension> room(n);
-    auto f = make_vector<double>(system);
-    auto g = make_vector<double>(system);
+    const auto motion = starts_of(data, size(system), spread_pairs(data.all_pairs(), most));
+    force_jacobian<field::whole, S> jacobian(system, motion);
+    auto v = make_vector<double>(system);
     std::mt19937_64 bits{1};
-    auto chance = f;
+    auto chance = v;
     for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
     chance /= chance.norm();
     std::vector<std::pair<double, std::size_t>> scores;
     for (std::size_t pair = 0; pair < data.pairs(); ++pair) {
       const auto& q = data.start[pair].q;
-      force<double>(system, q, f);
-      const double length = f.norm();
-      if (length > 0.0) f /= length;
-      f += chance;
-      force_along<field::whole, double>(system, q, f, g, room);
-      scores.emplace_back(-g.norm(), data.first_pair() + pair);  // the largest come first
+      force<double>(system, q, v);
+      const double length = v.norm();
+      if (length > 0.0) v /= length;
+      v += chance;
+      jacobian.move_to(q);
+      const double score = jacobian.times(v).norm();
+      if (std::isfinite(score)) scores.emplace_back(-score, data.first_pair() + pair);  // the largest first
     }
     const auto kept = static_cast<std::ptrdiff_t>(std::min(most, scores.size()));
     std::partial_sort(scores.begin(), scores.begin() + kept, scores.end());
@@ -113,7 +97,7 @@ template <SeparableSystem S>
 states_of_data<S::dimension> some_states(const S& system, const flow_map_data<S::dimension>& data) {
   constexpr std::size_t spread = 128;
   constexpr std::size_t stiffest = 32;
-  auto result = starts_of(data, size(system), detail::stratified(data.all_pairs(), spread));
+  auto result = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), spread));
   const std::size_t typical = result.size();
   auto pairs = detail::stiffest_pairs(system, data, stiffest);
   std::ranges::sort(pairs);
@@ -132,7 +116,7 @@ std::vector<phase_point<double, S::dimension>> starts_of_trial(const S& system,
   std::vector<std::size_t> pairs;
   // Ranks know the first pairs of their own trajectories alone; those of all have the same length but for a
   // few, so that pairs in the middle of nowhere are starts as good as any: states of the same motion.
-  for (const std::size_t m : detail::stratified(trajectories, most)) {
+  for (const std::size_t m : detail::spread_pairs(trajectories, most)) {
     pairs.push_back(m * (data.all_pairs() / trajectories));
   }
   auto states = starts_of(data, size(system), pairs);

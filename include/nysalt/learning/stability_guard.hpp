@@ -305,13 +305,14 @@ class stability_guard {
     const normal_modes modes = system.modes();
     mean_soft_ = Eigen::MatrixXd::Zero(n, n);
     std::size_t number = 0;
+    force_jacobian<field::soft, S> jacobian(system, states);
     for (const auto& state : states) {
       // Evenly spread: the k-th of those that are looked at is the state count * k / enough.
       const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
       ++number;
       if (count > enough && !is_looked_at) continue;
       const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
-      const Eigen::MatrixXd soft = root * detail::potential_hessian<field::soft>(system, state.q) * root;
+      const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
       soft_.push_back(modes.basis.transpose() * soft * modes.basis);
       mean_soft_ += soft_.back();
     }
