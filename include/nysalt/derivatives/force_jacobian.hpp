@@ -18,7 +18,12 @@ class force_jacobian {
  public:
   /// Of the motion that passes through these states (a range of phase_point<double, N>).
   force_jacobian(const S& system, const std::ranges::range auto& states)
-      : system_(&system), room_(size(system)), q_(make_vector<double>(system)), v_(q_), f_(q_), g_(q_) {
+      : system_(&system),
+        room_(size(system)),
+        q_(vector<double, S::dimension>::Zero(size(system))),
+        v_(q_),
+        f_(q_),
+        g_(q_) {
     if constexpr (differs) {
       std::vector<Eigen::VectorXd> points;
       for (const auto& state : states) points.push_back(state.q);

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
@@ -89,6 +91,19 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
   require_in_range(family, first);
 }
 
+/// The member of the family whose step is exact on an oscillator of the highest frequency that is met often;
+/// nothing if there is none.
+inline std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
+  double highest = 0.0;
+  for (const auto& band : problem.guard.frequencies(met::often)) {
+    // Of a band from zero the end; of a narrow one the middle, where the modes are.
+    highest = std::max(highest, band.low > 0.0 ? std::midpoint(band.low, band.high) : band.high);
+  }
+  const double z = problem.step * highest;
+  if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
+  return phase_fitted_start(problem.family, z);
+}
+
 /// How many trajectories of how many steps a trial takes.
 struct trial_length {
   std::int64_t trajectories = 0;
@@ -159,7 +174,12 @@ fit solve(const learning_problem& problem) {
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  const auto starts = detail::starts_of(family, options, free);
+  auto starts = detail::starts_of(family, options, free);
+  const auto fitted = detail::phase_fitted_member(problem);
+  if (fitted && !options.start) {
+    starts.push_back(*fitted);
+    detail::fix(options, starts.back().theta);
+  }
   const bool has_data = !problem.law;
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
@@ -231,6 +251,7 @@ fit solve(const learning_problem& problem) {
       if (known.name != "further start") members.push_back(member_at(known.name, known.theta));
     }
     if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
+    if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
     std::ranges::stable_sort(members, {}, &detail::contender::loss);
   }
   const bool has_settled = found.best.converged || found.best.in_valley || found.best.is_held;

@@ -11,7 +11,9 @@
 #include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/mclachlan_atela.hpp"
+#include "nysalt/methods/omelyan.hpp"
 #include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/predescu.hpp"
 #include "nysalt/methods/repeated.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/takahashi_imada.hpp"
@@ -19,10 +21,15 @@
 
 namespace nysalt {
 
-/// Methods with fixed coefficients and without letters O, cheapest first: what a learned method is compared
-/// with.
+/// Methods with fixed coefficients and without letters O: what a learned method is compared with.
 inline std::vector<tabulated> classical_methods() {
-  return {tabulated(verlet{}),
+  return {tabulated(bcss4{}),
+          tabulated(predescu3{}),
+          tabulated(vefrl{}),
+          tabulated(omelyan5v{}),
+          tabulated(omelyan5p{}),
+          tabulated(omelyan_fg4{}),
+          tabulated(verlet{}),
           tabulated(verlet_aba{}),
           tabulated(impulse{}),
           tabulated(mclachlan2{}),
