@@ -34,8 +34,8 @@ Eigen::VectorXd learned_for(const units& its, double factor = 1.0) {
   return theta;
 }
 
-/// Gradients of the loss are off by 1e-7 of themselves or less, and theta by that times the condition of the
-/// Hessian, which is below 10 in the directions that count.
+/// Derivatives are off by 1e-8 of themselves, and theta by that times the root of the Hessian's condition,
+/// which is below 100.
 template <Family F>
 void check(const std::vector<units>& all) {
   const Eigen::VectorXd expected = learned_for<F, open_wells<2>>(units());

@@ -6,6 +6,10 @@
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/counted.hpp"
+#include "nysalt/lanes.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -104,6 +108,80 @@ BOOST_AUTO_TEST_CASE(of_a_black_box_it_is_a_difference) {
                  100.0 * s * s / 6.0 * 2.0 + 8.0 * eps / (100.0 * s * s));
   const vector<double, 1> none(0.0);
   BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
+}
+
+namespace {
+
+/// Without the derivative by hand.
+template <class S>
+struct automatic {
+  static constexpr int dimension = S::dimension;
+  S system;
+  Eigen::Index size() const { return system.size(); }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    system.force(q, f);
+  }
+};
+
+template <Scalar T, class S>
+void check_by_hand(const S& system, const Eigen::VectorXd& q) {
+  static_assert(HasForceDerivative<S, T> && !HasForceDerivative<automatic<S>, T>);
+  draws random;
+  auto at = make_vector<T>(system);
+  auto v = at;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    at[i] = T(q[i] + random.uniform(-0.02, 0.02));
+    v[i] = T(random.uniform(-1.0, 1.0));
+  }
+  const auto found = along<field::whole, T>(system, at, v);
+  const auto expected = along<field::whole, T>(automatic<S>{system}, at, v);
+  double size = 0.0;
+  for (Eigen::Index i = 0; i < at.size(); ++i) size = std::max(size, std::abs(lane(expected[i], 0)));
+  for (Eigen::Index i = 0; i < at.size(); ++i) {  // sums of some terms that cancel
+    BOOST_TEST(std::abs(lane(found[i] - expected[i], 0)) <= 100.0 * eps * size);
+  }
+  BOOST_TEST(size > 0.1);
+}
+
+/// Another force, and by no word of its own another derivative.
+struct stronger : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  template <class T>
+  void force(const vector<T, 6>& q, vector<T, 6>& f) const {
+    fpu_chain<3>::force(q, f);
+    for (auto& entry : f) entry = entry * 2.0;
+  }
+};
+static_assert(HasForceDerivative<fpu_chain<3>> && !HasForceDerivative<stronger>);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
+  const auto all = [](const auto& system, const Eigen::VectorXd& q) {
+    check_by_hand<double>(system, q);
+    check_by_hand<pack<double, 4>>(system, q);
+  };
+  const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
+  all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
+  all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
+  for (const double omega : {2.0, 50.0}) {
+    all(fpu_chain<1>(omega), waves.head(2));
+    all(fpu_chain<3>(omega), waves.head(6));
+    all(fpu_chain<>(100, omega), waves.head(200));
+    for (const Eigen::Index pairs : {1, 2, 63, 64, 65, 128}) {
+      all(long_fpu_chain(pairs, omega), waves.head(2 * pairs));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_that_is_inherited_beside_another_force_is_not_its) {
+  const stronger twice(50.0);
+  const vector<double, 6> q = vector<double, 6>::Constant(0.3);
+  const vector<double, 6> v = vector<double, 6>::LinSpaced(0.0, 1.0);
+  const vector<double, 6> expected = 2.0 * along<field::whole, double>(fpu_chain<3>(50.0), q, v);
+  const vector<double, 6> found = along<field::whole, double>(twice, q, v);
+  BOOST_TEST((found - expected).norm() <= 10.0 * eps * expected.norm());
 }
 
 BOOST_AUTO_TEST_CASE(of_the_soft_part_it_is_that_of_the_soft_force) {
