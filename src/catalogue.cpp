@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/bab.hpp"
@@ -47,7 +48,7 @@ const run_time_family& family_named(std::string_view name) {
   for (const auto& family : families()) {
     if (family.name == name) return family;
   }
-  refuse("unknown family '{}': it is one of {}", name, listed(family_names()));
+  refuse("unknown family '{}': {}", name, did_you_mean(name, family_names()));
 }
 
 run_time_family placed(std::string_view name, std::optional<placement> where) {
