@@ -217,10 +217,10 @@ program::recommend_command recommend_of(const given& arguments, const program::s
   program::recommend_command its;
   its.system = system;
   take_learning(arguments, "learn_", its.learning);
-  arguments.take("learn_horizon", its.learn_horizon);
   arguments.take("families", its.families);
   arguments.take("placement", its.placement);
   arguments.take("budget", its.budget);
+  arguments.take("budget_seconds", its.budget_seconds);
   arguments.take("error", its.error);
   arguments.take("horizon", its.horizon);
   arguments.take("trajectories", its.trajectories);

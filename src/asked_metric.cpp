@@ -2,18 +2,20 @@
 #include "asked_metric.hpp"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
+#include "did_you_mean.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
 
 asked_metric metric_named(std::string_view text, const std::string& otherwise) {
-  constexpr std::array known{"path", "state", "exchange", "energy", "acceptance", "distribution", "acf"};
+  static const std::vector<std::string> known{"path",       "state",        "exchange", "energy",
+                                              "acceptance", "distribution", "acf"};
   const auto colon = text.find(':');
   asked_metric asked{.name = std::string(text.substr(0, colon))};
   if (std::ranges::count(known, asked.name) == 0) {
-    refuse("unknown metric '{}': it is one of {}", asked.name, listed(known));
+    refuse("unknown metric '{}': {}", asked.name, did_you_mean(asked.name, known));
   }
   if (colon == std::string_view::npos) {
     if (asked.takes_observable()) asked.observable = otherwise;

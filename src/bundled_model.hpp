@@ -189,9 +189,10 @@ class bundled_model final : public bundled_system {
     }
     const auto options = options_for(family, how, 1);
     const bool of_law = options.loss.of == loss_choice::kind::covariance;
-    if (!of_law && static_cast<double>(options.loss.steps) * step > how.horizon * (1.0 + 1e-9)) {
+    const double horizon = how.horizon_at(step);
+    if (!of_law && static_cast<double>(options.loss.steps) * step > horizon * (1.0 + 1e-9)) {
       refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
-             options.loss.steps, step, how.horizon);
+             options.loss.steps, step, horizon);
     }
     if (of_law && !HasModes<S>)
       refuse("the covariance loss needs modes, which {} does not declare", description());
@@ -203,7 +204,7 @@ class bundled_model final : public bundled_system {
 
   std::int64_t most_trajectories(const learn_plan& plan) const override {
     const data_options options{.step = plan.step,
-                               .horizon = plan.how.horizon,
+                               .horizon = plan.how.horizon_at(plan.step),
                                .noise_parts = noise_parts(placed(plan.family, plan.where))};
     return nysalt::most_trajectories(options, size(system_));
   }
@@ -234,7 +235,7 @@ class bundled_model final : public bundled_system {
     const auto make = [&](auto& pairs, std::uint64_t seed) {
       extend_data(system_, *starts_, its_reference,
                   {.step = plan.step,
-                   .horizon = plan.how.horizon,
+                   .horizon = plan.how.horizon_at(plan.step),
                    .trajectories = plan.how.trajectories,
                    .seed = seed,
                    .noise_parts = parts,

@@ -238,5 +238,7 @@ struct system_entry {
   std::string source = {};     // in docs/bibliography.bib
 };
 const std::vector<system_entry>& system_entries();
+/// Throws refusal if no bundled system has that name.
+void require_known_system(const std::string& name);
 
 }  // namespace nysalt::program

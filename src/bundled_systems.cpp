@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "did_you_mean.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -130,15 +131,18 @@ const std::vector<system_entry>& system_entries() {
   return all;
 }
 
+void require_known_system(const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& known : makers()) names.push_back(known.entry.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  refuse("unknown system '{}': {}", name, did_you_mean(name, names));
+}
+
 std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
   if (settings.own) return settings.own(surroundings_of(settings));
+  require_known_system(settings.name);
   const auto found = std::find_if(makers().begin(), makers().end(),
                                   [&](const maker& known) { return known.entry.name == settings.name; });
-  if (found == makers().end()) {
-    std::vector<std::string> names;
-    for (const auto& known : makers()) names.push_back(known.entry.name);
-    refuse("unknown system '{}': it is one of {}", settings.name, listed(names));
-  }
   for (const auto& [name, given] :
        {option{"--pairs", settings.pairs.has_value()}, option{"--omega", settings.omega.has_value()},
         option{"--masses", settings.masses.has_value()}, option{"--spring", settings.spring.has_value()},

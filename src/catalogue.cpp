@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bundled_system.hpp"
+#include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/bab.hpp"
@@ -52,7 +53,7 @@ const run_time_family& family_named(std::string_view name) {
   for (const auto& family : families()) {
     if (family.name == name) return family;
   }
-  refuse("unknown family '{}': it is one of {}", name, listed(family_names()));
+  refuse("unknown family '{}': {}", name, did_you_mean(name, family_names()));
 }
 
 run_time_family placed(std::string_view name, std::optional<placement> where) {

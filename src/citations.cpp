@@ -6,6 +6,7 @@
 #include "asked_metric.hpp"
 #include "bundled_system.hpp"
 #include "catalogue.hpp"
+#include "did_you_mean.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -29,12 +30,8 @@ class collected {
 };
 
 std::string_view source_of_system(const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& entry : system_entries()) {
-    if (entry.name == name) return entry.source;
-    names.push_back(entry.name);
-  }
-  refuse("unknown system '{}': it is one of {}", name, listed(names));
+  require_known_system(name);
+  return std::ranges::find(system_entries(), name, &system_entry::name)->source;
 }
 
 std::string_view source_of_method(const std::string& name) {
@@ -44,7 +41,7 @@ std::string_view source_of_method(const std::string& name) {
   for (const auto& known : classical_methods()) {
     if (known.method.name() == name) return known.source;
   }
-  refuse("unknown method '{}': it is one of {}", name, listed(method_names()));
+  refuse("unknown method '{}': {}", name, did_you_mean(name, method_names()));
 }
 
 void add_metric(const std::string& typed, collected& to) {

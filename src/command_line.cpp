@@ -13,6 +13,7 @@
 #include "build_info.hpp"
 #include "checks.hpp"
 #include "commands.hpp"
+#include "did_you_mean.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
@@ -37,17 +38,25 @@ void refuse_empty_texts(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) option->check(objection);
 }
 
-/// Words on the command line that nothing takes.
+/// Words on the command line that nothing takes. Without a command that is the first of them, as options
+/// follow a command; behind one it is the first option, whose value is left over too.
 [[noreturn]] void refuse_extras(const CLI::App& app) {
   const auto extras = app.remaining(true);
   const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+  const auto asked = app.get_subcommands();
+  if (asked.empty() && !is_option(extras.front())) {
+    refuse("unknown command '{}': {}", extras.front(), did_you_mean(extras.front(), command_names(app)));
+  }
+  if (asked.empty()) {
+    refuse("option '{}' before a command: name the command first, one of {}", extras.front(),
+           listed(command_names(app)));
+  }
   const auto option = std::find_if(extras.begin(), extras.end(), is_option);
   const std::string& first = option == extras.end() ? extras.front() : *option;
-  const auto asked = app.get_subcommands();
-  if (asked.empty()) refuse("unknown command '{}': it is one of {}", first, listed(command_names(app)));
   const CLI::App& command = *asked.front();
-  refuse("unknown {} '{}': nysalt {} takes {}", is_option(first) ? "option" : "argument", first,
-         command.get_name(), listed(option_names(command)));
+  const std::string name = first.substr(0, first.find('='));
+  refuse("unknown {} '{}': {}", is_option(first) ? "option" : "argument", first,
+         did_you_mean(name, option_names(command), help_of(command)));
 }
 
 /// The help or the version, if that is asked for; else all options are read. Throws refusal.

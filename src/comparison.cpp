@@ -112,7 +112,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   bool symmetric = false;
   if (source.family) {
     symmetric = family_named(*source.family).symmetric;
-    steps_within("--learn-horizon", command_.learning.horizon, step);
+    steps_within("--learn-horizon", command_.learning.horizon_at(step), step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, command_.learning, step);
     if (where == placement::symmetric) parts = 2;
@@ -144,7 +144,7 @@ namespace {
 json as_json(const learn_settings& how) {
   return {{"fine_step", how.fine_step ? json(*how.fine_step) : json(nullptr)},
           {"trajectories", how.trajectories},
-          {"horizon", how.horizon},
+          {"horizon", how.horizon ? json(*how.horizon) : json(nullptr)},
           {"coordinates", how.coordinates},
           {"fix", how.fix},
           {"loss", how.loss},

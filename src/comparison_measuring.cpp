@@ -86,7 +86,7 @@ double comparison::evaluations_expected(const row& its) const {
 double comparison::work_of_learning(const row& its) const {
   const auto parameters = static_cast<double>(family_named(*families_.at(its.method).family).parameters());
   const learn_settings& how = command_.learning;
-  const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon;
+  const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon_at(its.step);
   const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
   return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_expected(its));
 }

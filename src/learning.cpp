@@ -22,7 +22,7 @@ void require_sound(const learn_settings& how, const std::string& prefix) {
   const std::string trajectories = prefix + "trajectories";
   const std::string horizon = prefix + "horizon";
   require_at_least_one(trajectories.c_str(), how.trajectories);
-  require_positive(horizon.c_str(), how.horizon);
+  if (how.horizon) require_positive(horizon.c_str(), *how.horizon);
   if (how.fine_step) require_positive("--fine-step", *how.fine_step);
   coordinates_named(how.coordinates);
   loss_named(how.loss);

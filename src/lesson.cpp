@@ -26,7 +26,7 @@ std::vector<double> steps_of(const learn_command& command) {
   if (command.step) steps.push_back(*command.step);
   for (const double step : steps) {
     require_positive(command.step ? "--step" : "--steps", step);
-    steps_within("--horizon", command.learning.horizon, step);
+    steps_within("--horizon", command.learning.horizon_at(step), step);
     const auto is_same = [&](double other) { return std::abs(other - step) <= 1e-8 * step; };
     if (std::count_if(steps.begin(), steps.end(), is_same) > 1) refuse("--steps names {} twice", step);
   }
@@ -74,7 +74,10 @@ json document_of(const learned_scheme& learned, const bundled_system& system,
 }  // namespace
 
 lesson::lesson(const learn_command& command, const common_settings& common)
-    : command_(command), common_(common), steps_(steps_of(command)) {
+    : command_(command),
+      common_(common),
+      system_(make_system(command.system)),
+      steps_(steps_of(command)) {
   require_sound(command.learning, "--");
   if (command.enough) {
     require_positive("--enough", *command.enough);
@@ -82,7 +85,6 @@ lesson::lesson(const learn_command& command, const common_settings& common)
       refuse("--enough says how many trajectories to learn from, and the covariance loss asks none");
     }
   }
-  system_ = make_system(command.system);
   method_source source;
   source.typed = source.family.emplace(command.family);
   const auto where = placement_in(source, *system_, placement_asked(command.placement));

@@ -36,8 +36,8 @@ class lesson {
  private:
   learn_command command_;
   common_settings common_;
-  std::vector<double> steps_;
   std::unique_ptr<bundled_system> system_;
+  std::vector<double> steps_;
   learn_plan plan_{};
   std::vector<learned_scheme> learned_;
 };

@@ -10,6 +10,7 @@
 
 #include "build_info.hpp"
 #include "catalogue.hpp"
+#include "did_you_mean.hpp"
 #include "learning.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/langevin.hpp"
@@ -157,7 +158,7 @@ scheme scheme_in(const json& document, const reader& read) {
   const std::string name = read.text("family");
   const auto known = family_names();
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    refuse("{}: unknown family '{}': it is one of {}", read.file(), name, listed(known));
+    refuse("{}: unknown family '{}': {}", read.file(), name, did_you_mean(name, known));
   }
   const bool is_curve = document.contains("steps");
   const auto steps = is_curve ? read.numbers("steps") : std::vector<double>{read.number("step")};
@@ -266,8 +267,8 @@ run_time_word scheme::letters() const { return placed(family, where).letters; }
 
 std::string scheme::steps() const {
   const auto& all = curve.steps();
-  return all.size() == 1 ? fmt::format("the step {}", all.front())
-                         : fmt::format("steps from {} to {}", all.front(), all.back());
+  return all.size() == 1 ? message("the step {}", all.front())
+                         : message("steps from {} to {}", all.front(), all.back());
 }
 
 std::string scheme_text(const std::vector<learned_scheme>& learned, const bundled_system& system,
@@ -324,7 +325,7 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const bundle
       {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
       {"starts", fit.ensemble},
       {"trajectories", trajectories},
-      {"horizon", plan.how.horizon},
+      {"horizon", plan.how.horizon_at(learned.back().fit.step)},
       {"seed", fit.seed},
       {"held_out_seed", fit.held_out_seed},
       {"versions", {{"nysalt", version}}}};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "did_you_mean.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/stability_guard.hpp"
@@ -75,8 +76,10 @@ method_source find_method(const std::string& typed, const held_methods& held) {
   } else if (is_file_name(text)) {
     take_file(source, read_method_file(text));
   } else {
-    refuse("unknown method '{}': it is one of {}, learned:FAMILY with a family of {}, or a file NAME.json",
-           text, listed(method_names()), listed(family_names()));
+    auto known = method_names();
+    for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
+    refuse("unknown method '{}': {}", text,
+           did_you_mean(text, known, "nysalt list shows all; a method may also be a file NAME.json"));
   }
   return source;
 }
@@ -90,7 +93,7 @@ bool is_at(const scheme& learned, double step) { return learned.curve.covers(ste
 std::string out_of_place(const scheme& learned, const bundled_system& system, double step) {
   std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
-    reasons.push_back(fmt::format("it was learned for {}, not {}", learned.steps(), step));
+    reasons.push_back(message("it was learned for {}, not {}", learned.steps(), step));
   }
   if (learned.system != system.description()) {
     reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "did_you_mean.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/energy.hpp"
@@ -61,8 +62,8 @@ std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system
       return [&system, j](const state& x) { return system.stiff_energy(x, j - 1); };
     }
   }
-  refuse("unknown observable '{}' of {}: it is one of {}", name, describe(system),
-         listed(observable_names(system)));
+  refuse("unknown observable '{}' of {}: {}", name, describe(system),
+         did_you_mean(name, observable_names(system)));
 }
 
 }  // namespace nysalt::program

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "did_you_mean.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -19,6 +20,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) names.push_back(option->get_name());
   return names;
+}
+
+std::string help_of(const CLI::App& command) {
+  const bool is_program = command.get_parent() == nullptr;
+  return (is_program ? "nysalt" : "nysalt " + command.get_name()) + " --help tells what it takes";
 }
 
 namespace {
@@ -104,13 +110,13 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
     const auto found =
         command->get_subcommands([&](const CLI::App* its) { return its->check_name(section); });
     if (found.empty()) {
-      refuse("--config: unknown section [{}]: it is one of {}", section, listed(command_names(app_)));
+      refuse("--config: unknown section [{}]: {}", section, did_you_mean(section, command_names(app_)));
     }
     command = found.front();
   }
   if (command->get_option_no_throw("--" + item.name) != nullptr) return;
-  refuse("--config: unknown option '{}': {} takes {}", item.name, command->get_name(),
-         listed(option_names(*command)));
+  refuse("--config: unknown option '{}': {}", item.name,
+         did_you_mean(item.name, option_names(*command), help_of(*command)));
 }
 
 }  // namespace nysalt::program

@@ -11,6 +11,8 @@ namespace nysalt::program {
 
 std::vector<std::string> command_names(const CLI::App& app);
 std::vector<std::string> option_names(const CLI::App& command);
+/// "nysalt learn --help tells what it takes"
+std::string help_of(const CLI::App& command);
 
 /// TOML. Options that stand in no [section] belong to the command that runs, whose section says more.
 class options_file : public CLI::ConfigTOML {

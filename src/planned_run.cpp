@@ -32,7 +32,7 @@ std::int64_t steps_of(const run_command& command) {
 }  // namespace
 
 planned_run::planned_run(const run_command& command, const common_settings& common)
-    : command_(command), common_(common), steps_(steps_of(command)), system_(make_system(command.system)) {
+    : command_(command), common_(common), system_(make_system(command.system)), steps_(steps_of(command)) {
   if (command_.observables.empty()) command_.observables = {system_->default_observable()};
   require_observables(command_, *system_);
   together(world(), [&] { source_ = find_method(command_.method, command_.held); });

@@ -34,8 +34,8 @@ class planned_run {
  private:
   run_command command_;
   common_settings common_;
-  std::int64_t steps_;
   std::unique_ptr<bundled_system> system_;
+  std::int64_t steps_;
   method_source source_;
   std::optional<tabulated> method_;
   std::vector<std::string> warnings_;

@@ -8,10 +8,12 @@
 
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "known_word.hpp"
 #include "learning.hpp"
+#include "nysalt/analysis/tail.hpp"
 #include "nysalt/served_letters.hpp"
-#include "seconds.hpp"
 #include "seeds.hpp"
+#include "stability_margin.hpp"
 
 namespace nysalt::program {
 
@@ -26,30 +28,163 @@ recommendation::recommendation(const recommend_command& command, const common_se
 
 void recommendation::learn_and_rank() {
   prepare_starts(*system_, common_, shown_);
+  time_steps();
   if (command_.budget) {
-    for (auto& its : all_) prepare(its);
+    by_evaluations_ = {.unit = cost_unit::evaluations,
+                       .budget = command_.budget,
+                       .cost_ratio = 1.0,
+                       .statistic = statistic(false),
+                       .all = all_};
+    run(*by_evaluations_);
+    const candidate* best = by_evaluations_->best();
+    by_seconds_ = best != nullptr ? at_equal_seconds(best->seconds_per_time, &*by_evaluations_)
+                                  : contest(*by_evaluations_);
+    run(*by_seconds_);
+  } else if (command_.budget_seconds) {
+    by_seconds_ = at_equal_seconds(*command_.budget_seconds, nullptr);
+    run(*by_seconds_);
   } else {
-    find_steps();
+    rank_at_one_error();
   }
-  std::vector<candidate*> everyone;
-  for (auto& its : all_) everyone.push_back(&its);
-  measure(everyone, command_.trajectories, seed_for(role::test, common_.seed));
-  measure_seconds();
   shown_.clear();
-  rank();
-  warn_of_reference();
+  warn_of_reference(asked());
+}
+
+/// Where a mean turns out to rest on few trajectories, all of it again by quantiles, from the optima found.
+void recommendation::rank_at_one_error() {
+  for (auto& its : all_) prepare_search(its);
+  while (true) {
+    find_steps(all_);
+    constexpr double start_up = 1.01;  // a run of n steps may cost one evaluation more
+    by_evaluations_ = {.unit = cost_unit::evaluations,
+                       .budget = {},
+                       .cost_ratio = grid_ratio * start_up,
+                       .statistic = statistic(searches_by_quantiles_),
+                       .all = all_};
+    run(*by_evaluations_);
+    by_seconds_ = by_evaluations_;
+    by_seconds_->unit = cost_unit::seconds;
+    double noise = 0.0;
+    for (const bool learned : {true, false}) {
+      if (const candidate* its = by_evaluations_->best_of(learned)) noise += noise_of(*its);
+    }
+    by_seconds_->cost_ratio = grid_ratio * (1.0 + noise);
+    run(*by_seconds_);
+    if (searches_by_quantiles_ || !(is_heavy(*by_evaluations_) || is_heavy(*by_seconds_))) return;
+    searches_by_quantiles_ = true;
+    for (auto& its : all_) prepare_search(its);
+  }
+}
+
+/// What has no error yet is prepared and measured; then the best are looked at until they are confirmed.
+void recommendation::run(contest& among) {
+  std::vector<candidate*> fresh;
+  for (auto& its : among.all) {
+    if (!its.reason.empty() || !its.error.scores.empty()) continue;
+    const auto known = [&](const candidate& other) { return other.source.typed == its.source.typed; };
+    std::vector<double> from;
+    if (by_evaluations_ && &among != &*by_evaluations_) {
+      const auto other = std::ranges::find_if(by_evaluations_->all, known);
+      const bool is_fit = other != by_evaluations_->all.end() && other->learned;
+      if (is_fit && other->learned->fit.usable) from = theta_of(other->learned->fit);
+    }
+    if (!its.method) prepare(its, from);
+    fresh.push_back(&its);
+  }
+  measure_on_test(std::move(fresh));
+  settle(among);
+}
+
+bool recommendation::is_heavy(const contest& among) const {
+  return std::ranges::any_of(among.all, [](const candidate& its) {
+    return its.stands() && (its.error.is_heavy || (its.confirmed && its.confirmed->is_heavy));
+  });
+}
+
+void recommendation::settle(contest& among) {
+  while (true) {
+    // One statistic for all: else they could not be ranked.
+    if (among.budget && !among.statistic.is_quantile && is_heavy(among)) among.statistic = statistic(true);
+    if (command_.error) {
+      for (auto& its : among.all) {
+        if (!its.stands() || its.confirmed) continue;
+        if (!(among.statistic.lower_bound(its.error.scores) > *command_.error)) continue;
+        its.reason = fmt::format("on fresh trajectories its error is {:.2e}, above {:g}", among.error_of(its),
+                                 *command_.error);
+      }
+    }
+    among.rank();
+    candidate* next = nullptr;
+    for (auto& its : among.all) {
+      const bool is_best = &its == among.best_of(true) || &its == among.best_of(false);
+      if (is_best && !its.confirmed) next = &its;
+    }
+    if (next == nullptr) break;
+    confirm(among, *next);
+  }
+}
+
+void recommendation::confirm(contest& among, candidate& its) {
+  std::string why = objection_to(its);
+  if (why.empty()) {
+    candidate again = its;
+    measure_at(its.step, {&again}, command_.trajectories, seed_for(role::confirmation, common_.seed));
+    its.confirmed = again.error;
+    if (again.error.diverged > 0) {
+      why = fmt::format("{} of {} fresh trajectories diverged", again.error.diverged, command_.trajectories);
+    } else if (command_.error) {
+      const double most = among.statistic.upper_bound(its.confirmed->scores);
+      if (!(most <= *command_.error))
+        why = fmt::format("on fresh trajectories its error may be {:.2e}", most);
+    }
+  }
+  if (why.empty()) return;
+  if (command_.error) {
+    step_down(its);
+    if (its.reason.empty()) return;
+    its.reason += ": " + why;
+  } else {
+    its.reason = why;
+  }
+}
+
+/// As `run` would warn.
+std::string recommendation::objection_to(const candidate& its) const {
+  const auto [found, is_new] = objections_.try_emplace({its.source.typed, its.step});
+  if (!is_new) return found->second;
+  const auto& name = its.source.typed;
+  if (const auto text = instability(name, *its.method, *system_, its.step)) {
+    found->second = *text;
+  } else if (const auto warning = stability_warning(name, *its.method, *system_, its.step,
+                                                    seed_for(role::test, common_.seed))) {
+    found->second = *warning;
+  }
+  return found->second;
+}
+
+error_statistic recommendation::statistic(bool by_quantiles) const {
+  const bool is_root = command_.metric == "state" || command_.metric == "energy";
+  return {is_root, by_quantiles};
 }
 
 void recommendation::require_sound_command() const {
-  if (command_.budget.has_value() == command_.error.has_value()) {
-    refuse("give one of --budget (force evaluations per unit time) and --error (to stay below)");
+  const int goals =
+      command_.budget.has_value() + command_.budget_seconds.has_value() + command_.error.has_value();
+  if (goals != 1) {
+    refuse(
+        "give one of --budget (force evaluations per unit time), --budget-seconds (per unit time of a "
+        "trajectory) and --error (to stay below)");
   }
   if (command_.budget) require_positive("--budget", *command_.budget);
+  if (command_.budget_seconds) require_positive("--budget-seconds", *command_.budget_seconds);
   if (command_.error) require_positive("--error", *command_.error);
   require_positive("--horizon", command_.horizon);
   require_at_least_one("--trajectories", command_.trajectories);
-  require_sound(learning_at(1.0), "--learn-");
-  if (command_.learn_horizon) require_positive("--learn-horizon", *command_.learn_horizon);
+  require_sound(command_.learning, "--learn-");
+  if (command_.error && command_.trajectories < 2) {
+    refuse("--trajectories must be at least 2 with --error, got {}: one says nothing of others",
+           command_.trajectories);
+  }
   require_positive("--hmc-temperature", command_.hmc_temperature);
   placement_asked(command_.placement);
   if (command_.metric == "distribution" || command_.metric == "acf") {
@@ -134,7 +269,7 @@ void recommendation::consider(candidate its) {
       system_->require_served(its.source.fixed->letters());
     }
     if (its.is_learned()) {
-      system_->require_learnable(*its.source.family, its.where, learning_at(its.step), its.step);
+      system_->require_learnable(*its.source.family, its.where, command_.learning, its.step);
     }
     all_.push_back(std::move(its));
   } catch (const refusal& problem) {
@@ -142,13 +277,6 @@ void recommendation::consider(candidate its) {
   } catch (const std::invalid_argument& problem) {
     leave_out(problem.what());
   }
-}
-
-/// Ten steps at least, so that there are pairs to learn from.
-learn_settings recommendation::learning_at(double step) const {
-  learn_settings how = command_.learning;
-  how.horizon = command_.learn_horizon.value_or(std::max(0.5, 10.0 * step));
-  return how;
 }
 
 trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::uint64_t seed) const {
@@ -164,15 +292,42 @@ void recommendation::prepare(candidate& its, const std::vector<double>& from, bo
                                    ignored);
       return;
     }
-    learn_plan plan = plan_for(*its.source.family, its.where, its.step, learning_at(its.step), common_);
+    learn_plan plan = plan_for(*its.source.family, its.where, its.step, command_.learning, common_);
     plan.from = from;
     plan.from_there_alone = from_there_alone;
     its.learned = learn_with(*system_, plan, shown_);
     its.method = its.learned->method;
     const fit_summary& fit = its.learned->fit;
-    if (!fit.usable) its.reason = "the fit is not usable: " + fit.reason;
+    if (!fit.usable) {
+      its.reason = "the fit is not usable: " + fit.reason;
+    } else if (const auto known = known_as(*its.source.family, theta_of(fit), formulas_at(its.step))) {
+      its.reason = "nothing was learned: it is " + *known;
+    }
   } catch (const refusal& problem) {  // an adaptive method where it is not defined
     its.reason = problem.what();
+  }
+}
+
+/// Methods whose coefficients depend on the step.
+std::vector<tabulated> recommendation::formulas_at(double step) const {
+  std::vector<tabulated> all;
+  if (system_->its_bath().acts()) return all;
+  for (const auto& its : all_) {
+    if (!its.source.is_adaptive()) continue;
+    try {
+      std::vector<std::string> ignored;
+      const auto method = coefficients_at(its.source, *system_, step, false, {}, ignored);
+      all.emplace_back(its.source.typed, method.letters(), method.coefficients(), method);
+    } catch (const refusal&) {  // where it is not defined
+    }
+  }
+  return all;
+}
+
+void recommendation::measure_on_test(std::vector<candidate*> all) {
+  measure(all, command_.trajectories, seed_for(role::test, common_.seed));
+  for (candidate* its : all) {
+    if (its->method) its->seconds_per_time = seconds_of_step(*its) / its->step;
   }
 }
 
@@ -188,20 +343,21 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
                                 std::uint64_t seed) {
   const trajectories_plan plan = plan_at(step, count, seed);
   shown_.part(fmt::format("comparing {} at step {:g}", group.size() == 1 ? "one" : "some", step));
-  const auto take = [&](candidate& its, const auto& diverged_at) {
-    its.diverged = std::ssize(diverged_at);
-    if (its.diverged < count) return;
+  const auto take = [&](candidate& its, estimate mean, std::vector<double> scores, const auto& diverged_at) {
+    its.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
+    its.error.is_heavy = tail_of(its.error.scores).is_heavy();
+    if (its.error.diverged < count) return;
     const auto earliest = std::ranges::min(diverged_at, {}, &diverged_trajectory::step);
     its.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
   };
   if (command_.metric == "acceptance") {
     for (candidate* its : group) {
       const auto found = system_->acceptance(*its->method, plan, command_.hmc_temperature, {});
-      its->error = {1.0 - found.probability.mean, found.probability.standard_error};
-      its->of_each.clear();
-      for (const double a : found.of_each) its->of_each.push_back(1.0 - a);
+      std::vector<double> rejected;
+      for (const double a : found.of_each) rejected.push_back(1.0 - a);
       its->evaluations_per_time = found.evaluations_per_time;
-      take(*its, found.diverged_at);
+      take(*its, {1.0 - found.probability.mean, found.probability.standard_error}, std::move(rejected),
+           found.diverged_at);
     }
     return;
   }
@@ -210,43 +366,31 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   const errors_plan asked{
       .trajectories = plan, .metrics = {metric()}, .fine_step = system_->fine_step_for_ranking(step)};
   const auto found = system_->errors(methods, asked, shown_.counter(plan.count)).front();
+  const bool is_root = statistic(false).is_root;
   for (std::size_t k = 0; k < group.size(); ++k) {
     candidate& its = *group[k];
     const method_error& its_error = found.methods[k];
-    its.error = its_error.error;
-    its.of_each = its_error.of_each;
+    // What each trajectory has in a root is linear in its score, whose mean is the root's square.
+    const double root = its_error.error.mean;
+    std::vector<double> scores = its_error.of_each;
+    if (is_root) {
+      for (double& x : scores) x = std::max(0.0, root * (2.0 * x - root));
+    }
     its.evaluations_per_time = its_error.evaluations_per_time;
     if (found.reference_error) its.reference_error = found.reference_error->mean;
     its.reference = found.reference;
-    take(its, its_error.diverged_at);
+    take(its, its_error.error, std::move(scores), its_error.diverged_at);
   }
-}
-
-void recommendation::measure_seconds() {
-  shown_.part("timing");
-  std::vector<candidate*> timed;
-  std::vector<timed_method> methods;
-  for (auto& its : all_) {
-    if (!its.reason.empty()) continue;
-    timed.push_back(&its);
-    methods.push_back({*its.method,
-                       plan_at(its.step, command_.trajectories, seed_for(role::test, common_.seed)),
-                       its.evaluations_per_time});
-  }
-  if (methods.empty()) return;
-  constexpr double all_rounds = 2.0;
-  const auto seconds = seconds_per_time(*system_, methods, all_rounds);
-  for (std::size_t i = 0; i < timed.size(); ++i) timed[i]->seconds_per_time = seconds[i].least;
 }
 
 /// A reference that errs like the method says nothing of it.
-void recommendation::warn_of_reference() {
-  for (const auto& its : all_) {
-    if (!its.reference_error || !its.stands() || *its.reference_error <= 0.1 * its.error.mean) continue;
+void recommendation::warn_of_reference(const contest& among) {
+  for (const auto& its : among.all) {
+    if (!its.reference_error || !its.stands() || *its.reference_error <= 0.1 * its.error.mean.mean) continue;
     warnings_.push_back(
         fmt::format("the reference's own error {:.1e} is not ten times smaller than that of {}, "
                     "{:.1e}",
-                    *its.reference_error, its.source.typed, its.error.mean));
+                    *its.reference_error, its.source.typed, its.error.mean.mean));
   }
 }
 

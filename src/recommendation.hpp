@@ -2,7 +2,6 @@
 // Which method to take: learned families and classical methods at one cost, or at one error.
 #pragma once
 
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,48 +10,14 @@
 #include <vector>
 
 #include "bundled_system.hpp"
+#include "contest.hpp"
 #include "json.hpp"
-#include "method_source.hpp"
+#include "nysalt/analysis/timing.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "progress.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
-
-/// Where on the grid of steps the error was below the one asked for, and where above.
-struct bracket {
-  std::optional<int> below;
-  int above;
-  bool has_failed = false;  // `above` was tried; else it is the end of the grid
-  bool is_fine = false;     // all trajectories, and searches from all starts
-  bool is_found = false;
-  std::map<int, std::vector<double>> thetas;  // that were learned
-};
-
-/// A method that may win, and what was found of it at its step.
-struct candidate {
-  method_source source;
-  std::optional<placement> where;  // of the letters O of a family that is learned
-  int order = 0;
-  bool symmetric = false;
-  bool rotates = false;
-  double step = 0.0;
-  std::optional<learned_scheme> learned{};
-  std::optional<tabulated> method{};
-  bracket search{};
-  std::string reason{};  // why it cannot win
-  estimate error{};
-  std::vector<double> of_each{};  // trajectory
-  std::int64_t diverged = 0;
-  double evaluations_per_time = std::numeric_limits<double>::quiet_NaN();
-  double seconds_per_time = std::numeric_limits<double>::quiet_NaN();
-  std::optional<double> reference_error{};
-  std::string reference{};
-
-  bool is_learned() const { return source.family.has_value(); }
-  /// It stayed with the reference on every trajectory.
-  bool stands() const { return reason.empty() && diverged == 0; }
-};
 
 class recommendation {
  public:
@@ -61,7 +26,7 @@ class recommendation {
 
   void learn_and_rank();
 
-  bool has_result() const { return best_of(true) != nullptr || best_of(false) != nullptr; }
+  bool has_result() const { return asked().has_result(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
   std::string readable() const;
@@ -76,7 +41,8 @@ class recommendation {
   bool is_fixed_in(const run_time_family& family) const;
 
   // At one error.
-  void find_steps();
+  void rank_at_one_error();
+  void find_steps(std::vector<candidate>& all);
   static const double grid_ratio;
   double grid_step(const candidate& its, int k) const;
   void prepare_search(candidate& its) const;
@@ -84,34 +50,56 @@ class recommendation {
   static std::optional<int> next_of(const bracket& search);
   void probe(candidate& its, int k);
   void judge(candidate& its, int k) const;
+  void step_down(candidate& its);
 
   asked_metric metric() const { return {command_.metric, command_.observable}; }
-  learn_settings learning_at(double step) const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Coefficients at its step; of a family with the optimum of a step nearby as one more start, or the only.
   void prepare(candidate& its, const std::vector<double>& from = {}, bool from_there_alone = false);
+  std::vector<tabulated> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
-  void measure_seconds();
-  void rank();
-  void warn_of_reference();
+  void measure_on_test(std::vector<candidate*> all);
 
-  /// The best of those that stand; null if none does.
-  const candidate* best_of(bool learned) const;
-  bool is_better(const candidate& a, const candidate& b) const;
-  /// The winner, or null where the best of both kinds cannot be told apart.
-  const candidate* winner() const;
-  estimate advantage() const;  // of the best learned over the best classical, in the error
-  std::string verdict() const;
+  // Seconds.
+  void time_steps();
+  double seconds_of_step(const candidate& its) const { return step_seconds_.at(its.source.typed).least; }
+  double noise_of(const candidate& its) const;
+  double noise_of(const candidate& a, const candidate& b) const;
+  contest at_equal_seconds(double seconds_per_time, const contest* known) const;
+
+  void settle(contest& among);
+  void run(contest& among);
+  /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it. False
+  /// if it is not to be taken so.
+  void confirm(contest& among, candidate& its);
+  std::string objection_to(const candidate& its) const;
+  error_statistic statistic(bool by_quantiles) const;
+  bool is_heavy(const contest& among) const;
+  void warn_of_reference(const contest& among);
+
+  const contest& asked() const { return by_evaluations_ ? *by_evaluations_ : *by_seconds_; }
   std::string advice() const;
+  std::string advice_of(const contest& among) const;
+  std::string advice_on_seconds() const;
+  std::string costs(const candidate& its, const candidate& other) const;
   std::string as_options(const candidate& its) const;
+  std::string bound_of(const contest& among, const candidate& its) const;
   std::string quantity() const;
+  double quantile_of(const measured_error& its) const;
+  json row_json(const contest& among, const candidate& its) const;
+  json contest_json(const contest& among) const;
 
   recommend_command command_;
   common_settings common_;
   std::unique_ptr<bundled_system> system_;
-  std::vector<candidate> all_;
+  std::vector<candidate> all_;                                 // as planned
   std::vector<std::pair<std::string, std::string>> left_out_;  // name and reason
+  std::map<std::string, timed_job> step_seconds_;              // of one step of one trajectory, by name
+  bool searches_by_quantiles_ = false;                         // at one error
+  std::optional<contest> by_evaluations_;                      // nothing: only seconds are asked for
+  std::optional<contest> by_seconds_;
+  mutable std::map<std::pair<std::string, double>, std::string> objections_;  // by name and step
   std::vector<std::string> warnings_;
   progress shown_;
 };

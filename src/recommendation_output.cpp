@@ -5,128 +5,130 @@
 
 #include "learning.hpp"
 #include "method_file.hpp"
-#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/report/table.hpp"
 #include "recommendation.hpp"
 
 namespace nysalt::program {
 
-bool recommendation::is_better(const candidate& a, const candidate& b) const {
-  return command_.budget ? a.error.mean < b.error.mean : a.evaluations_per_time < b.evaluations_per_time;
+namespace {
+
+/// What is to be taken; of a tie the one that needs no learning.
+const candidate* taken(const contest& among) {
+  const candidate* winner = among.winner();
+  return winner != nullptr ? winner : among.best_of(false);
 }
 
-/// Those that stand first, by what is asked for.
-void recommendation::rank() {
-  if (command_.error) {
-    for (auto& its : all_) {
-      if (!its.reason.empty() || its.error.mean - 2.0 * its.error.standard_error <= *command_.error) continue;
-      its.reason = fmt::format("on fresh trajectories its error is {:.2e}, above {:g}", its.error.mean,
-                               *command_.error);
-    }
-  }
-  const auto group = [](const candidate& its) { return its.stands() ? 0 : its.reason.empty() ? 1 : 2; };
-  std::ranges::stable_sort(all_, [&](const candidate& a, const candidate& b) {
-    return group(a) != group(b) ? group(a) < group(b) : group(a) < 2 && is_better(a, b);
-  });
+std::string in_words(const ratio_estimate& ratio) {
+  const std::string value = fmt::format("{:.3g} times smaller", ratio.value);
+  if (std::isnan(ratio.low)) return value;
+  return fmt::format("{} (95 %: {:.3g} to {:.3g})", value, ratio.low, ratio.high);
 }
 
-const candidate* recommendation::best_of(bool learned) const {
-  for (const auto& its : all_) {
-    if (its.stands() && its.is_learned() == learned) return &its;
-  }
-  return nullptr;
+/// "at 1.3 times its seconds"
+std::string at_cost(double ratio, double noise, const char* what) {
+  if (std::abs(std::log(ratio)) <= noise)
+    return fmt::format("the same {} within {:.2g} %", what, 100.0 * noise);
+  return fmt::format("{:.2g} times the {}", ratio, what);
 }
 
-estimate recommendation::advantage() const {
-  const candidate* learned = best_of(true);
-  const candidate* classical = best_of(false);
-  if (learned == nullptr || classical == nullptr) return {};
-  return paired_difference(classical->of_each, learned->of_each);
-}
-
-/// At one cost errors must differ by more than two standard errors of their difference, trajectory by
-/// trajectory; at one error costs must by more than the grid of steps can tell.
-const candidate* recommendation::winner() const {
-  const candidate* learned = best_of(true);
-  const candidate* classical = best_of(false);
-  if (learned == nullptr || classical == nullptr) return learned != nullptr ? learned : classical;
-  bool differs = false;
-  if (command_.budget) {
-    const estimate gain = advantage();
-    differs = std::abs(gain.mean) > 2.0 * gain.standard_error;
-  } else {
-    const double ratio = classical->evaluations_per_time / learned->evaluations_per_time;
-    constexpr double start_up = 1.01;
-    differs = std::max(ratio, 1.0 / ratio) > grid_ratio * start_up;
-  }
-  if (!differs) return nullptr;
-  return is_better(*learned, *classical) ? learned : classical;
-}
-
-std::string recommendation::verdict() const {
-  const candidate* its = winner();
-  if (its != nullptr) return its->is_learned() ? "learned" : "classical";
-  return has_result() ? "tie" : "none";
-}
+}  // namespace
 
 std::string recommendation::as_options(const candidate& its) const {
   const std::string where = command_.placement.empty() ? "" : " --placement " + command_.placement;
   return fmt::format("--method {} --step {:.12g}{}", its.source.typed, its.step, where);
 }
 
-std::string recommendation::advice() const {
-  const candidate* learned = best_of(true);
-  const candidate* classical = best_of(false);
-  const candidate* best = winner();
-  if (!has_result())
-    return "No method stays with the reference: take more evaluations, or a shorter horizon.";
-  if (learned == nullptr) {
-    return fmt::format(
-        "A classical method wins: {}. None that was learned stands; there is no scheme to write.",
-        as_options(*classical));
-  }
-  if (classical == nullptr) {
-    return fmt::format("Take {} at step {:.12g}: no classical method stands.", learned->source.typed,
-                       learned->step);
-  }
-  const auto factor = [&](const candidate& a, const candidate& b) {
-    return command_.budget ? b.error.mean / a.error.mean : b.evaluations_per_time / a.evaluations_per_time;
-  };
-  const char* what = command_.budget ? "error" : "cost in evaluations";
-  const estimate gain = advantage();
-  const std::string by = command_.budget
-                             ? fmt::format(" (by {:.2e} +- {:.1e})", std::abs(gain.mean), gain.standard_error)
-                             : std::string();
-  if (best == nullptr) {
-    const std::string within =
-        command_.budget ? fmt::format("differ by {:.1e} +- {:.1e} only", gain.mean, gain.standard_error)
-                        : std::string("cost the same but for the grid of steps");
-    return fmt::format("A tie: {} and {} {}. The latter needs no learning: {}.", learned->source.typed,
-                       classical->source.typed, within, as_options(*classical));
-  }
-  if (best == classical) {
-    return fmt::format(
-        "A classical method wins: {}. Its {} is {:.2g} times smaller than that of {}{}; there is "
-        "no scheme to write.",
-        as_options(*classical), what, factor(*classical, *learned), learned->source.typed, by);
-  }
-  std::string text = fmt::format(
-      "Take {} at step {:.12g}: its {} is {:.2g} times smaller than that of {}, the best "
-      "classical method{}.",
-      learned->source.typed, learned->step, what, factor(*learned, *classical), classical->source.typed, by);
-  if (!learned->rotates) return text;
-  const auto plain =
-      std::ranges::find_if(all_, [](const candidate& its) { return its.stands() && !its.rotates; });
-  text += " It rotates the quadratic part exactly, and only its soft forces are counted: look at its seconds";
-  if (plain != all_.end()) text += fmt::format("; without rotation {} is best", plain->source.typed);
-  return text + ".";
+/// What one costs beside the other.
+std::string recommendation::costs(const candidate& its, const candidate& other) const {
+  constexpr double start_up = 0.01;  // a run of n steps may cost one evaluation more
+  return fmt::format("{} and {}",
+                     at_cost(its.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations"),
+                     at_cost(its.seconds_per_time / other.seconds_per_time, noise_of(its, other), "seconds"));
 }
 
+/// Of errors below the one asked for.
+std::string recommendation::bound_of(const contest& among, const candidate& its) const {
+  if (!command_.error || !its.confirmed) return {};
+  return fmt::format(", where {} is {:.2e}, and with 97.7 % confidence at most {:.2e}",
+                     among.statistic.is_quantile ? "the error of 95 of 100 trajectories" : "the error",
+                     among.statistic(its.confirmed->scores),
+                     among.statistic.upper_bound(its.confirmed->scores));
+}
+
+std::string recommendation::advice_of(const contest& among) const {
+  const candidate* learned = among.best_of(true);
+  const candidate* classical = among.best_of(false);
+  if (!among.has_result()) {
+    return "No method stays with the reference and is stable: take more evaluations, or a shorter horizon.";
+  }
+  if (learned == nullptr) {
+    return fmt::format(
+        "A classical method wins: {}{}. None that was learned stands; there is no scheme to write.",
+        as_options(*classical), bound_of(among, *classical));
+  }
+  if (classical == nullptr) {
+    return fmt::format("Take {} at step {:.12g}{}: no classical method stands.", learned->source.typed,
+                       learned->step, bound_of(among, *learned));
+  }
+  const candidate* best = among.winner();
+  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
+  if (best == nullptr) {
+    const std::string within =
+        std::isnan(ratio.low) || !among.budget
+            ? std::string()
+            : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
+                          ratio.low, ratio.high);
+    return fmt::format("A tie: {} and {} cannot be told apart{}. The latter needs no learning: {}{}.",
+                       learned->source.typed, classical->source.typed, within, as_options(*classical),
+                       bound_of(among, *classical));
+  }
+  const bool is_learned = best == learned;
+  const candidate& other = is_learned ? *classical : *learned;
+  const std::string rival = is_learned ? fmt::format("{}, the best classical method", other.source.typed)
+                                       : fmt::format("{}, the best that was learned", other.source.typed);
+  const std::string why =
+      among.budget ? fmt::format("its error is {} than that of {}, at {}",
+                                 in_words(is_learned ? ratio : ratio.inverse()), rival, costs(*best, other))
+                   : fmt::format("it takes {} of {}{}", costs(*best, other), rival, bound_of(among, *best));
+  if (is_learned) return fmt::format("Take {} at step {:.12g}: {}.", best->source.typed, best->step, why);
+  return fmt::format("A classical method wins: {}; {}. There is no scheme to write.", as_options(*best), why);
+}
+
+/// Whether seconds say the same as evaluations, and if not, who wins by them.
+std::string recommendation::advice_on_seconds() const {
+  if (!by_evaluations_ || !by_evaluations_->has_result() || !by_seconds_->has_result()) return {};
+  const candidate* first = taken(*by_evaluations_);
+  const candidate* fast = taken(*by_seconds_);
+  if (first == nullptr || fast == nullptr) return {};
+  const std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
+  if (fast->source.typed == first->source.typed) return same;
+  const std::string its = fmt::format("{} at step {:.4g}", fast->source.typed, fast->step);
+  if (!command_.budget) {
+    const double ratio = first->seconds_per_time / fast->seconds_per_time;
+    if (!(ratio > by_seconds_->cost_ratio)) return same;
+    return fmt::format(
+        " By seconds another wins: {} takes {:.2g} times fewer of them, {:.0f} ns per unit time, "
+        "and {:.2g} times the evaluations{}.",
+        its, ratio, 1e9 * fast->seconds_per_time, fast->evaluations_per_time / first->evaluations_per_time,
+        bound_of(*by_seconds_, *fast));
+  }
+  const ratio_estimate ratio = by_seconds_->error_ratio(*first, *fast);
+  if (!ratio.is_above_one()) {
+    return fmt::format(" In the same seconds {} does no better than chance tells.", fast->source.typed);
+  }
+  return fmt::format(
+      " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "
+      "times the evaluations (--budget-seconds {:.3g}).",
+      1e9 * first->seconds_per_time, its, in_words(ratio),
+      fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
+}
+
+std::string recommendation::advice() const { return advice_of(asked()) + advice_on_seconds(); }
+
 std::optional<std::string> recommendation::scheme() const {
-  const candidate* its = winner();
+  const candidate* its = asked().winner();
   if (its == nullptr || !its->is_learned()) return std::nullopt;
-  const learn_plan plan =
-      plan_for(*its->source.family, its->where, its->step, learning_at(its->step), common_);
+  const learn_plan plan = plan_for(*its->source.family, its->where, its->step, command_.learning, common_);
   return scheme_text({*its->learned}, *system_, plan);
 }
 
@@ -136,25 +138,61 @@ std::string recommendation::quantity() const {
   return command_.metric + " error";
 }
 
+json recommendation::row_json(const contest& among, const candidate& its) const {
+  const bool has_error = its.reason.empty() && !its.error.scores.empty();
+  json row{{"method", its.source.typed},
+           {"learned", its.is_learned()},
+           {"order", its.order},
+           {"reversible", its.symmetric},
+           {"rotation", its.rotates},
+           {"evaluations_per_step", its.source.evaluations_per_step},
+           {"step_size", its.step},
+           {"evaluations_per_time", its.evaluations_per_time},
+           {"seconds_per_time", its.seconds_per_time},
+           {"error", its.error.mean.mean},
+           {"standard_error", its.error.mean.standard_error},
+           {"tail", its.error.is_heavy},
+           {"error_of_95_percent", has_error && its.stands() ? json(quantile_of(its.error)) : json(nullptr)},
+           {"diverged", its.error.diverged},
+           {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)},
+           {"confirmed", nullptr}};
+  if (its.confirmed && its.reason.empty()) {
+    row["confirmed"] = {{"error", among.statistic(its.confirmed->scores)},
+                        {"upper_bound", among.statistic.upper_bound(its.confirmed->scores)}};
+  }
+  if (!its.reason.empty()) row["reason"] = its.reason;
+  return row;
+}
+
+double recommendation::quantile_of(const measured_error& its) const { return statistic(true)(its.scores); }
+
+json recommendation::contest_json(const contest& among) const {
+  const auto name_of = [](const candidate* its) {
+    return its == nullptr ? json(nullptr) : json(its->source.typed);
+  };
+  const candidate* learned = among.best_of(true);
+  const candidate* classical = among.best_of(false);
+  json result{{"verdict", among.verdict()},
+              {"winner", name_of(among.winner())},
+              {"best_learned", name_of(learned)},
+              {"best_classical", name_of(classical)},
+              {"judged_by", among.statistic.is_quantile ? "quantile" : "mean"},
+              {"error_ratio", nullptr},
+              {"evaluations_ratio", nullptr},
+              {"seconds_ratio", nullptr}};
+  if (learned == nullptr || classical == nullptr) return result;
+  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
+  result["error_ratio"] = {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
+  result["evaluations_ratio"] = classical->evaluations_per_time / learned->evaluations_per_time;
+  result["seconds_ratio"] = classical->seconds_per_time / learned->seconds_per_time;
+  return result;
+}
+
 json recommendation::document() const {
   json rows = json::array();
   json fits = json::array();
-  for (const auto& its : all_) {
-    const bool has_error = its.reason.empty();
-    rows.push_back({{"method", its.source.typed},
-                    {"learned", its.is_learned()},
-                    {"order", its.order},
-                    {"reversible", its.symmetric},
-                    {"rotation", its.rotates},
-                    {"evaluations_per_step", its.source.evaluations_per_step},
-                    {"step_size", its.step},
-                    {"evaluations_per_time", its.evaluations_per_time},
-                    {"seconds_per_time", its.seconds_per_time},
-                    {"error", its.error.mean},
-                    {"standard_error", its.error.standard_error},
-                    {"diverged", its.diverged},
-                    {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)}});
-    if (!has_error) rows.back()["reason"] = its.reason;
+  for (const auto& its : asked().all) {
+    rows.push_back(row_json(asked(), its));
     if (!its.learned) continue;
     json fit{{"method", its.source.typed}};
     fit.update(fit_json(its.learned->fit));
@@ -162,51 +200,59 @@ json recommendation::document() const {
   }
   json left_out = json::array();
   for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
-  const auto name_of = [](const candidate* its) {
-    return its == nullptr ? json(nullptr) : json(its->source.typed);
-  };
-  const estimate gain = advantage();
-  return {{"system", system_->description()},
-          {"starts", system_->starts()},
-          {"metric", command_.metric},
-          {"observable", command_.metric == "path" ? json(command_.observable) : json(nullptr)},
-          {"budget", command_.budget ? json(*command_.budget) : json(nullptr)},
-          {"error", command_.error ? json(*command_.error) : json(nullptr)},
-          {"horizon", command_.horizon},
-          {"trajectories", command_.trajectories},
-          {"seed", common_.seed},
-          {"verdict", verdict()},
-          {"winner", name_of(winner())},
-          {"best_learned", name_of(best_of(true))},
-          {"best_classical", name_of(best_of(false))},
-          {"advantage", gain.mean},
-          {"advantage_standard_error", gain.standard_error},
-          {"advice", advice()},
-          {"rows", rows},
-          {"fits", fits},
-          {"left_out", left_out},
-          {"warnings", warnings_}};
+  const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
+  json result{{"system", system_->description()},
+              {"starts", system_->starts()},
+              {"metric", command_.metric},
+              {"observable", command_.metric == "path" ? json(command_.observable) : json(nullptr)},
+              {"budget", number(command_.budget)},
+              {"budget_seconds", number(command_.budget_seconds)},
+              {"error", number(command_.error)},
+              {"horizon", command_.horizon},
+              {"trajectories", command_.trajectories},
+              {"seed", common_.seed}};
+  result.update(contest_json(asked()));
+  result["advice"] = advice();
+  result["by_seconds"] = contest_json(*by_seconds_);
+  json in_seconds = json::array();
+  for (const auto& its : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, its));
+  result["by_seconds"]["rows"] = in_seconds;
+  result["rows"] = rows;
+  result["fits"] = fits;
+  result["left_out"] = left_out;
+  result["warnings"] = warnings_;
+  return result;
 }
 
 std::string recommendation::readable() const {
+  const contest& among = asked();
   std::string text = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
                                  command_.trajectories, command_.horizon, quantity());
-  text += command_.budget ? fmt::format(", {:g} evaluations per unit time", *command_.budget)
-                          : fmt::format(" below {:g}", *command_.error);
+  if (command_.budget) text += fmt::format(", {:g} evaluations per unit time", *command_.budget);
+  if (command_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *command_.budget_seconds);
+  if (command_.error) text += fmt::format(" below {:g}", *command_.error);
   text += fmt::format("\nstarts: {}\n\n", system_->starts());
-  table ranking(
-      {"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error", "diverged"});
+  table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
+                 "95 % err below", "diverged"});
   const auto number = [](const char* format, double x) {
     return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
   };
-  for (const auto& its : all_) {
+  for (const auto& its : among.all) {
+    const bool has_quantile = its.stands() && !its.error.scores.empty();
+    const double quantile = has_quantile ? quantile_of(its.error) : std::nan("");
     ranking.add({its.source.typed, fmt::format("{}", its.order), number("{:.4g}", its.step),
                  number("{:.1f}", its.evaluations_per_time), number("{:.0f}", 1e9 * its.seconds_per_time),
-                 number("{:.2e}", its.error.mean), number("{:.1e}", its.error.standard_error),
-                 fmt::format("{}/{}", its.diverged, command_.trajectories)});
+                 number("{:.2e}", its.error.mean.mean),
+                 its.error.is_heavy ? "tail" : number("{:.1e}", its.error.mean.standard_error),
+                 number("{:.2e}", quantile),
+                 fmt::format("{}/{}", its.error.diverged, command_.trajectories)});
   }
   text += ranking.text();
-  for (const auto& its : all_) {
+  if (among.statistic.is_quantile) {
+    text +=
+        "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
+  }
+  for (const auto& its : among.all) {
     if (!its.reason.empty()) text += fmt::format("{}: {}\n", its.source.typed, its.reason);
   }
   std::map<std::string, std::string> by_reason;

@@ -25,10 +25,12 @@ double recommendation::grid_step(const candidate& its, int k) const {
   return its.source.evaluations_per_step * std::round(exact / digit) * digit;
 }
 
+/// What was learned in a search before is kept.
 void recommendation::prepare_search(candidate& its) const {
   int above = points_of_octave * octaves + 1;
   while (grid_step(its, above - 1) > command_.horizon) --above;
-  its.search = {.below = {}, .above = above, .thetas = {}};
+  its.search = {.below = {}, .above = above, .thetas = std::move(its.search.thetas)};
+  its.error = {};
 }
 
 /// Octave by octave until the error crosses the one asked for, then halves of what lies between. What was
@@ -44,14 +46,13 @@ std::optional<int> recommendation::next_of(const bracket& search) {
   return *search.below + (search.above - *search.below) / 2;
 }
 
-void recommendation::find_steps() {
+void recommendation::find_steps(std::vector<candidate>& all) {
   constexpr std::int64_t few = 24;
-  for (auto& its : all_) prepare_search(its);
   while (true) {
     std::vector<candidate*> on_few;
     std::vector<candidate*> on_all;
     std::vector<std::pair<candidate*, int>> tried;
-    for (auto& its : all_) {
+    for (auto& its : all) {
       const auto k = next_of(its.search);
       if (!k) continue;
       its.search.is_fine = its.search.is_fine || its.search.below == k;
@@ -65,13 +66,31 @@ void recommendation::find_steps() {
     measure(on_all, command_.trajectories, seed);
     for (const auto& [its, k] : tried) judge(*its, k);
   }
-  for (auto& its : all_) {
-    if (its.search.is_found) continue;
+  for (auto& its : all) {
+    if (its.search.is_found) {
+      its.error = {};  // of the trajectories on which the step was chosen
+      continue;
+    }
+    if (its.search.is_given_up) continue;
+    its.search.is_given_up = true;
     its.reason = fmt::format("no step down to {:.2g} has an error below {:g}{}", its.step, *command_.error,
                              its.reason.empty() ? "" : ": " + its.reason);
     its.error = {};
-    its.diverged = 0;
   }
+}
+
+/// The next smaller step at which it holds, or a reason that there is none.
+void recommendation::step_down(candidate& its) {
+  its.search.above = its.search.below.value_or(its.search.above);
+  its.search.below.reset();
+  its.search.has_failed = true;
+  its.search.is_found = false;
+  its.confirmed.reset();
+  std::vector<candidate> alone{its};
+  find_steps(alone);
+  its = std::move(alone.front());
+  if (!its.reason.empty()) return;
+  measure_on_test({&its});
 }
 
 /// What is learned at a step is the start for the next.
@@ -89,7 +108,10 @@ void recommendation::probe(candidate& its, int k) {
 }
 
 void recommendation::judge(candidate& its, int k) const {
-  const bool holds = its.stands() && its.error.mean <= *command_.error;
+  const auto judged = statistic(searches_by_quantiles_);
+  const auto& scores = its.error.scores;
+  const bool holds =
+      its.stands() && (its.search.is_fine ? judged.upper_bound(scores) : judged(scores)) <= *command_.error;
   if (holds) {
     its.search.below = k;
     its.search.is_found = its.search.is_fine;

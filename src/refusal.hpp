@@ -4,8 +4,36 @@
 
 #include <fmt/format.h>
 
+#include <concepts>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
+
+namespace nysalt::program {
+
+/// A number in a message: of twelve digits where no format is given, so that 0.6 reads so where arithmetic
+/// has made it 0.6000000000000001.
+struct number_in_message {
+  double value;
+};
+
+}  // namespace nysalt::program
+
+template <>
+struct fmt::formatter<nysalt::program::number_in_message> : fmt::formatter<double> {
+  constexpr auto parse(fmt::format_parse_context& context) {
+    is_plain = context.begin() == context.end() || *context.begin() == '}';
+    return fmt::formatter<double>::parse(context);
+  }
+  template <class Context>
+  auto format(const nysalt::program::number_in_message& number, Context& context) const {
+    if (is_plain) return fmt::format_to(context.out(), "{:.12g}", number.value);
+    return fmt::formatter<double>::format(number.value, context);
+  }
+
+  bool is_plain = true;
+};
 
 namespace nysalt::program {
 
@@ -15,9 +43,25 @@ class refusal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+template <class T>
+  requires(!std::is_floating_point_v<T>)
+const T& in_message(const T& value) { return value; }
+template <std::floating_point T>
+number_in_message in_message(T value) {
+  return {value};
+}
+template <class T>
+using type_in_message = decltype(in_message(std::declval<const T&>()));
+
+/// fmt::format, with numbers as above.
 template <class... A>
-[[noreturn]] void refuse(fmt::format_string<A...> text, A&&... values) {
-  throw refusal(fmt::format(text, std::forward<A>(values)...));
+std::string message(fmt::format_string<type_in_message<A>...> text, const A&... values) {
+  return fmt::format(text, in_message(values)...);
+}
+
+template <class... A>
+[[noreturn]] void refuse(fmt::format_string<type_in_message<A>...> text, const A&... values) {
+  throw refusal(message(text, values...));
 }
 
 /// "a, b, c"

@@ -2,6 +2,7 @@
 // What a command line asks for, as typed: plain values, not yet judged.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -51,11 +52,14 @@ struct system_settings {
 struct learn_settings {
   std::optional<double> fine_step;
   std::int64_t trajectories = 100;
-  double horizon = 0.5;
+  std::optional<double> horizon;  // of each trajectory
   std::string coordinates = "qp";
   std::vector<std::string> fix;  // name=value
   std::string loss = "state";
   std::int64_t random_starts = 0;
+
+  /// Where none is asked for: 0.5, or ten steps if that is longer, so that there are pairs to learn from.
+  double horizon_at(double step) const { return horizon.value_or(std::max(0.5, 10.0 * step)); }
 };
 
 /// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
@@ -113,10 +117,10 @@ struct compare_command {
 struct recommend_command {
   system_settings system;
   learn_settings learning;
-  std::optional<double> learn_horizon;
   std::vector<std::string> families;  // empty: all that suit
   std::string placement;
-  std::optional<double> budget;  // evaluations per unit time
+  std::optional<double> budget;          // evaluations per unit time
+  std::optional<double> budget_seconds;  // per unit time of one trajectory
   std::optional<double> error;
   double horizon = 0.0;
   std::int64_t trajectories = 100;

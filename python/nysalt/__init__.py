@@ -229,7 +229,8 @@ def learn(system: System, family: str = "nystrom", *, step: Optional[float] = No
           threads: Optional[int] = None) -> Scheme:
     """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
 
-    It learns from trajectories [100] of a length `horizon` [0.5], and is judged on as many others. loss:
+    It learns from trajectories [100] of a length `horizon` [0.5, or ten steps if that is longer], and is judged
+    on as many others. loss:
     "state" [it], "state:K", "energy:K" after K steps, or "covariance"; coordinates: "qp" [they], "modes" or
     "energy"; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
     parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
@@ -367,7 +368,8 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
     return found
 
 
-def recommend(system: System, horizon: float, *, budget: Optional[float] = None, error: Optional[float] = None,
+def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
+              budget_seconds: Optional[float] = None, error: Optional[float] = None,
               trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
               hmc_temperature: Optional[float] = None, reversible: bool = False,
               families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
@@ -375,9 +377,11 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
               learn_loss: Optional[str] = None, learn_random_starts: Optional[int] = None,
               coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
               threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
-    """The best method at `budget` evaluations per unit time, or the cheapest that errs less than `error`.
+    """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
+    trajectory, or the cheapest that errs less than `error`.
 
-    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned.
+    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned: two
+    results, `document, scheme = nysalt.recommend(...)`.
     """
     asked = dict(locals())
     asked.pop("system")

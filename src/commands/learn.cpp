@@ -2,6 +2,7 @@
 #include "../commands.hpp"
 #include "../lesson.hpp"
 #include "../output.hpp"
+#include "../refusal.hpp"
 #include "../world.hpp"
 #include "nysalt/together.hpp"
 
@@ -42,7 +43,7 @@ int learn(const learn_command& command, const common_settings& common) {
   }
   if (bad == nullptr) return done;
   const bool withheld = !command.output.empty() && !keep;
-  warn(fmt::format("the fit at step {} is not usable: {}{}", bad->fit.step, bad->fit.reason,
+  warn(message("the fit at step {} is not usable: {}{}", bad->fit.step, bad->fit.reason,
                    withheld ? "; the scheme file was not written (--force writes it)" : ""));
   return no_result;
 }

@@ -24,6 +24,8 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   add_system(command, asked.system);
   add_placement(command, asked.placement);
   add_number(command, "--budget", asked.budget, "force evaluations per unit time");
+  add_number(command, "--budget-seconds", asked.budget_seconds,
+             "seconds per unit time of one trajectory, on this machine");
   add_number(command, "--error", asked.error, "to stay below, at the least cost");
   add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
   add_number(command, "--trajectories", asked.trajectories, "to rank on");
@@ -34,8 +36,7 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   command.add_flag("--reversible", asked.reversible, "symmetric methods alone");
   command.add_option("--families", typed->families, "to learn, joined by commas [all that suit]");
   add_search(command, asked.learning, "--learn-");
-  add_number(command, "--learn-horizon", asked.learn_horizon,
-             "length of each [0.5, or ten steps if that is more]");
+  add_horizon(command, asked.learning, "--learn-");
   command.add_option("--output", asked.output, "write the winner's scheme file");
   add_common(command, common);
   command.footer(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "shared_options.hpp"
 
+#include "../bundled_system.hpp"
 #include "number_option.hpp"
 
 namespace nysalt::program {
@@ -18,7 +19,14 @@ void add_force(CLI::App& command, common_settings& common, const char* what) {
 }
 
 void add_system(CLI::App& command, system_settings& system, const char* start) {
-  command.add_option("--system", system.name, "nysalt list shows all")->capture_default_str();
+  // At once, before an option is missed that follows it: which options there are depends on the system.
+  const auto is_known = [](const std::string& name) {
+    require_known_system(name);
+    return std::string();
+  };
+  command.add_option("--system", system.name, "nysalt list shows all")
+      ->capture_default_str()
+      ->check(is_known);
   add_number(command, "--pairs", system.pairs, "fpu: pairs of masses [3]");
   add_number(command, "--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
   add_number(command, "--masses", system.masses, "linear_chain [8], phi4 [16]");
@@ -48,10 +56,14 @@ void add_search(CLI::App& command, learn_settings& how, const std::string& prefi
   add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
 }
 
+void add_horizon(CLI::App& command, learn_settings& how, const std::string& prefix) {
+  add_number(command, prefix + "horizon", how.horizon, "length of each [0.5, or ten steps if that is longer]");
+}
+
 void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
   add_number(command, "--fine-step", how.fine_step,
              "of the reference; must divide the step [omega h <= 5e-3]");
-  add_number(command, prefix + "horizon", how.horizon, "length of each");
+  add_horizon(command, how, prefix);
   add_search(command, how, prefix);
 }
 

@@ -27,44 +27,73 @@ BOOST_AUTO_TEST_CASE(the_beginnings_are_sound) {
   BOOST_TEST(run("stability --method verlet").code == 0);
 }
 
+// A name with a mistake is answered by the name that was meant; a word that is near nothing by a list, if
+// that is short, or by where the names are.
+BOOST_AUTO_TEST_CASE(mistyped_names_are_answered_by_what_was_meant) {
+  all_refused(scratch("mistyped"),
+              {{"learm --system fpu", {"command 'learm'", "did you mean learn?"}},
+               {"recomend --system fpu --budget 3", {"command 'recomend'", "did you mean recommend?"}},
+               {"--seed 3 learn", {"'--seed'", "command first", "learn"}},
+               {learn + " --famly fg4", {"option '--famly'", "did you mean --family?"}},
+               {"run --method verlet --stp 0.1 --horizon 1", {"'--stp'", "did you mean --step?"}},
+               {"learn --system fpuu", {"system 'fpuu'", "did you mean fpu?"}},
+               {"run --system fpuu", {"system 'fpuu'", "did you mean fpu?"}},
+               {"compare --system Henon_Heils", {"did you mean henon_heiles?"}},
+               {"recommend --system lenard_jones", {"did you mean lennard_jones?"}},
+               {learn + " --family nystroem", {"family 'nystroem'", "did you mean nystrom?"}},
+               {"run --method pefrll --step 1 --horizon 1", {"method 'pefrll'", "did you mean pefrl?"}},
+               {"run --method learned:fgchin --step 1 --horizon 1", {"'fgchin'", "did you mean fg_chin?"}},
+               {"run --method VERLETT --step 1 --horizon 1", {"did you mean verlet?"}},
+               {run_it + " --horizon 1 --observables stif_energy", {"did you mean stiff_energy?"}},
+               {"compare --methods verlet --steps 0.1 --metric paths", {"'paths'", "did you mean path?"}}});
+}
+
+// 0.6 is 0.6000000000000001 as three times 0.2.
+BOOST_AUTO_TEST_CASE(numbers_in_messages_have_the_digits_that_people_type) {
+  const auto done =
+      run("compare --methods learned:aba3_free --steps 0.2 --equal-cost --learn-horizon 0.5 --horizon 5");
+  BOOST_TEST(done.code == 2);
+  BOOST_TEST(done.err.find("0.6:") != std::string::npos, done.err);
+}
+
 BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
   all_refused({
       {"nosuch", {"'nosuch'", "list, learn, run, compare, recommend, stability"}},
       {"--nosuch", {"'--nosuch'", "list, learn, run, compare, recommend, stability"}},
       {"'' list", {"''"}},
       {"list learn", {"'learn'", "nysalt list"}},
-      {"list --nosuch 3", {"'--nosuch'", "--seed"}},
-      {learn + " --nosuch=3", {"'--nosuch=3'", "--fine-step"}},
+      {"list --nosuch 3", {"'--nosuch'", "nysalt list --help"}},
+      {learn + " --nosuch=3", {"'--nosuch=3'", "nysalt learn --help"}},
       {run_it + " --horizon 1 out.csv", {"'out.csv'", "--output"}},
       {learn + " --system nosuch", {"nosuch", "fpu, oscillator, linear_chain, pendulum, henon_heiles"}},
-      {learn + " --family nosuch", {"family 'nosuch'", "nystrom"}},
+      {learn + " --family nosuch", {"family 'nosuch'", "nysalt list"}},
       {learn + " --coordinates nosuch", {"coordinates 'nosuch'", "qp, modes, energy"}},
       {learn + " --fix c9=1", {"--fix", "'c9'", "b1, beta1"}},
       {"compare --methods 'a\nb.json' --steps 0.1", {"line break", "rename"}},
       {"compare --methods verlet --steps 0.1 --metric nosuch:q1", {"metric 'nosuch'", "distribution"}},
       {"compare --methods verlet --steps 0.1 --metric state:q1", {"state", "no observable", "path"}},
       {"compare --methods verlet --steps 0.1 --metric path:", {"path:", "observable after the colon"}},
-      {"compare --methods verlet --steps 0.1 --metric path:nosuch", {"nosuch", "stiff_energy"}},
+      {"compare --methods verlet --steps 0.1 --metric path:nosuch", {"nosuch", "nysalt list"}},
       {"compare --methods verlet --steps 0.1 --metric path,path:stiff_energy",
        {"path:stiff_energy", "twice"}},
       {"compare --methods verlet --steps 0.1 --metric path:q1 --observable p1", {"--observable", "belongs"}},
       {"compare --methods verlet --steps 0.1 --levels 0", {"--levels", "positive"}},
-      {"run --method nosuch --step 1 --horizon 1", {"method 'nosuch'", "verlet", "s_aia2", ".json"}},
+      {"run --method nosuch --step 1 --horizon 1", {"method 'nosuch'", "nysalt list", ".json"}},
       {"run --method '' --step 1 --horizon 1", {"--method", "empty"}},
       {"run --method verlet,bcss2 --step 1 --horizon 1", {"'verlet,bcss2'"}},
-      {"run --method learned:nosuch --step 1 --horizon 1", {"family 'nosuch'", "nystrom"}},
+      {"run --method learned:nosuch --step 1 --horizon 1", {"family 'nosuch'", "nysalt list"}},
       {"run --method learned:nystrom --step 1 --horizon 1", {"must be learned first", "nysalt learn"}},
-      {run_it + " --horizon 1 --observables nosuch", {"'nosuch'", "stiff_energy", "q1..q6"}},
+      {run_it + " --horizon 1 --observables nosuch", {"'nosuch'", "nysalt list"}},
       {run_it + " --horizon 1 --observables q7", {"'q7'", "q1..q6"}},
       {run_it + " --horizon 1 --observables q0", {"'q0'", "q1..q6"}},
       {run_it + " --horizon 1 --observables q-1", {"'q-1'"}},
       {run_it + " --horizon 1 --observables stiff_energy_4", {"stiff_energy_1..stiff_energy_3"}},
       {compare + " --steps 0.01 --metric nosuch", {"'nosuch'", "path, state, exchange, energy"}},
-      {compare + " --steps 0.01 --observable nosuch", {"'nosuch'", "stiff_energy"}},
-      {compare + ",nosuch --steps 0.01", {"'nosuch'", "mclachlan2"}},
-      {compare + ",learned: --steps 0.01", {"family ''", "nystrom"}},
-      {"stability --method nosuch", {"'nosuch'", "verlet"}},
-      {"stability --family nosuch --parameters 1", {"'nosuch'", "nystrom"}},
+      {compare + " --steps 0.01 --observable nosuch", {"'nosuch'", "nysalt list"}},
+      {compare + ",nosuch --steps 0.01", {"'nosuch'", "nysalt list"}},
+      {compare + ",learned: --steps 0.01", {"family ''", "nysalt list"}},
+      {"stability --method nosuch", {"'nosuch'", "nysalt list"}},
+      {"stability --family nosuch --parameters 1", {"'nosuch'", "nysalt list"}},
   });
 }
 
@@ -197,7 +226,7 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_or_are_missing) {
       {"learn --steps 0.01,-0.02", {"--steps", "positive"}},
       {"learn --step 0.02 --loss states", {"unknown loss", "state:K"}},
       {"learn --step 0.02 --loss state:0", {"unknown loss", "state:0"}},
-      {"learn --step 0.2 --loss state:3", {"3 steps", "longer horizon"}},
+      {"learn --step 0.2 --horizon 0.5 --loss state:3", {"3 steps", "longer horizon"}},
       {"learn --step 0.02 --loss covariance", {"covariance", "--friction"}},
       {"learn --step 0.02 --random-starts -1", {"--random-starts", "-1"}},
       {"learn --step 0.02 --system pendulum --family r_aba4", {"R, S, H", "quadratic part"}},
@@ -303,7 +332,7 @@ BOOST_AUTO_TEST_CASE(files_of_options) {
                           {"learn --config missing.toml", {"missing.toml", "readable"}},
                           {"learn --config . --step 0.02", {"."}},
                           {"learn --config '' --step 0.02", {"--config", "empty"}},
-                          {"learn --config unknown.toml", {"'nosuch'", "--fine-step"}},
+                          {"learn --config unknown.toml", {"'nosuch'", "nysalt learn --help"}},
                           {"learn --config section.toml", {"[nosuch]", "list, learn"}},
                           {"learn --config deep.toml", {"[nosuch]"}},
                           {"learn --config other.toml", {"--step", "not both"}},

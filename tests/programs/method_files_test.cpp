@@ -192,7 +192,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
       {[](json& s) { s["format"] = "another"; }, {"\"format\"", "nysalt scheme"}},
       {[](json& s) { s["format"] = 7; }, {"\"format\""}},
       {[](json& s) { s.erase("format"); }, {"\"format\""}},
-      {[](json& s) { s["family"] = "nosuch"; }, {"family 'nosuch'", "nystrom"}},
+      {[](json& s) { s["family"] = "nosuch"; }, {"family 'nosuch'", "nysalt list"}},
       {[](json& s) { s["family"] = nullptr; }, {"\"family\"", "text"}},
       {[](json& s) { s["parameters"].erase("b1"); }, {"\"b1\"", "missing"}},
       {[](json& s) { s["parameters"]["c9"] = 1.0; }, {"b1, beta1"}},

@@ -31,7 +31,7 @@ def read_only(shape):
 SHARED = np.zeros((3, 6))
 
 CASES = [
-    (lambda: nysalt.system("fpv"), "unknown system 'fpv': it is one of fpu, oscillator"),
+    (lambda: nysalt.system("fpv"), "unknown system 'fpv': did you mean fpu?"),
     (lambda: nysalt.system("pendulum", omega=3), "the system pendulum has no omega: it takes spread"),
     (lambda: nysalt.system("fpu", omega="fast"), "omega must be a number, got 'fast'"),
     (lambda: nysalt.system("fpu", pairs=2.5), "pairs must be a whole number, got 2.5"),
@@ -40,7 +40,7 @@ CASES = [
     (lambda: nysalt.system(3), "name must be a text, got 3"),
     (lambda: nysalt.learn(CHAIN), "give step, or steps for a curve, and not both"),
     (lambda: nysalt.learn(CHAIN, step=-0.1), "step must be a positive, finite number, got -0.1"),
-    (lambda: nysalt.learn(CHAIN, "nystroem", step=0.02), "unknown family 'nystroem': it is one of nystrom"),
+    (lambda: nysalt.learn(CHAIN, "nystroem", step=0.02), "unknown family 'nystroem': did you mean nystrom?"),
     (lambda: nysalt.learn(CHAIN, step=0.02, fix={"b2": 1}), "fix: the family nystrom has no parameter 'b2': it has b1"),
     (lambda: nysalt.learn(CHAIN, step=0.02, enough=0.1, trajectories=3), "leave trajectories away"),
     (lambda: nysalt.learn(CHAIN, step=0.02, seed=-1), "seed must not be negative, got -1"),
@@ -48,7 +48,7 @@ CASES = [
     (lambda: nysalt.learn(CHAIN, step=0.02, threads=0), "threads must be at least 1"),
     (lambda: nysalt.learn(CHAIN, step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
     (lambda: nysalt.learn(nysalt.system("kepler"), step=0.1, coordinates="modes"), "it declares no modes: take qp"),
-    (lambda: run(method="verlett"), "unknown method 'verlett': it is one of verlet"),
+    (lambda: run(method="verlett"), "unknown method 'verlett': did you mean verlet?"),
     (lambda: run(method="learned:nystrom"), "learned:nystrom must be learned first: nysalt learn --family nystrom"),
     (lambda: run(observables=["energy", "q2"]), "unknown observable 'q2' of pendulum"),
     (lambda: run(observables=["energy", "energy"]), "observables names energy twice"),

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "known_word.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catalogue.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr double same = 1e-6;
+
+/// One letter: c, and of a gradient kick the coefficient of its gradient part.
+struct letter {
+  char name;
+  double c;
+  double gradient;
+};
+
+bool is_kick(char name) { return name == 'B' || name == 'G'; }
+bool is_soft_kick(char name) { return name == 'S' || name == 'H'; }
+
+/// All that kicks of one force do is added up, as q does not move between them.
+bool act_as_one(const letter& a, const letter& b) {
+  return a.name == b.name || (is_kick(a.name) && is_kick(b.name)) ||
+         (is_soft_kick(a.name) && is_soft_kick(b.name));
+}
+
+/// Coefficients of at most `zero` count as zero.
+std::vector<letter> merged(const std::vector<letter>& all, double zero) {
+  std::vector<letter> result;
+  for (letter one : all) {
+    if (!result.empty() && act_as_one(result.back(), one)) {
+      one.c += result.back().c;
+      one.gradient += result.back().gradient;
+      result.pop_back();
+    }
+    const bool has_gradient = std::abs(one.gradient) > zero;
+    if (is_kick(one.name)) one.name = has_gradient ? 'G' : 'B';
+    if (is_soft_kick(one.name)) one.name = has_gradient ? 'H' : 'S';
+    if (std::abs(one.c) > zero || has_gradient) result.push_back(one);
+  }
+  return result;
+}
+
+std::vector<letter> letters_of(const run_time_word& word, const std::vector<double>& coefficients) {
+  std::vector<letter> result;
+  std::size_t slot = 0;
+  for (const char name : word.letters()) {
+    letter one{name, coefficients[slot++], 0.0};
+    if (name == 'G' || name == 'H') one.gradient = coefficients[slot++];
+    result.push_back(one);
+  }
+  return result;
+}
+
+/// n steps of h/n: gradient parts go with h^3.
+std::vector<letter> repeated(const std::vector<letter>& one_step, int n) {
+  std::vector<letter> result;
+  for (int k = 0; k < n; ++k) {
+    for (letter one : one_step) {
+      one.c /= n;
+      one.gradient /= std::pow(n, 3.0);
+      result.push_back(one);
+    }
+  }
+  return merged(result, 0.0);
+}
+
+bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
+  return std::ranges::equal(a, b, [](const letter& x, const letter& y) {
+    return x.name == y.name && std::abs(x.c - y.c) < same && std::abs(x.gradient - y.gradient) < same;
+  });
+}
+
+}  // namespace
+
+std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known) {
+  const auto its = merged(letters_of(method.letters(), method.coefficients()), same);
+  for (const tabulated& other : known) {
+    const auto one_step = merged(letters_of(other.letters(), other.coefficients()), same);
+    for (int n = 1;; ++n) {
+      const auto steps = repeated(one_step, n);
+      if (steps.size() > its.size()) break;
+      if (are_same(its, steps))
+        return n == 1 ? other.name() : fmt::format("{}, {} steps in one", other.name(), n);
+      if (one_step.size() < 2) break;  // it does not grow
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
+                                    std::span<const tabulated> further) {
+  const run_time_family& its = family_named(family);
+  const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
+    return tabulated(name, its.letters, its.coefficients(at),
+                     {its.order, its.symmetric, its.requires_quadratic_kinetic});
+  };
+  std::vector<tabulated> known;
+  for (const auto& classical : classical_methods()) known.push_back(classical.method);
+  known.insert(known.end(), further.begin(), further.end());
+  for (const auto& [name, at] : its.starts) {
+    if (name == "start" || name == "further start") continue;
+    known.push_back(member(fmt::format("{} in {}", name, family), at));
+  }
+  if (its.refuge) known.push_back(member("the refuge of " + family, *its.refuge));
+  const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  return known_as(member(family, at), known);
+}
+
+}  // namespace nysalt::program

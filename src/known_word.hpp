@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a method is called already, by its coefficients.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nysalt/methods/tabulated.hpp"
+
+namespace nysalt::program {
+
+/// The name of the first of `known` whose map the method's is: "verlet", or "verlet, 3 steps in one" where it
+/// is several equal steps of it; nothing if it is none. Words are compared without letters of coefficient
+/// zero, with neighbours that act as one joined, and with a kick for a gradient kick that has no gradient
+/// part. Coefficients are the same if they differ by less than 1e-6: that changes an error by as little.
+std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known);
+
+/// The same among the classical methods, and the refuge and the classical members of a family: "the refuge of
+/// r_aba2", "pefrl in r_aba4". theta is of that family.
+std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
+                                    std::span<const tabulated> further = {});
+
+}  // namespace nysalt::program

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+// How many times smaller one error is than another, from trajectories that both methods ran.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace nysalt::program {
+
+/// How the scores of trajectories, one each, become one error.
+struct error_statistic {
+  bool is_root;      // a score is a mean square, and the error the root of what follows
+  bool is_quantile;  // 95 of 100 trajectories err less; else the mean over trajectories
+
+  static constexpr double share = 0.95;
+
+  double operator()(std::vector<double> scores) const;
+  /// What the error of all trajectories is below with 97.7 % confidence: the mean and two standard errors; of
+  /// a quantile the score with as many below it as the binomial law has with two standard deviations, and of
+  /// too few trajectories the largest. NaN of the mean of one trajectory.
+  double upper_bound(std::vector<double> scores) const;
+  /// The same from below.
+  double lower_bound(std::vector<double> scores) const;
+};
+
+/// A ratio and its interval of 95 %; NaN where too few trajectories tell it.
+struct ratio_estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+
+  bool is_above_one() const { return low > 1.0; }
+  bool is_below_one() const { return high < 1.0; }
+  ratio_estimate inverse() const { return {1.0 / value, 1.0 / high, 1.0 / low}; }
+};
+
+/// The error of a over that of b; score i of both is of the same trajectory. The interval is that of the
+/// percentile bootstrap over trajectories [efron_tibshirani_1993, section 13.3], so that what both share of
+/// chance cancels; below eight trajectories there is none. Equal scores give equal bits.
+ratio_estimate paired_ratio(std::span<const double> a, std::span<const double> b,
+                            const error_statistic& statistic);
+
+}  // namespace nysalt::program
