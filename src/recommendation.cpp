@@ -313,7 +313,7 @@ std::vector<tabulated> recommendation::formulas_at(double step) const {
   std::vector<tabulated> all;
   if (system_->its_bath().acts()) return all;
   for (const auto& its : all_) {
-    if (!its.source.is_adaptive()) continue;
+    if (its.source.adaptive == nullptr) continue;
     try {
       std::vector<std::string> ignored;
       const auto method = coefficients_at(its.source, *system_, step, false, {}, ignored);
