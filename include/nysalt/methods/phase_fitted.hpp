@@ -42,7 +42,11 @@ class phase_fitted {
   static constexpr bool symmetric = true;
   static constexpr bool requires_quadratic_kinetic =
       M::requires_quadratic_kinetic || F::requires_quadratic_kinetic;
-  static std::string name() { return "phase_fitted_" + std::string(M::name()); }
+  static std::string name() {
+    std::string text = "phase_fitted_";  // in steps: g++ 12 warns wrongly about a chain of +
+    text += M::name();
+    return text;
+  }
 
   /// The member that turns an oscillator by z in a step. Throws std::invalid_argument unless z is positive
   /// and finite, and below the end of the coefficients. Cost: a millisecond; they are right to rounding.
