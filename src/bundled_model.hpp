@@ -31,7 +31,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/learning/extend_data.hpp"
 #include "nysalt/learning/make_problem.hpp"
-#include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"

@@ -116,13 +116,14 @@ BOOST_AUTO_TEST_CASE(it_is_the_nearest_member) {
   check(fg4{}, abagaba(z).parameters(), fg4::start(), false);  // it is not the nearest to Chin's
 }
 
-// sin z/z and cot(z/2) cancel to 8/z^4 of their rounding in c.
+// sin z/z and cot(z/2) cancel to 8/z^4 of their rounding in c. The equations hold z^2 b and round with it;
+// from 5 on to 2 pi, where b has a pole, with more.
 BOOST_AUTO_TEST_CASE(of_bagab_there_is_a_closed_form) {
-  for (const double z : {0.5, 1.0, 2.0, 3.0, std::numbers::pi, 4.0, 5.0, 6.0}) {
+  for (const double z : {0.5, 1.0, 2.0, 3.0, std::numbers::pi, 4.0, 5.0}) {
     const double b = 2.0 / (z * z) - 1.0 / (std::tan(0.5 * z) * z);
     const double c = ((1.0 - 2.0 * b) * z * z - 4.0 * (1.0 - std::sin(z) / z)) / (2.0 * std::pow(z, 4));
     const auto theta = bagab(z).parameters();
-    const double of_b = 8.0 * eps * (2.0 / (z * z) + std::abs(b) + 1.0);
+    const double of_b = 8.0 * eps * (2.0 / (z * z) + (1.0 + z * z) * (1.0 + std::abs(b)));
     BOOST_TEST(std::abs(theta[0] - b) <= of_b);
     BOOST_TEST(std::abs(theta[1] - c) <= 8.0 * eps * (1.0 + 8.0 / std::pow(z, 4)) + of_b);
     BOOST_TEST(std::abs(bagab(z + 1e-6).parameters()[0] - b) > of_b);

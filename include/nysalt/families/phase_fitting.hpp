@@ -105,7 +105,7 @@ inline std::optional<Eigen::VectorXd> nearest_phase_fitted(const run_time_family
                                                            const Eigen::VectorXd& nearest,
                                                            Eigen::VectorXd theta, double x) {
   constexpr int most = 100;
-  constexpr double small = 1e-12;     // from here on a change that no longer halves is rounding
+  constexpr double small = 1e-10;     // from here on a change that no longer falls is rounding
   constexpr double solved = 1e-10;    // else it is the least of the defects, and not zero
   constexpr double redundant = 1e-9;  // pivots of the equation that follows from the others
   double last = std::numeric_limits<double>::infinity();
@@ -120,7 +120,7 @@ inline std::optional<Eigen::VectorXd> nearest_phase_fitted(const run_time_family
     const double change = (next - theta).lpNorm<Eigen::Infinity>();
     if (!next.allFinite() || !family.is_defined(next) || change > farthest_parameter) return std::nullopt;
     theta = next;
-    if (change == 0.0 || (change <= small && change >= 0.5 * last)) {
+    if (change == 0.0 || (change <= small && change >= 0.9 * last)) {
       return defect.lpNorm<Eigen::Infinity>() <= solved ? std::optional(theta) : std::nullopt;
     }
     last = change;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "nysalt/families/phase_fitting.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/requirements.hpp"
 #include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
@@ -77,20 +77,6 @@ class phase_fitted {
   double z_;
   parameters_of<F> theta_;
 };
-
-namespace detail {
-/// The highest frequency of the modes; of systems that declare none, the end of the highest band.
-template <System S>
-double frequency_to_fit(const S& system) {
-  double highest = 0.0;
-  if constexpr (HasModes<S>) {
-    highest = system.modes().frequencies.maxCoeff();
-  } else {
-    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  }
-  return highest;
-}
-}  // namespace detail
 
 /// The member for a system at a step: fitted to |step| times the highest frequency of the system's modes, or
 /// of its bands if it declares no modes. (Bands have room for what soft forces add, which phases should not
