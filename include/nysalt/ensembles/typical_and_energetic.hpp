@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -12,6 +13,9 @@
 
 namespace nysalt {
 
+/// How many of typical_and_energetic_starts() come first, as the ensemble gives them.
+inline constexpr std::size_t plain_starts = 128;
+
 /// Starts of an ensemble from number `first` on: 128 in its order and the 64 most energetic of 896 that come
 /// next, as energetic starts, which are rare, meet the highest frequencies; fewer where states are large, or
 /// the ensemble has no more. Of an ensemble whose states are dear to make, `most_of_dear` and 64 at most.
@@ -20,7 +24,7 @@ std::vector<phase_point<double, S::dimension>> typical_and_energetic_starts(
     const S& system, const E& ensemble, std::uint64_t seed, std::int64_t first, std::int64_t most_of_dear) {
   using T = scalar_of_lanes<lanes_of<S>>;
   using state = phase_point<double, S::dimension>;
-  constexpr std::int64_t plain = 128;
+  constexpr auto plain = static_cast<std::int64_t>(plain_starts);
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;
   constexpr double numbers = 2e6;  // 16 MB

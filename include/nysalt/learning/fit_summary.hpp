@@ -88,8 +88,8 @@ struct fit_summary {
 
   trial_result trial{};  ///< of the parameters that are handed out, from held-out and further starts
   double highest_frequency = 0.0;  ///< along the states that the guard looked at; 0: not known
-  /// The classical method of the same cost with the least held-out loss, of those that the system serves and
-  /// that withstand a trial run; empty if there is none.
+  /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
+  /// nothing is gained over it, it withstands a trial run. Empty if there is none.
   std::string rival;
   double rival_loss = 0.0;     ///< its held-out loss
   double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss

@@ -189,9 +189,8 @@ learning_problem make_problem(const run_time_family& family, const S& system,
       .rival = {},
       .guard = guard_along(system, data, held_out, rotates(family.letters), options),
       .facts = {}};
-  auto starts =
-      std::make_shared<std::vector<phase_point<double, S::dimension>>>(starts_of_trial(system, held_out));
-  starts->insert(starts->end(), data.further_starts.begin(), data.further_starts.end());
+  auto starts = std::make_shared<std::vector<phase_point<double, S::dimension>>>(
+      starts_of_trial(system, data, held_out));
   problem.trial_starts = std::ssize(*starts);
   const auto run = [&system, starts, step = data.step, seed = held_out.seed, threads = options.threads](
                        const run_time_word& letters, const std::vector<double>& coefficients,

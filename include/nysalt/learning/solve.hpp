@@ -184,10 +184,10 @@ fit solve(const learning_problem& problem) {
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
   };
-  // No more than the data and the descents took, and the same for all that are tried.
+  // Half of what the data and the descents took at most, and the same for all that are tried.
   std::optional<detail::trial_length> length;
   const auto run_for_trial = [&](const auto& run) {
-    if (!length) length = detail::length_of_trial(problem, problem.evaluations());
+    if (!length) length = detail::length_of_trial(problem, problem.evaluations() / 2);
     if (length->not_run.empty()) return trial_result(run(length->trajectories, length->steps));
     trial_result result;
     result.not_run = length->not_run;
@@ -332,6 +332,8 @@ fit solve(const learning_problem& problem) {
     std::vector<detail::contender> rivals = std::move(members);
     std::vector<std::optional<rival_method>> methods;
     for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
+      // Rotations are not counted, and are not free: words with them are compared with each other.
+      if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
       methods.push_back(problem.rival(method));
       const auto& known = methods.back();
       if (!known) continue;
@@ -343,11 +345,13 @@ fit solve(const learning_problem& problem) {
     std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });
     std::ranges::stable_sort(rivals, {}, &detail::contender::loss);
     for (const auto& rival : rivals) {
-      if (rival.name == "start" || !rival.withstands()) continue;
+      if (rival.name == "start") continue;
+      const bool is_beaten = detail::is_better(chosen, rival, share);
+      if (!is_beaten && !rival.withstands()) continue;
       summary.rival = rival.name;
       summary.rival_loss = rival.loss;
       summary.rival_noise = detail::noise_of_difference(chosen.losses, rival.losses, share);
-      summary.gains_nothing = !detail::is_better(chosen, rival, share);
+      summary.gains_nothing = !is_beaten;
       break;
     }
   }

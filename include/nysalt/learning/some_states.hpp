@@ -107,21 +107,30 @@ states_of_data<S::dimension> some_states(const S& system, const flow_map_data<S:
   return {std::move(result), typical};
 }
 
-/// Where trial runs begin: up to 64 trajectories of the data, and the further starts: at all ranks.
+/// Where trial runs begin: up to 64 states of held-out data and the further starts of both sets; energetic
+/// ones, which are the last of the further starts, in turn with the others as long as there are some.
 template <SeparableSystem S>
 std::vector<phase_point<double, S::dimension>> starts_of_trial(const S& system,
-                                                               const flow_map_data<S::dimension>& data) {
+                                                               const flow_map_data<S::dimension>& data,
+                                                               const flow_map_data<S::dimension>& held_out) {
   constexpr std::size_t most = 64;
-  const auto trajectories = static_cast<std::size_t>(data.share().total());
+  const auto trajectories = static_cast<std::size_t>(held_out.share().total());
   std::vector<std::size_t> pairs;
-  // Ranks know the first pairs of their own trajectories alone; those of all have the same length but for a
-  // few, so that pairs in the middle of nowhere are starts as good as any: states of the same motion.
   for (const std::size_t m : detail::spread_pairs(trajectories, most)) {
-    pairs.push_back(m * (data.all_pairs() / trajectories));
+    // The first pair of a trajectory, where all are of one length; else a state of the same motion.
+    pairs.push_back(m * (held_out.all_pairs() / trajectories));
   }
-  auto states = starts_of(data, size(system), pairs);
-  states.insert(states.end(), data.further_starts.begin(), data.further_starts.end());
-  return states;
+  auto plain = starts_of(held_out, size(system), pairs);
+  decltype(plain) energetic;
+  for (const auto* of : {&held_out.further_starts, &data.further_starts}) {
+    for (std::size_t k = 0; k < of->size(); ++k) (k < plain_starts ? plain : energetic).push_back((*of)[k]);
+  }
+  decltype(plain) result;
+  for (std::size_t k = 0; k < std::max(plain.size(), energetic.size()); ++k) {
+    if (k < energetic.size()) result.push_back(energetic[k]);
+    if (k < plain.size()) result.push_back(plain[k]);
+  }
+  return result;
 }
 
 }  // namespace nysalt
