@@ -17,6 +17,7 @@
 #include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/analysis/pareto_front.hpp"
 #include "nysalt/analysis/statistics.hpp"
+#include "nysalt/analysis/tail.hpp"
 #include "nysalt/analysis/threshold.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "nysalt/analysis/total_variation.hpp"

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+// Whether a mean over trajectories, and its standard error, rest on few of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+
+namespace nysalt {
+
+/// The upper tail of a sample: of the scores of trajectories, whose mean is an error.
+struct tail {
+  double count = 0.0;     ///< of the numbers that are not NaN
+  double skewness = 0.0;  ///< third central moment over the power 3/2 of the second; 0 where all are equal
+  double deciding = 0.0;  ///< (sum x)^2/sum x^2: how many equal numbers would scatter as much; at most count
+
+  /// How many numbers are enough for mean +- 1.96 standard errors to miss with a probability of at most 6 %,
+  /// where 5 % is meant: 25 skewness^2. A sample that has not met the tail of the law underestimates it.
+  /// Source: [cochran_1977, section 2.15].
+  double enough() const { return 25.0 * skewness * skewness; }
+  /// Whether the sample is too small for its own tail: then the mean and its standard error say little, and
+  /// quantiles say more.
+  bool is_heavy() const { return count < enough(); }
+};
+
+/// The tail of numbers, one a trajectory; NaN marks a trajectory that does not count. Sums are those of
+/// tree_sum, so that neither threads nor ranks change a bit.
+inline tail tail_of(std::span<const double> numbers) {
+  tail result;
+  double largest = 0.0;
+  for (const double x : numbers) {
+    result.count += std::isnan(x) ? 0.0 : 1.0;
+    if (std::abs(x) > largest) largest = std::abs(x);
+  }
+  if (largest == 0.0) return result;
+  std::vector<double> terms(numbers.size());
+  // In units of the largest: no power of a small number underflows.
+  const auto mean_of = [&](const auto& term) {
+    std::ranges::transform(numbers, terms.begin(),
+                           [&](double x) { return std::isnan(x) ? 0.0 : term(x / largest); });
+    return tree_sum(terms) / result.count;
+  };
+  const double mean = mean_of([](double x) { return x; });
+  const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); });
+  const double third = mean_of([&](double x) { return (x - mean) * (x - mean) * (x - mean); });
+  result.deciding = result.count * mean * mean / (variance + mean * mean);
+  // What differs by rounding alone is equal: half a unit in the last place of each number and of the mean.
+  const double deviation = std::sqrt(variance);
+  if (deviation > std::numeric_limits<double>::epsilon()) {
+    result.skewness = third / (variance * deviation);
+  }
+  return result;
+}
+
+}  // namespace nysalt
