@@ -26,6 +26,7 @@
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/ensembles/listed.hpp"
@@ -427,7 +428,8 @@ class bundled_model final : public bundled_system {
             .seed = plan.seed,
             .threads = plan.threads,
             .progress = progress,
-            .ranks = &world()};
+            .ranks = &world(),
+            .horizon = plan.horizon};
   }
 
   model_reference<Alone> reference() const { return {system_, facts_.frequency, facts_.fine_angle}; }
@@ -443,6 +445,8 @@ class bundled_model final : public bundled_system {
 
   measure_type measure_named(const asked_metric& metric) const {
     if (metric.name == "path") return path_measure(system_, observable<T>(system_, metric.observable));
+    if (metric.name == "relative")
+      return relative_measure(system_, observable<T>(system_, metric.observable));
     if (metric.name == "state") return state_measure(system_);
     if (metric.name == "energy") {
       if (system_.bath().acts())
@@ -450,8 +454,10 @@ class bundled_model final : public bundled_system {
       return energy_measure(system_);
     }
     if (metric.name != "exchange") {
-      refuse("unknown metric '{}': it is one of path, state, exchange, energy, acceptance, distribution, acf",
-             metric.name);
+      refuse(
+          "unknown metric '{}': it is one of path, relative, state, exchange, energy, acceptance, "
+          "distribution, acf",
+          metric.name);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);

@@ -41,6 +41,7 @@ struct trajectories_plan {
   std::int64_t count;
   std::uint64_t seed;
   int threads;
+  std::optional<double> horizon = {};  // within the last step: errors are means up to there
 };
 
 struct learn_plan {

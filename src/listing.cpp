@@ -12,10 +12,11 @@ namespace nysalt::program {
 namespace {
 
 constexpr std::array metrics{
-    std::array{"path", "average relative RMS error of the observable along trajectories"},
+    std::array{"path", "mean RMS error of the observable along trajectories, over its RMS"},
+    std::array{"relative", "the paper's: mean RMS of (o - o_ref)/o_ref; for observables away from 0"},
     std::array{"state", "RMS error of the state in the energy norm, absolute"},
     std::array{"exchange", "mean error of the stiff springs' energies, relative to their sum (fpu)"},
-    std::array{"energy", "RMS of (H - H_0)/|H_0|"},
+    std::array{"energy", "RMS of H - H_0, over that of H_0"},
     std::array{"acceptance", "mean of min(1, exp(-(H_end - H_0)/kT)), of reversible methods; 1 is best"},
     std::array{"distribution", "total variation of the observable's law from the reference's"},
     std::array{"acf", "RMS error of the observable's normalised autocovariance"}};

@@ -172,6 +172,7 @@ BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
       {run_it + " --horizon inf", {"--horizon", "finite"}},
       {"run --method verlet --output out.csv --step 1e-300 --horizon 1", {"1e-300", "--horizon"}},
       {compare + " --steps 0.6", {"--horizon", "shorter", "0.6"}},
+      {compare + " --steps 0.06", {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
       // Six evaluations a step: 0.6 again.
       {"compare --methods srkn6b --equal-cost --steps 0.1 --output folder", {"--horizon", "shorter", "0.6"}},
       {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},
@@ -374,7 +375,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const std::string fast = " --step 0.02 --horizon 0.1 ";
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
   const std::string rows = "run --method verlet" + fast;
-  const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.1 --steps 0.02 ";
+  const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.2 --steps 0.02 ";
   all_refused(folder, {
                           {few + "--output there", {"there", "folder"}},
                           {few + "--output nowhere/scheme.json", {"nowhere", "make it"}},

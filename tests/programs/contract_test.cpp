@@ -145,7 +145,10 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
     BOOST_TEST(shape(row) ==
                "metric:text method:text step:number step_size:number evaluations_per_time:number "
                "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-               "diverged:integer diverged_at:list reference_error:number marks:list");
+               "survivors:integer diverged:integer diverged_at:list reference_error:number marks:list "
+               "median:number median_standard_error:number quantiles:object deciding:number "
+               "enough_trajectories:number");
+    BOOST_TEST(shape(row["quantiles"]) == "5 %:number 25 %:number 50 %:number 75 %:number 95 %:number");
   }
   BOOST_REQUIRE(all["fits"].size() == 1U);
   BOOST_TEST(shape(all["fits"][0]) == "method:text " + of_a_fit);
@@ -167,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const auto row_with = [](const std::string& rest) {
     return "metric:text method:text step:number step_size:number evaluations_per_time:number "
            "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-           "diverged:integer diverged_at:list reference_error:null marks:list floor:number "
+           "survivors:integer diverged:integer diverged_at:list reference_error:null marks:list floor:number "
            "mean:number mean_standard_error:number "
            "effective_sample_size:number" +
            rest;
@@ -362,7 +365,7 @@ BOOST_AUTO_TEST_CASE(steps_are_those_within_the_horizon) {
         BOOST_TEST(row[2] == static_cast<double>(n) * 0.1);
       }
       const auto errors = document(
-          "compare --system pendulum --methods verlet --steps 0.1 --metric energy --trajectories 1 "
+          "compare --system pendulum --methods verlet --steps 0.1 --metric acceptance --trajectories 1 "
           "--horizon " +
           horizon);
       const double cost = errors["rows"][0]["evaluations_per_time"];
