@@ -62,7 +62,8 @@ bool begin_alike(const flow_map_data<N>& a, const flow_map_data<N>& b) {
   return result;
 }
 
-/// The root mean square error of the reference, where it was checked.
+/// The root mean square error of the reference, where it was checked: against its finer self, along noisy
+/// paths with error_over_difference.
 template <int N>
 double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure) {
   std::vector<double> squares(data.trajectories(), 0.0);
@@ -73,7 +74,8 @@ double error_of_reference(const flow_map_data<N>& data, const metric<N>& measure
     for (const double x : r) of_trajectory += x * x;
   }
   const auto checks = data.share().ranks().total(std::ssize(data.finer));
-  return std::sqrt(data.share().sum(squares) / static_cast<double>(checks));
+  const double difference = std::sqrt(data.share().sum(squares) / static_cast<double>(checks));
+  return data.noise_parts > 0 ? error_over_difference * difference : difference;
 }
 
 /// The number of steps of the shortest trajectory.
