@@ -34,7 +34,7 @@ int main() {
 
   // Compare, each at the cost of two force evaluations per step of 0.03.
   // [measure]
-  const auto measure = path_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
+  const auto measure = relative_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
   // [/measure]
   const auto report = [&](const auto& other, double its_step, std::int64_t steps) {
     const auto result = trajectory_errors(chain, reference, law, other, measure,

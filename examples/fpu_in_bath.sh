@@ -23,20 +23,20 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 #
 # step sizes  reference               its own error, at most  null model, at least  predictable until
 # ----------  ----------------------  ----------------------  --------------------  -----------------
-# 0.033       baoab with step 0.0001                1.27e-04              5.81e-02            the end
+# 0.033       baoab with step 0.0001                5.79e-05              4.16e-02            the end
 #
-# method        step  evaluations/time  ns/time  median +     error  standard error  diverged  marks
-# -----------  -----  ----------------  -------  --------  --------  --------------  --------  -----
-# scheme.json  0.033              60.6~%  5.03e-02        1.51e-03     0/400
-# baoab        0.033              31.3~%  6.11e-01        1.71e-02     0/400   null
-# baoab_2x     0.033              61.6~%  7.72e-02        1.68e-03     0/400   null
-# s_aia2       0.033              60.6~%  4.95e-02        1.55e-03     0/400
-# null model       -               0.0        0         -  5.81e-02               -         -
+# method        step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  marks
+# -----------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -----
+# scheme.json  0.033              60.6~%  3.52e-02        1.08e-03      3.15e-02  1.37e-02 to 6.92e-02     0/400
+# baoab        0.033              31.3~%  5.09e-01        1.66e-02      3.77e-01  8.84e-02 to 1.37e+00     0/400   null
+# baoab_2x     0.033              61.6~%  6.15e-02        1.65e-03      5.20e-02  1.61e-02 to 1.34e-01     0/400   null
+# s_aia2       0.033              60.6~%  3.44e-02        1.10e-03      3.06e-02  1.26e-02 to 7.36e-02     0/400
+# null model       -               0.0        0         -  4.16e-02               -             -                     -         -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 #
 # at equal cost   step     error  best of the others  its error  its error / learned  its ns / learned
 # -------------  -----  --------  ------------------  ---------  -------------------  ----------------
-# scheme.json    0.033  5.03e-02              s_aia2   4.95e-02          0.98 ± 0.04~
+# scheme.json    0.033  3.52e-02              s_aia2   3.44e-02        0.978 ± 0.009~
 #
 # peak memory: ~ MB
 # fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05), 200 trajectories over 20

@@ -58,13 +58,9 @@ void require_force(const own_functions& its) {
   const own_hamiltonian system(lent(its));
   const own_starts starts(lent(its));
   std::vector<column> points;
-  double largest = 0.0;
   for (std::uint64_t n = 0; n < 4; ++n) {
     points.push_back(sound_start(system, starts, 1, static_cast<std::int64_t>(n)).q);
-    largest = std::max(largest, points.back().cwiseAbs().maxCoeff());
   }
-  constexpr double far_below_one = 1e-3;  // differences are over lengths of order one
-  if (largest < far_below_one) return;
   const force_check found = check_force(system, points);
   if (!found.passed()) program::refuse("{}: {}", its.name, found.report());
 }

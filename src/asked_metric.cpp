@@ -10,8 +10,8 @@
 namespace nysalt::program {
 
 asked_metric metric_named(std::string_view text, const std::string& otherwise) {
-  static const std::vector<std::string> known{"path",       "state",        "exchange", "energy",
-                                              "acceptance", "distribution", "acf"};
+  static const std::vector<std::string> known{"path",   "relative",   "state",        "exchange",
+                                              "energy", "acceptance", "distribution", "acf"};
   const auto colon = text.find(':');
   asked_metric asked{.name = std::string(text.substr(0, colon))};
   if (std::ranges::count(known, asked.name) == 0) {
@@ -23,7 +23,7 @@ asked_metric metric_named(std::string_view text, const std::string& otherwise) {
   }
   asked.observable = text.substr(colon + 1);
   if (!asked.takes_observable()) {
-    refuse("--metric {}: {} is of no observable; path, distribution and acf are", text, asked.name);
+    refuse("--metric {}: {} is of no observable; path, relative, distribution and acf are", text, asked.name);
   }
   if (asked.observable.empty()) refuse("--metric {}: name an observable after the colon", text);
   return asked;

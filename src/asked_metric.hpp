@@ -24,7 +24,7 @@ struct asked_metric {
   bool is_of_law() const { return name == "distribution" || name == "acf"; }
   bool is_acceptance() const { return name == "acceptance"; }
   bool is_along_paths() const { return !is_of_law() && !is_acceptance(); }
-  bool takes_observable() const { return name == "path" || is_of_law(); }
+  bool takes_observable() const { return name == "path" || name == "relative" || is_of_law(); }
   /// What its results are called.
   std::string value() const { return is_acceptance() ? "acceptance" : "error"; }
 };

@@ -26,11 +26,13 @@
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/learning/extend_data.hpp"
 #include "nysalt/learning/make_problem.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
@@ -89,6 +91,10 @@ class bundled_model final : public bundled_system {
   std::vector<frequency_band> frequency_bands() const override {
     if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
     return {};
+  }
+  std::optional<double> frequency_to_fit() const override {
+    if constexpr (HasModes<S> || HasFrequencyBands<S>) return detail::frequency_to_fit(system_);
+    return std::nullopt;
   }
   std::vector<std::string> observables() const override { return observable_names(system_); }
   void require_observable(const std::string& name) const override { observable<double>(system_, name); }
@@ -149,10 +155,17 @@ class bundled_model final : public bundled_system {
   }
 
   stability_guard guard(bool rotations) const override {
-    states_in_double states;
-    constexpr std::uint64_t enough = 64;
-    for (std::uint64_t n = 0; n < enough; ++n) states.push_back(law_(1, n));
+    const auto states = typical_and_energetic_starts(system_, law_, 1, 0, 64);
     return stability_guard(system_, states, rotations);
+  }
+
+  trial_result trial(const tabulated& method, const trajectories_plan& plan) const override {
+    states_in_double states =
+        starts_ ? typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
+                : typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
+    if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
+    return trial_run(system_, method, plan.step, states,
+                     {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
   }
 
   void require_learnable(const std::string& name, std::optional<placement> where, const learn_settings& how,
@@ -364,6 +377,8 @@ class bundled_model final : public bundled_system {
              progress);
   }
 
+  int derivative_calls() const override { return nysalt::derivative_calls<S>; }
+
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const override {
     return evaluations_of_run(system_, method, plan.step, plan.steps, (*starts_)(plan.seed, 0));
   }
@@ -413,7 +428,8 @@ class bundled_model final : public bundled_system {
             .seed = plan.seed,
             .threads = plan.threads,
             .progress = progress,
-            .ranks = &world()};
+            .ranks = &world(),
+            .horizon = plan.horizon};
   }
 
   model_reference<Alone> reference() const { return {system_, facts_.frequency, facts_.fine_angle}; }
@@ -429,6 +445,8 @@ class bundled_model final : public bundled_system {
 
   measure_type measure_named(const asked_metric& metric) const {
     if (metric.name == "path") return path_measure(system_, observable<T>(system_, metric.observable));
+    if (metric.name == "relative")
+      return relative_measure(system_, observable<T>(system_, metric.observable));
     if (metric.name == "state") return state_measure(system_);
     if (metric.name == "energy") {
       if (system_.bath().acts())
@@ -436,8 +454,10 @@ class bundled_model final : public bundled_system {
       return energy_measure(system_);
     }
     if (metric.name != "exchange") {
-      refuse("unknown metric '{}': it is one of path, state, exchange, energy, acceptance, distribution, acf",
-             metric.name);
+      refuse(
+          "unknown metric '{}': it is one of path, relative, state, exchange, energy, acceptance, "
+          "distribution, acf",
+          metric.name);
     }
     if constexpr (HasStiffEnergies<S>) {
       return exchange_measure(system_);

@@ -22,6 +22,7 @@
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/until_enough.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/trial_run.hpp"
 #include "settings.hpp"
 
 namespace nysalt {
@@ -40,6 +41,7 @@ struct trajectories_plan {
   std::int64_t count;
   std::uint64_t seed;
   int threads;
+  std::optional<double> horizon = {};  // within the last step: errors are means up to there
 };
 
 struct learn_plan {
@@ -126,6 +128,9 @@ class bundled_system {
   virtual nlohmann::ordered_json parameters() const = 0;
   /// Empty if there is no bound.
   virtual std::vector<frequency_band> frequency_bands() const = 0;
+  /// The frequency whose phase is kept by phase-fitted methods; nothing if neither modes nor bands are
+  /// declared.
+  virtual std::optional<double> frequency_to_fit() const = 0;
   virtual std::vector<std::string> observables() const = 0;
   /// Throws refusal for one that there is not, before any work is done.
   virtual void require_observable(const std::string& name) const = 0;
@@ -146,6 +151,9 @@ class bundled_system {
 
   /// Of its bands, or of the frequencies along some starts by its law.
   virtual stability_guard guard(bool rotations) const = 0;
+  /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
+  /// ones.
+  virtual trial_result trial(const tabulated& method, const trajectories_plan& plan) const = 0;
   /// Throws refusal for a word that the system does not serve.
   virtual void require_served(const run_time_word& word) const = 0;
   /// Throws refusal for what cannot be learned, before any work is done.
@@ -200,6 +208,8 @@ class bundled_system {
   virtual void integrate(const tabulated& method, const trajectories_plan& plan, std::span<double> q,
                          std::span<double> p, const counter& progress) const = 0;
 
+  /// Calls of the system that one f'(q) v takes in a gradient kick.
+  virtual int derivative_calls() const = 0;
   /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
   /// step after them costs the same.
   virtual std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bundled_system.hpp"
 #include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/aba_free.hpp"
@@ -19,7 +20,11 @@
 #include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/mclachlan_atela.hpp"
+#include "nysalt/methods/omelyan.hpp"
 #include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/methods/predescu.hpp"
+#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/takahashi_imada.hpp"
 #include "nysalt/methods/verlet.hpp"
 
@@ -33,8 +38,8 @@ std::vector<run_time_family> as_data() {
 }  // namespace
 
 const std::vector<run_time_family>& families() {
-  static const auto all = as_data<nystrom, aba<4>, aba<5>, aba<6>, bab<4>, bab<6>, aba3_free, aba4_free,
-                                  fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+  static const auto all = as_data<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free,
+                                  aba4_free, fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
   return all;
 }
 
@@ -85,8 +90,13 @@ const std::vector<classical_method>& classical_methods() {
       {tabulated(mclachlan2{}), "mclachlan_1995"},
       {tabulated(bcss2{}), "blanes_casas_sanz_serna_2014"},
       {tabulated(bcss3{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(bcss4{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(predescu3{}), "predescu_and_others_2012"},
       {tabulated(forest_ruth{}), "forest_ruth_1990"},
       {tabulated(pefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(vefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(omelyan5v{}), "omelyan_mryglod_folk_2003"},
+      {tabulated(omelyan5p{}), "omelyan_mryglod_folk_2003"},
       {tabulated(mclachlan_atela4{}), "mclachlan_atela_1992"},
       {tabulated(mclachlan5{}), "mclachlan_1995"},
       {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
@@ -95,6 +105,7 @@ const std::vector<classical_method>& classical_methods() {
       {tabulated(srkn14a{}), "blanes_moan_2002"},
       {tabulated(takahashi_imada{}), "takahashi_imada_1984"},
       {tabulated(chin4a{}), "chin_1997"},
+      {tabulated(omelyan_fg4{}), "omelyan_mryglod_folk_2003"},
       {tabulated(impulse{}), "tuckerman_berne_martyna_1992"},
       {tabulated(baoab{}), "leimkuhler_matthews_2013"},
       {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
@@ -104,10 +115,45 @@ const std::vector<classical_method>& classical_methods() {
   return all;
 }
 
+namespace {
+
+std::optional<double> frequency_to_fit(const bundled_system& system) { return system.frequency_to_fit(); }
+
+template <class M>
+adaptive_method adaptive(std::string_view source, std::optional<double> (*frequency)(const bundled_system&)) {
+  return {M::name(),
+          source,
+          run_time_word(typename M::word{}),
+          {M::order, M::symmetric, M::requires_quadratic_kinetic},
+          frequency,
+          [](double z) { return tabulated(M(z)); }};
+}
+
+template <Family F, Method M>
+adaptive_method fitted() {
+  return adaptive<phase_fitted<F, M>>("van_de_vyver_2007", frequency_to_fit);
+}
+
+}  // namespace
+
+const std::vector<adaptive_method>& adaptive_methods() {
+  static const std::vector<adaptive_method> all{
+      adaptive<s_aia2>("nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024", highest_frequency),
+      fitted<fg_chin, chin4a>(),
+      fitted<fg4, omelyan_fg4>(),
+      fitted<aba<4>, pefrl>(),
+      fitted<bab<4>, vefrl>(),
+      fitted<aba<5>, mclachlan5>(),
+      fitted<bab<5>, omelyan5v>(),
+      fitted<bab<6>, srkn6b>(),
+  };
+  return all;
+}
+
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const auto& known : classical_methods()) names.push_back(known.method.name());
-  names.emplace_back(adaptive_method);
+  for (const auto& known : adaptive_methods()) names.push_back(known.name);
   return names;
 }
 

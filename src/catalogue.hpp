@@ -2,6 +2,7 @@
 // What the program knows by name.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "refusal.hpp"
 
 namespace nysalt::program {
+
+class bundled_system;
 
 /// Every family that can be learned.
 const std::vector<run_time_family>& families();
@@ -38,9 +41,16 @@ const std::vector<classical_method>& classical_methods();
 coordinates coordinates_named(const std::string& name);
 placement placement_named(const std::string& name);
 
-/// Methods whose coefficients depend on step times highest frequency.
-inline constexpr std::string_view adaptive_method = "s_aia2";
-inline constexpr std::string_view adaptive_source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
+/// A method whose coefficients depend on z = step * frequency.
+struct adaptive_method {
+  std::string name;
+  std::string_view source;  // in docs/bibliography.bib
+  run_time_word letters;
+  method_properties properties;
+  std::optional<double> (*frequency)(const bundled_system&);  // of a system; nothing where none is declared
+  std::function<tabulated(double z)> at;                      // throws std::invalid_argument where it ends
+};
+const std::vector<adaptive_method>& adaptive_methods();
 
 /// All names that `--method` takes, beside files.
 std::vector<std::string> method_names();

@@ -38,4 +38,14 @@ inline std::int64_t steps_within(const char* option, double horizon, double step
   return static_cast<std::int64_t>(steps);
 }
 
+/// Steps to the horizon or just beyond it, and at least one: errors are means over all of it.
+inline std::int64_t steps_beyond(const char* option, double horizon, double step) {
+  const std::int64_t whole = steps_within(option, horizon, step);
+  return whole + (static_cast<double>(whole) < horizon / step - 1e-9 ? 1 : 0);
+}
+
+/// A mean over time takes so many samples at least: the trapezoidal rule errs then by half a percent of a
+/// square error that grows like t^2 (sample_weights).
+inline constexpr double fewest_samples = 10.0;
+
 }  // namespace nysalt::program

@@ -21,7 +21,8 @@ template <int N, class T>
 class any_starts {
  public:
   template <class S, Ensemble<S> E>
-  any_starts(const S& system, E ensemble) : text_(ensemble.description()) {
+  any_starts(const S& system, E ensemble)
+      : text_(ensemble.description()), is_dear_(MakesBlocks<E, S, T>) {
     block_ = [&system, ensemble = std::move(ensemble)](std::uint64_t seed, std::int64_t first, int count) {
       return sound_starts<T>(system, ensemble, seed, first, count);
     };
@@ -41,10 +42,13 @@ class any_starts {
     }
   }
   const std::string& description() const { return text_; }
+  /// Whether a state takes a simulation of its own.
+  bool is_dear() const { return is_dear_; }
 
  private:
   std::function<phase_point<T, N>(std::uint64_t, std::int64_t, int)> block_;
   std::string text_;
+  bool is_dear_;
 };
 
 }  // namespace nysalt::program

@@ -35,7 +35,9 @@ std::string_view source_of_system(const std::string& name) {
 }
 
 std::string_view source_of_method(const std::string& name) {
-  if (name == adaptive_method) return adaptive_source;
+  for (const auto& known : adaptive_methods()) {
+    if (known.name == name) return known.source;
+  }
   for (const auto& known : classical_methods()) {
     if (known.method.name() == name) return known.source;
   }

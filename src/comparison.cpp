@@ -22,7 +22,7 @@ void require_fitting(const compare_command& command, const std::function<bool(co
     if (!is_given(option) || std::ranges::any_of(command.metrics, is_of_these)) return;
     refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(command.metrics));
   };
-  belongs("--observable", {"path", "distribution", "acf"});
+  belongs("--observable", {"path", "relative", "distribution", "acf"});
   belongs("--range", {"distribution"});
   belongs("--bins", {"distribution"});
   belongs("--longest-lag", {"acf"});
@@ -81,6 +81,7 @@ void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : command_.methods) {
     sources.push_back(find_method(typed, command_.held));
+    charge(sources.back(), *system_);
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
   }
@@ -95,6 +96,7 @@ void comparison::plan_rows() {
            source.learned->steps(), command_.equal_cost ? " (of an evaluation)" : "",
            source.learned->curve.steps().back() / evaluations);
   }
+  require_enough_samples();
 }
 
 /// A scheme file has a row where its own step is asked for, and nowhere else.
@@ -126,9 +128,10 @@ void comparison::add_row(const method_source& source, double nominal) {
       refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method",
              source.typed);
     }
-    system_->require_measure(metric, plan_at(step), command_.learning.fine_step,
-                             metric.is_of_law() ? 1 : parts);
+    system_->require_measure(metric, metric.is_along_paths() ? paths_at(step) : plan_at(step),
+                             command_.learning.fine_step, metric.is_of_law() ? 1 : parts);
     if (metric.is_of_law()) statistics_at(m, step);
+    its.findings[m].reason = too_few_samples(metric, step);
   }
   rows_.push_back(std::move(its));
 }
@@ -136,6 +139,31 @@ void comparison::add_row(const method_source& source, double nominal) {
 trajectories_plan comparison::plan_at(double step) const {
   return {step, steps_within("--horizon", command_.horizon, step), command_.trajectories,
           seed_for(role::test, common_.seed), common_.threads};
+}
+
+/// To the horizon, over which errors are means.
+trajectories_plan comparison::paths_at(double step) const {
+  trajectories_plan plan = plan_at(step);
+  plan.steps = steps_beyond("--horizon", command_.horizon, step);
+  plan.horizon = command_.horizon;
+  return plan;
+}
+
+std::string comparison::too_few_samples(const asked_metric& metric, double step) const {
+  const double samples = command_.horizon / step;
+  if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
+  return fmt::format(
+      "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes: "
+      "take "
+      "{:g} at least",
+      command_.horizon, samples, step, fewest_samples, fewest_samples * step);
+}
+
+void comparison::require_enough_samples() const {
+  const auto has_none = [](const row& its) {
+    return std::ranges::none_of(its.findings, [](const finding& one) { return one.reason.empty(); });
+  };
+  if (std::ranges::all_of(rows_, has_none)) refuse("{}", rows_.front().findings.front().reason);
 }
 
 namespace {

@@ -73,6 +73,10 @@ class comparison {
   void plan_rows();
   void add_row(const method_source& source, double nominal);
   trajectories_plan plan_at(double step) const;
+  trajectories_plan paths_at(double step) const;
+  /// Why a mean over time has too few samples at a step; empty if it has enough.
+  std::string too_few_samples(const asked_metric& metric, double step) const;
+  void require_enough_samples() const;
   json asked() const;
   void expect_work();
   double work_of_learning(const row& its) const;

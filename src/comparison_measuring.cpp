@@ -41,11 +41,14 @@ void comparison::learn_and_measure(journal& kept) {
     const auto plan = plan_at(its.step);
     const auto evaluations = static_cast<double>(system_->count_evaluations(*its.coefficients, plan));
     its.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
+    if (its.reason.empty()) continue;
     for (finding& one : its.findings) one.reason = its.reason;
   }
   for (const auto& [step, all] : by_step) {
-    if (!along_paths().empty()) measure_paths(step, usable(all), kept);
+    const auto has_samples = [&](const asked_metric& its) { return too_few_samples(its, step).empty(); };
+    if (std::ranges::any_of(along_paths(), has_samples)) measure_paths(step, usable(all), kept);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
+      if (!has_samples(metrics_[m])) continue;
       if (metrics_[m].is_acceptance()) measure_acceptance(m, step, usable(all), kept);
       if (metrics_[m].is_of_law()) measure_law(m, step, usable(all), kept);
     }
@@ -162,7 +165,7 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
   constexpr double coarser = 4.0;
   constexpr double usual = 10.0;  // is so many times finer than for ranking
   constexpr std::int64_t few = 16;
-  errors_plan pilot{.trajectories = plan_at(step), .metrics = paths};
+  errors_plan pilot{.trajectories = paths_at(step), .metrics = paths};
   pilot.trajectories.count = std::min(few, command_.trajectories);
   double parts = std::max(1.0, std::round(step / (coarser * *ranking)));
   while (parts < usual * step / *ranking) {
@@ -180,7 +183,7 @@ namespace {
 json findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
   json result = json::array();
   for (const method_error& its : all) {
-    finding one{.value = its.error};
+    finding one{.value = its.error, .spread = its.spread, .groups = means_of_groups(its.of_each)};
     one.lose(its.diverged_at, trajectories);
     result.push_back(to_json(one));
   }
@@ -196,10 +199,9 @@ bool is_conserved(const trajectory_errors_result& found) {
   return found.null_model && found.null_model->mean <= std::max(noise, rounding);
 }
 
-/// `share`: of its own error that a reference sees of itself.
-json backdrop_json(const trajectory_errors_result& found, double share) {
+json backdrop_json(const trajectory_errors_result& found) {
   backdrop its{.reference = found.reference};
-  if (found.reference_error) its.reference_error = found.reference_error->mean / share;
+  if (found.reference_error) its.reference_error = found.reference_error->mean;
   if (!is_conserved(found)) {
     if (found.null_model) its.null_model = found.null_model->mean;
     its.predictable_until = found.predictable_until;
@@ -228,17 +230,15 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
     std::vector<tabulated> methods;
     for (const row* its : all) methods.push_back(*its->coefficients);
     constexpr double perturbation = 1e-6;
-    const errors_plan plan{.trajectories = plan_at(step),
+    const errors_plan plan{.trajectories = paths_at(step),
                            .metrics = along_paths(),
                            .fine_step = fine_step_for(step, methods),
                            .null_model = true,
                            .perturbation = perturbation};
-    // BAOAB along a path is of order one: of twice as many steps it differs by half of its error.
-    const double share = system_->its_bath().sigma() > 0.0 ? 0.5 : 1.0;
     json result = json::array();
     for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
-      result.push_back({{"behind", backdrop_json(its, share)},
-                        {"findings", findings_of(its.methods, command_.trajectories)}});
+      result.push_back(
+          {{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
     }
     return result;
   });
@@ -255,7 +255,7 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
     for (const row* its : all) {
       const auto accepted = system_->acceptance(*its->coefficients, plan_at(step), command_.hmc_temperature,
                                                 shown_.counter(command_.trajectories));
-      finding one{.value = accepted.probability};
+      finding one{.value = accepted.probability, .groups = means_of_groups(accepted.of_each)};
       one.lose(accepted.diverged_at, command_.trajectories);
       findings.push_back(to_json(one));
     }

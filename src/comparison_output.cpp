@@ -21,6 +21,7 @@ std::int64_t peak_memory() {
 std::string quantity(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
   if (metric.name == "path") return "path error of " + metric.observable;
+  if (metric.name == "relative") return "relative error of " + metric.observable;
   if (metric.name == "distribution") return "total variation of " + metric.observable;
   if (metric.name == "acf") return "acf error of " + metric.observable;
   if (metric.is_acceptance()) return fmt::format("acceptance at kT = {:g}", all.command().hmc_temperature);
@@ -32,6 +33,14 @@ namespace {
 std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
 std::string in_full(double x) { return std::isnan(x) ? std::string() : fmt::format("{}", x); }
 std::string in_full(const std::optional<double>& x) { return x ? in_full(*x) : std::string(); }
+
+/// Where there is none: NaN.
+distribution_of_errors no_spread() {
+  distribution_of_errors none;
+  none.quantiles.fill(std::numeric_limits<double>::quiet_NaN());
+  none.largest.deciding = std::numeric_limits<double>::quiet_NaN();
+  return none;
+}
 
 std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
   std::string text;
@@ -46,22 +55,41 @@ std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
 
 table rows_of(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
-  table result({"method", "step", "evaluations/time", "ns/time", "median +", metric.value(), "standard error",
-                "diverged", "marks"});
+  std::vector<std::string> names{"method",   "step",         "evaluations/time", "ns/time",
+                                 "median +", metric.value(), "standard error"};
+  const bool has_spread = metric.is_along_paths();
+  if (has_spread) names.insert(names.end(), {"median error", "5 % to 95 %"});
+  names.insert(names.end(), {"diverged", "marks"});
+  table result(names);
   const auto shown = [&](double x) {
     return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
   };
   for (const row& its : all.rows()) {
     const finding& one = its.findings[m];
     const timed_job& seconds = its.seconds_per_time;
-    result.add({its.method, fmt::format("{:g}", its.nominal), fmt::format("{:.1f}", its.evaluations_per_time),
-                fmt::format("{:.0f}", 1e9 * seconds.least),
-                fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
-                shown(one.value.mean), in_short(one.value.standard_error),
-                fmt::format("{}/{}", one.diverged, all.command().trajectories), joined_marks(all, m, its)});
+    std::vector<std::string> cells{its.method,
+                                   fmt::format("{:g}", its.nominal),
+                                   fmt::format("{:.1f}", its.evaluations_per_time),
+                                   fmt::format("{:.0f}", 1e9 * seconds.least),
+                                   fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
+                                   shown(one.value.mean),
+                                   in_short(one.value.standard_error)};
+    if (has_spread) {
+      const distribution_of_errors spread = one.spread.value_or(no_spread());
+      cells.push_back(in_short(spread.median.mean));
+      cells.push_back(one.spread ? fmt::format("{} to {}", in_short(spread.quantiles.front()),
+                                               in_short(spread.quantiles.back()))
+                                 : "-");
+    }
+    cells.push_back(fmt::format("{}/{}", one.diverged, all.command().trajectories));
+    cells.push_back(joined_marks(all, m, its));
+    result.add(cells);
   }
   for (const auto& [name, value] : free_of_cost(all, m)) {
-    result.add({name, "-", "0.0", "0", "-", in_short(value), "-", "-", ""});
+    std::vector<std::string> cells{name, "-", "0.0", "0", "-", in_short(value), "-"};
+    if (has_spread) cells.insert(cells.end(), {"-", "-"});
+    cells.insert(cells.end(), {"-", ""});
+    result.add(cells);
   }
   return result;
 }
@@ -82,7 +110,8 @@ std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, 
 
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
-  for (const mark one : {mark::reference, mark::null, mark::floor, mark::horizon, mark::diverged}) {
+  for (const mark one :
+       {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::diverged}) {
     const bool is_there = std::ranges::any_of(
         all.rows(), [&](const row& its) { return std::ranges::count(marks_of(all, m, its), one) > 0; });
     if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));
@@ -150,15 +179,16 @@ std::string with_error(const estimate& its) {
 table equal_cost_table(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
   const bool accepts = metric.is_acceptance();
-  const std::string value = metric.value();
+  std::string value = metric.value();
+  if (is_by_median(all, m)) value = "median " + value;
   table result({"at equal cost", "step", value, "best of the others", "its " + value,
                 accepts ? "its rejections / learned" : "its error / learned", "its ns / learned"});
   const char* format = accepts ? "{:.4f}" : "{:.2e}";
   for (const at_equal_cost& pair : side_by_side(all, m)) {
     const double seconds = pair.best->seconds_per_time.least / pair.learned->seconds_per_time.least;
     result.add({pair.learned->method, fmt::format("{:g}", pair.learned->nominal),
-                fmt::format(fmt::runtime(format), pair.learned->findings[m].value.mean), pair.best->method,
-                fmt::format(fmt::runtime(format), pair.best->findings[m].value.mean),
+                fmt::format(fmt::runtime(format), ranked_value(all, m, *pair.learned).mean),
+                pair.best->method, fmt::format(fmt::runtime(format), ranked_value(all, m, *pair.best).mean),
                 with_error(gain(all, m, pair)), fmt::format("{:.2g}", seconds)});
   }
   return result;
@@ -193,11 +223,23 @@ json row_json(const comparison& all, std::size_t m, const row& its) {
               {"seconds_per_time_median", its.seconds_per_time.median},
               {metric.value(), one.value.mean},
               {"standard_error", one.value.standard_error},
+              {"survivors", all.command().trajectories - one.diverged},
               {"diverged", one.diverged},
               {"diverged_at", to_json(one.diverged_at)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
   if (!one.reason.empty()) result["reason"] = one.reason;
+  if (one.spread) {
+    json quantiles = json::object();
+    for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
+      quantiles[fmt::format("{:g} %", 100.0 * shown_quantiles[i])] = number(one.spread->quantiles[i]);
+    }
+    result["median"] = number(one.spread->median.mean);
+    result["median_standard_error"] = number(one.spread->median.standard_error);
+    result["quantiles"] = quantiles;
+    result["deciding"] = number(one.spread->largest.deciding);
+    result["enough_trajectories"] = number(one.spread->largest.enough());
+  }
   if (!metric.is_of_law() || !one.law) return result;
   if (against.floor) result["floor"] = *against.floor;
   result["mean"] = one.law->mean.mean;
@@ -246,7 +288,7 @@ json rankings_json(const comparison& all) {
   };
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     json levels = json::array();
-    for (const double level : all.command().levels) {
+    for (const double level : levels_for(all, m)) {
       if (all.metrics()[m].is_acceptance()) break;
       json costs = json::array();
       for (const cost_at_level& its : costs_at(all, m, level)) {
@@ -257,6 +299,7 @@ json rankings_json(const comparison& all) {
       levels.push_back({{"level", level}, {"methods", costs}});
     }
     result.push_back({{"metric", all.metrics()[m].text()},
+                      {"ranked_by", is_by_median(all, m) ? "median" : "mean"},
                       {"front_by_evaluations", named(pareto_front(all, m, evaluations_of))},
                       {"front_by_seconds", named(pareto_front(all, m, seconds_of))},
                       {"levels", levels}});
@@ -297,20 +340,62 @@ json document_of(const comparison& all) {
 }
 
 std::string csv_of(const comparison& all) {
-  table result({"metric", "method", "step", "step_size", "evaluations_per_time", "seconds_per_time",
-                "seconds_per_time_median", "value", "standard_error", "diverged", "reference_error",
-                "null_model", "floor", "predictable_until", "marks", "reason"});
+  table result({"metric",
+                "method",
+                "step",
+                "step_size",
+                "evaluations_per_time",
+                "seconds_per_time",
+                "seconds_per_time_median",
+                "value",
+                "standard_error",
+                "diverged",
+                "reference_error",
+                "null_model",
+                "floor",
+                "predictable_until",
+                "marks",
+                "reason",
+                "survivors",
+                "quantile_5",
+                "quantile_25",
+                "median",
+                "quantile_75",
+                "quantile_95",
+                "median_standard_error",
+                "deciding",
+                "enough_trajectories"});
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const row& its : all.rows()) {
       const finding& one = its.findings[m];
       const backdrop& against = behind(all, m, its);
-      result.add({all.metrics()[m].text(), its.method, in_full(its.nominal), in_full(its.step),
-                  in_full(its.evaluations_per_time), in_full(its.seconds_per_time.least),
-                  in_full(its.seconds_per_time.median), in_full(one.value.mean),
-                  in_full(one.value.standard_error), fmt::format("{}", one.diverged),
+      const distribution_of_errors spread = one.spread.value_or(no_spread());
+      const auto& quantiles = spread.quantiles;
+      result.add({all.metrics()[m].text(),
+                  its.method,
+                  in_full(its.nominal),
+                  in_full(its.step),
+                  in_full(its.evaluations_per_time),
+                  in_full(its.seconds_per_time.least),
+                  in_full(its.seconds_per_time.median),
+                  in_full(one.value.mean),
+                  in_full(one.value.standard_error),
+                  fmt::format("{}", one.diverged),
                   all.metrics()[m].is_of_law() ? std::string() : in_full(against.reference_error),
-                  in_full(against.null_model), in_full(against.floor), in_full(against.predictable_until),
-                  joined_marks(all, m, its), one.reason});
+                  in_full(against.null_model),
+                  in_full(against.floor),
+                  in_full(against.predictable_until),
+                  joined_marks(all, m, its),
+                  one.reason,
+                  fmt::format("{}", all.command().trajectories - one.diverged),
+                  in_full(quantiles[0]),
+                  in_full(quantiles[1]),
+                  in_full(quantiles[2]),
+                  in_full(quantiles[3]),
+                  in_full(quantiles[4]),
+                  in_full(spread.median.standard_error),
+                  in_full(spread.largest.deciding),
+                  one.spread ? in_full(spread.largest.enough()) : std::string()});
     }
   }
   return result.csv();

@@ -65,13 +65,34 @@ std::string against_classical(const cost_at_level& its, const std::vector<cost_a
   return fmt::format("{}{:.2f}", best->evaluations.kind == crossing_kind::found ? "" : "< ", ratio);
 }
 
+/// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
+/// classical method at the same error; the dearest of the method's fits counts.
+std::string repaid_after(const comparison& all, const cost_at_level& its,
+                         const std::vector<cost_at_level>& costs) {
+  const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
+    return !other.is_learned && other.evaluations.kind == crossing_kind::found;
+  });
+  double spent = 0.0;
+  for (const auto& fit : all.fits()) {
+    if (fit["method"] == its.method) spent = std::max(spent, fit["learning_evaluations"].get<double>());
+  }
+  if (best == costs.end() || spent == 0.0 || its.evaluations.kind != crossing_kind::found) return "-";
+  const double saved = best->evaluations.x - its.evaluations.x;
+  return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
+}
+
 /// What it costs to come to a level.
 table level_table(const comparison& all, std::size_t m, double level) {
-  table result({"method", "evaluations/time", "ns/time", "cheapest classical / its"});
   const auto costs = costs_at(all, m, level);
+  const bool is_learned = std::ranges::any_of(costs, &cost_at_level::is_learned);
+  std::vector<std::string> names{"method", "evaluations/time", "ns/time", "cheapest classical / its"};
+  if (is_learned) names.push_back("learning repaid after");
+  table result(names);
   for (const cost_at_level& its : costs) {
-    result.add({its.method, text_of(its.evaluations, 1.0), text_of(its.seconds, 1e9),
-                against_classical(its, costs)});
+    std::vector<std::string> cells{its.method, text_of(its.evaluations, 1.0), text_of(its.seconds, 1e9),
+                                   against_classical(its, costs)};
+    if (is_learned) cells.push_back(repaid_after(all, its, costs));
+    result.add(cells);
   }
   return result;
 }
@@ -89,9 +110,10 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
     report.subheading("What is learned, beside the best of the others that cost no more");
     report.table(std::move(beside));
   }
-  for (const double level : all.command().levels) {
+  for (const double level : levels_for(all, m)) {
     if (all.metrics()[m].is_acceptance()) break;
     report.subheading(fmt::format("The cost of an error of {:g}", level));
+    if (is_by_median(all, m)) report.text("Of the median over trajectories.");
     report.table(level_table(all, m, level));
   }
   report.subheading("Best at its cost");
@@ -104,7 +126,8 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
   title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
   report.heading(title);
   for (auto& picture : pictures_of_errors(all, m)) {
-    const std::string caption = quantity(all, m) + " against " + picture.panels.front().x_label +
+    const std::string caption = (is_by_median(all, m) ? "median " : "") + quantity(all, m) + " against " +
+                                picture.panels.front().x_label +
                                 "; bars are standard errors, hollow points are not ranked";
     report.picture(std::move(picture), caption);
   }
@@ -147,11 +170,30 @@ void add_fits(page& report, const comparison& all) {
   report.table(std::move(fits));
 }
 
+/// Coefficients of the learned rows that were not learned here.
+void add_files(page& report, const comparison& all) {
+  table files({"method from a file", "step size", "letters", "coefficients"});
+  for (const row& its : all.rows()) {
+    const bool is_fitted =
+        std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == its.method; });
+    if (!its.is_learned || is_fitted || !its.coefficients) continue;
+    std::string numbers;
+    for (const double c : its.coefficients->coefficients()) {
+      numbers += fmt::format("{}{:.6g}", numbers.empty() ? "" : ", ", c);
+    }
+    files.add({its.method, fmt::format("{:.3g}", its.step), its.coefficients->letters().letters(), numbers});
+  }
+  if (files.empty()) return;
+  report.heading("What came from files");
+  report.table(std::move(files));
+}
+
 page report_of(const comparison& all) {
   page report("Speed against error: " + all.system().description());
   add_question(report, all);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) add_metric(report, all, m);
   add_fits(report, all);
+  add_files(report, all);
   report.heading("How it was measured");
   std::vector<std::string> notes{
       "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
@@ -161,7 +203,14 @@ page report_of(const comparison& all) {
       "interleaved rounds; `median +` says how much more the median of the rounds is; an error of a cost in "
       "seconds is that of the errors alone",
       "standard errors are over trajectories, which all methods share; those of laws over groups of "
-      "trajectories",
+      "trajectories; those of gains are of the differences trajectory by trajectory",
+      fmt::format(
+          "errors along paths are means over [0, {:g}], the same for all rows; of paths, exchange and "
+          "energies relative to a mean over all trajectories",
+          all.command().horizon),
+      "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
+      "dearest "
+      "fit of the method took, against the cheapest of the others at the same error",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};

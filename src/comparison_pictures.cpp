@@ -34,7 +34,7 @@ std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
                       .step = its.nominal,
                       .evaluations_per_time = its.evaluations_per_time,
                       .seconds_per_time = its.seconds_per_time.least,
-                      .error = one.value,
+                      .error = ranked_value(all, m, its),
                       .diverged = one.diverged,
                       .trajectories = all.command().trajectories,
                       .learned = its.is_learned,
@@ -43,8 +43,10 @@ std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
   return result;
 }
 
+/// The null model's error is a mean.
 std::vector<level> levels_of(const comparison& all, std::size_t m) {
   std::vector<level> result;
+  if (is_by_median(all, m)) return result;
   for (const auto& [name, value] : free_of_cost(all, m)) {
     if (value > 0.0) result.push_back({name, value});
   }
@@ -54,7 +56,7 @@ std::vector<level> levels_of(const comparison& all, std::size_t m) {
 figure against_cost(const comparison& all, std::size_t m, const char* name, const char* label,
                     double work_precision_row::*field, double (*cost)(const row&)) {
   panel its = work_precision_panel(points_of(all, m, drawn_methods(all, m)), "", label, field);
-  its.y_label = quantity(all, m);
+  its.y_label = (is_by_median(all, m) ? "median " : "") + quantity(all, m);
   its.linear_y = all.metrics()[m].is_acceptance();
   std::vector<std::size_t> front;
   for (const row* best : pareto_front(all, m, cost)) {
@@ -79,7 +81,9 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
       if (is_learned != learned || found == most || !chosen.insert(method).second) return;
       ++found;
     };
-    for (const auto& its : costs_at(all, m, all.command().levels.front())) add(its.is_learned, its.method);
+    for (const double level : levels_for(all, m)) {
+      for (const auto& its : costs_at(all, m, level)) add(its.is_learned, its.method);
+    }
     for (const row& its : all.rows()) add(its.is_learned, its.method);  // where no cost is known
   }
   std::vector<std::string> result;

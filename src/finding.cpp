@@ -41,6 +41,23 @@ std::vector<double> numbers_from(const json& text) {
   return result;
 }
 
+json to_json(const distribution_of_errors& its) {
+  return {{"count", its.largest.count},
+          {"skewness", number(its.largest.skewness)},
+          {"deciding", number(its.largest.deciding)},
+          {"median", to_json(its.median)},
+          {"quantiles", numbers({its.quantiles.begin(), its.quantiles.end()})}};
+}
+distribution_of_errors spread_from(const json& text) {
+  distribution_of_errors its{.largest = {.count = text.at("count").get<double>(),
+                                         .skewness = number_from(text.at("skewness")),
+                                         .deciding = number_from(text.at("deciding"))},
+                             .median = estimate_from(text.at("median"))};
+  const auto quantiles = numbers_from(text.at("quantiles"));
+  for (std::size_t i = 0; i < its.quantiles.size(); ++i) its.quantiles.at(i) = quantiles.at(i);
+  return its;
+}
+
 json to_json(const drawn_law& its) {
   json result{{"x", numbers(its.x)},
               {"y", numbers(its.y)},
@@ -102,6 +119,20 @@ json to_json(const finding& its) {
               {"diverged", its.diverged},
               {"diverged_at", to_json(its.diverged_at)}};
   if (its.law) result["law"] = to_json(*its.law);
+  if (its.spread) result["spread"] = to_json(*its.spread);
+  if (!its.groups.empty()) result["groups"] = numbers(its.groups);
+  return result;
+}
+
+std::vector<double> means_of_groups(const std::vector<double>& of_each) {
+  constexpr std::size_t most = 1024;
+  const std::size_t size = (of_each.size() + most - 1) / most;
+  std::vector<double> result;
+  for (std::size_t first = 0; size > 0 && first + size <= of_each.size(); first += size) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < size; ++i) sum += of_each[first + i];
+    result.push_back(sum / static_cast<double>(size));
+  }
   return result;
 }
 
@@ -113,6 +144,8 @@ finding finding_from(const json& text) {
     its.diverged_at.push_back({one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
   }
   if (text.contains("law")) its.law = law_from(text.at("law"));
+  if (text.contains("spread")) its.spread = spread_from(text.at("spread"));
+  if (text.contains("groups")) its.groups = numbers_from(text.at("groups"));
   return its;
 }
 

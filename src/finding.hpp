@@ -11,6 +11,7 @@
 
 #include "json.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
+#include "nysalt/analysis/method_error.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/divergence.hpp"
 
@@ -34,10 +35,17 @@ struct finding {
   std::int64_t diverged = 0;
   std::vector<diverged_trajectory> diverged_at{};  // the first hundred, in the order of their numbers
   std::optional<drawn_law> law{};
+  std::optional<distribution_of_errors> spread{};  // of single trajectories, along paths
+  std::vector<double> groups{};  // what groups of trajectories have in the value, see means_of_groups()
 
   /// Of so many trajectories; says why if none is left.
   void lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories);
 };
+
+/// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
+/// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as
+/// well as by all trajectories, and a journal has room for so many numbers.
+std::vector<double> means_of_groups(const std::vector<double>& of_each);
 
 /// What the findings at one step are seen against, by one metric. What a metric has not is left out.
 struct backdrop {

@@ -13,6 +13,7 @@
 #include "nysalt/losses/loss_choice.hpp"
 #include "output.hpp"
 #include "seeds.hpp"
+#include "stability_margin.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -144,6 +145,11 @@ json fit_json(const fit_summary& fit) {
           {"trajectory_error", fit.trajectory_error},
           {"samples", fit.samples},
           {"usable", fit.usable},
+          {"verdict", std::string(to_string(fit.verdict()))},
+          {"rival", fit.rival.empty() ? json(nullptr) : json(fit.rival)},
+          {"rival_loss", fit.rival.empty() ? json(nullptr) : json(fit.rival_loss)},
+          {"rival_loss_noise", fit.rival.empty() ? json(nullptr) : json(fit.rival_noise)},
+          {"trial", to_json(fit.trial)},
           {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
           {"seconds", fit.data_seconds + fit.fit_seconds},
           {"data_seconds", fit.data_seconds},

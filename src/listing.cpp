@@ -5,7 +5,6 @@
 
 #include "bundled_system.hpp"
 #include "catalogue.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "stability.hpp"
 
 namespace nysalt::program {
@@ -13,10 +12,11 @@ namespace nysalt::program {
 namespace {
 
 constexpr std::array metrics{
-    std::array{"path", "average relative RMS error of the observable along trajectories"},
+    std::array{"path", "mean RMS error of the observable along trajectories, over its RMS"},
+    std::array{"relative", "the paper's: mean RMS of (o - o_ref)/o_ref; for observables away from 0"},
     std::array{"state", "RMS error of the state in the energy norm, absolute"},
     std::array{"exchange", "mean error of the stiff springs' energies, relative to their sum (fpu)"},
-    std::array{"energy", "RMS of (H - H_0)/|H_0|"},
+    std::array{"energy", "RMS of H - H_0, over that of H_0"},
     std::array{"acceptance", "mean of min(1, exp(-(H_end - H_0)/kT)), of reversible methods; 1 is best"},
     std::array{"distribution", "total variation of the observable's law from the reference's"},
     std::array{"acf", "RMS error of the observable's normalised autocovariance"}};
@@ -50,12 +50,14 @@ json methods_json() {
                    {"limit_per_evaluation", limit},
                    {"source", source}});
   }
-  all.push_back({{"name", adaptive_method},
-                 {"letters", s_aia2::word::letters()},
-                 {"order", s_aia2::order},
-                 {"evaluations_per_step", s_aia2::word::evaluations_per_step},
-                 {"limit_per_evaluation", nullptr},
-                 {"source", adaptive_source}});
+  for (const auto& known : adaptive_methods()) {
+    all.push_back({{"name", known.name},
+                   {"letters", known.letters.letters()},
+                   {"order", known.properties.order},
+                   {"evaluations_per_step", known.letters.evaluations_per_step},
+                   {"limit_per_evaluation", nullptr},
+                   {"source", known.source}});
+  }
   return all;
 }
 

@@ -97,8 +97,8 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
     to.push_back(setup_of(*source.learned));
   } else if (source.family) {
     to.front().learned.push_back(*source.family);
-  } else if (source.is_adaptive()) {
-    to.front().methods.emplace_back(adaptive_method);
+  } else if (source.adaptive != nullptr) {
+    to.front().methods.push_back(source.adaptive->name);
   } else if (const auto names = method_names(); std::ranges::count(names, source.fixed->name()) > 0) {
     to.front().methods.push_back(source.fixed->name());
   }  // else a table of one's own, which cites nobody

@@ -263,7 +263,7 @@ tabulated scheme::at(double step) const {
                    {its.order, its.symmetric, its.requires_quadratic_kinetic});
 }
 
-int scheme::evaluations_per_step() const { return placed(family, where).letters.evaluations_per_step; }
+run_time_word scheme::letters() const { return placed(family, where).letters; }
 
 std::string scheme::steps() const {
   const auto& all = curve.steps();

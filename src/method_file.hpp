@@ -28,7 +28,8 @@ struct scheme {
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
   tabulated at(double step) const;
   bool is_learned_at(double step) const { return curve.has(step); }
-  int evaluations_per_step() const;
+  /// Of the method at any step.
+  run_time_word letters() const;
   /// "the step 0.03", or "steps from 0.02 to 0.03".
   std::string steps() const;
 };

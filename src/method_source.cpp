@@ -6,12 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "catalogue.hpp"
 #include "did_you_mean.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"
 #include "stability_margin.hpp"
@@ -22,11 +20,15 @@ namespace {
 
 constexpr std::string_view to_learn = "learned:";
 
+void count(method_source& source, const auto& word) {
+  source.evaluations_per_step = word.evaluations_per_step;
+  source.force_derivatives = word.force_derivatives;
+}
+
 void take_file(method_source& source, method_file file) {
   source.learned = std::move(file.learned);
   source.fixed = std::move(file.table);
-  source.evaluations_per_step =
-      source.learned ? source.learned->evaluations_per_step() : source.fixed->letters().evaluations_per_step;
+  count(source, source.learned ? source.learned->letters() : source.fixed->letters());
 }
 
 bool is_file_name(const std::string& text) {
@@ -61,13 +63,16 @@ method_source find_method(const std::string& typed, const held_methods& held) {
   for (const auto& known : classical_methods()) {
     if (known.method.name() == text) source.fixed = known.method;
   }
+  for (const auto& known : adaptive_methods()) {
+    if (known.name == text) source.adaptive = &known;
+  }
   if (source.fixed) {
-    source.evaluations_per_step = source.fixed->letters().evaluations_per_step;
-  } else if (text == adaptive_method) {
-    source.evaluations_per_step = s_aia2::word::evaluations_per_step;
+    count(source, source.fixed->letters());
+  } else if (source.adaptive != nullptr) {
+    count(source, source.adaptive->letters);
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
-    source.evaluations_per_step = family_named(*source.family).letters.evaluations_per_step;
+    count(source, family_named(*source.family).letters);
   } else if (is_file_name(text)) {
     take_file(source, read_method_file(text));
   } else {
@@ -77,6 +82,10 @@ method_source find_method(const std::string& typed, const held_methods& held) {
            did_you_mean(text, known, "nysalt list shows all; a method may also be a file NAME.json"));
   }
   return source;
+}
+
+void charge(method_source& source, const bundled_system& system) {
+  source.evaluations_per_step += (system.derivative_calls() - 1) * source.force_derivatives;
 }
 
 bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
@@ -118,14 +127,14 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
     return from_scheme(source, system, step, force);
   }
-  if (source.is_adaptive()) {
-    const auto fastest = highest_frequency(system);
-    if (!fastest) {
+  if (source.adaptive != nullptr) {
+    const auto frequency = source.adaptive->frequency(system);
+    if (!frequency) {
       refuse("{} needs a highest frequency, and {} declares none: take another method", source.typed,
              system.description());
     }
     try {
-      return tabulated(s_aia2(step * *fastest));
+      return source.adaptive->at(step * *frequency);
     } catch (const std::invalid_argument& problem) {
       refuse("{} at step {}: {}", source.typed, step, problem.what());
     }

@@ -6,24 +6,29 @@
 #include <string>
 
 #include "bundled_system.hpp"
+#include "catalogue.hpp"
 #include "method_file.hpp"
 
 namespace nysalt::program {
 
-/// A classical name, s_aia2, learned:FAMILY, or the file of a scheme or table; with @PLACEMENT or without.
+/// A classical name, an adaptive one, learned:FAMILY, or the file of a scheme or table; with @PLACEMENT or
+/// without.
 struct method_source {
   std::string typed;
-  std::optional<tabulated> fixed;     // classical and tables: the same at every step
-  std::optional<scheme> learned;      // from a file: at its own step
-  std::optional<std::string> family;  // to be learned at each step
-  std::optional<placement> where;     // of its letters O, if it says so: verlet@end
-  int evaluations_per_step = 0;
-
-  bool is_adaptive() const { return !fixed && !learned && !family; }
+  std::optional<tabulated> fixed;             // classical and tables: the same at every step
+  std::optional<scheme> learned;              // from a file: at its own step
+  std::optional<std::string> family;          // to be learned at each step
+  const adaptive_method* adaptive = nullptr;  // of the catalogue: from step and frequency
+  std::optional<placement> where;             // of its letters O, if it says so: verlet@end
+  int evaluations_per_step = 0;  // of a system whose f'(q) v counts one, until charge() is told which
+  int force_derivatives = 0;     // f'(q) v in a step
 };
 
 /// What is held goes before all else. Throws refusal, listing what is known, if the text names nothing.
 method_source find_method(const std::string& text, const held_methods& held = {});
+
+/// What a step costs with a system: differences of a black box call it twice for each f'(q) v.
+void charge(method_source& source, const bundled_system& system);
 
 /// Whether the step is the scheme's own, to 1e-9 relative, as steps are typed in decimals.
 bool is_at(const scheme& learned, double step);

@@ -47,8 +47,10 @@ trajectories_plan planned_run::plan() const {
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
   const auto its = plan();
-  for (const auto& text : {stability_warning(command_.method, *method_, *system_, its.step, its.seed),
-                           warning_of_energies(source_, *system_, its)}) {
+  for (const auto& text :
+       {stability_warning(command_.method, *method_, *system_, its.step, its.seed),
+        failed_trial(command_.method, *method_, *system_, its.step, its.steps, its.seed, its.threads),
+        warning_of_energies(source_, *system_, its)}) {
     if (text) found.push_back(*text);
   }
   return found;

@@ -20,6 +20,8 @@ std::string to_string(mark which) {
       return "floor";
     case mark::horizon:
       return "horizon";
+    case mark::tail:
+      return "tail";
     case mark::diverged:
       return "diverged";
   }
@@ -38,6 +40,10 @@ std::string meaning(mark which) {
       return "not above the floor of sampling by two standard errors: nothing is seen of the method";
     case mark::horizon:
       return "beyond the time for which a path can be followed: chaos more than the method; not ranked";
+    case mark::tail:
+      return "few trajectories decide the mean: it and its standard error say little; ranked by the median, "
+             "as "
+             "are all rows here";
     case mark::diverged:
       return "some trajectories diverged; of the others alone, and not ranked";
   }
@@ -52,11 +58,25 @@ const backdrop& behind(const comparison& all, std::size_t m, const row& its) {
 
 namespace {
 
-bool is_better(const asked_metric& metric, const finding& a, const finding& b) {
-  return metric.is_acceptance() ? a.value.mean > b.value.mean : a.value.mean < b.value.mean;
+bool has_tail(const finding& one) { return one.spread && one.spread->largest.is_heavy(); }
+
+/// Of acceptances what is rejected.
+double error_of(const comparison& all, std::size_t m, const row& its) {
+  const double value = ranked_value(all, m, its).mean;
+  return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
 }
 
 }  // namespace
+
+bool is_by_median(const comparison& all, std::size_t m) {
+  return std::ranges::any_of(
+      all.rows(), [&](const row& its) { return has_tail(its.findings[m]) && is_known(all, m, its); });
+}
+
+estimate ranked_value(const comparison& all, std::size_t m, const row& its) {
+  const finding& one = its.findings[m];
+  return one.spread && is_by_median(all, m) ? one.spread->median : one.value;
+}
 
 std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its) {
   std::vector<mark> result;
@@ -79,6 +99,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
   if (against.predictable_until.value_or(std::numeric_limits<double>::infinity()) < all.command().horizon) {
     result.push_back(mark::horizon);
   }
+  if (has_tail(one)) result.push_back(mark::tail);
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }
@@ -108,7 +129,7 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
                                      ? other.nominal == its.nominal
                                      : other.evaluations_per_time <= start_up * its.evaluations_per_time;
       if (!is_affordable) continue;
-      if (best == nullptr || is_better(all.metrics()[m], other.findings[m], best->findings[m])) best = &other;
+      if (best == nullptr || error_of(all, m, other) < error_of(all, m, *best)) best = &other;
     }
     if (best != nullptr) result.push_back({&its, best});
   }
@@ -116,27 +137,27 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
 }
 
 estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
-  estimate learned = pair.learned->findings[m].value;
-  estimate best = pair.best->findings[m].value;
-  if (all.metrics()[m].is_acceptance()) {
-    learned.mean = 1.0 - learned.mean;
-    best.mean = 1.0 - best.mean;
+  const double learned = error_of(all, m, *pair.learned);
+  const double best = error_of(all, m, *pair.best);
+  if (learned == 0.0 || best == 0.0) return {};
+  const double ratio = best / learned;
+  const auto& a = pair.best->findings[m].groups;
+  const auto& b = pair.learned->findings[m].groups;
+  if (is_by_median(all, m) || a.empty() || a.size() != b.size()) {
+    const double of_best = ranked_value(all, m, *pair.best).standard_error / best;
+    const double of_learned = ranked_value(all, m, *pair.learned).standard_error / learned;
+    return {ratio, ratio * std::hypot(of_best, of_learned)};
   }
-  if (learned.mean == 0.0 || best.mean == 0.0) return {};
-  const double ratio = best.mean / learned.mean;
-  return {ratio, ratio * std::hypot(best.standard_error / best.mean, learned.standard_error / learned.mean)};
+  // d ln(best/learned) = d best/best - d learned/learned: acceptances and rejections move by as much.
+  std::vector<double> in_best;
+  std::vector<double> in_learned;
+  for (const double x : a) in_best.push_back(x / best);
+  for (const double x : b) in_learned.push_back(x / learned);
+  return {ratio, ratio * paired_difference(in_best, in_learned).standard_error};
 }
 
 double evaluations_of(const row& its) { return its.evaluations_per_time; }
 double seconds_of(const row& its) { return its.seconds_per_time.least; }
-
-namespace {
-/// Of acceptances what is rejected.
-double error_of(const comparison& all, std::size_t m, const row& its) {
-  const double value = its.findings[m].value.mean;
-  return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
-}
-}  // namespace
 
 std::vector<const row*> pareto_front(const comparison& all, std::size_t m, double (*cost)(const row&)) {
   std::vector<const row*> ranked;
@@ -164,7 +185,7 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
     const bool is_lost = one.diverged > 0;
     if (!counts && !is_lost) continue;
     const double error = counts ? error_of(all, m, its) : std::numeric_limits<double>::infinity();
-    result.push_back({cost(its), error, one.value.standard_error});
+    result.push_back({cost(its), error, ranked_value(all, m, its).standard_error});
   }
   std::ranges::sort(result, std::greater{}, &error_at::x);
   // Not that of std::ranges: clang++ 14 does not compile what it returns.
@@ -174,6 +195,37 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
 }
 
 }  // namespace
+
+std::vector<double> levels_for(const comparison& all, std::size_t m) {
+  if (!all.command().levels.empty()) return all.command().levels;
+  std::vector<std::vector<error_at>> by_method;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const auto& method : all.command().methods) {
+    by_method.push_back(errors_at(all, m, method, evaluations_of));
+    for (const error_at& one : by_method.back()) {
+      if (!(one.error > 0.0) || std::isinf(one.error)) continue;
+      low = std::min(low, one.error);
+      high = std::max(high, one.error);
+    }
+  }
+  std::size_t most = 0;
+  std::vector<double> best;
+  for (int decade = static_cast<int>(std::floor(std::log10(low)));
+       high > 0.0 && std::pow(10.0, decade) <= high; ++decade) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double level = digit * std::pow(10.0, decade);
+      const auto crossing = static_cast<std::size_t>(std::ranges::count_if(by_method, [&](const auto& rows) {
+        return !rows.empty() && threshold(rows, level).kind == crossing_kind::found;
+      }));
+      if (crossing > most) best.clear();
+      most = std::max(most, crossing);
+      if (most > 0 && crossing == most) best.push_back(level);
+    }
+  }
+  if (best.empty()) return {};
+  return {best[best.size() / 2]};
+}
 
 std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double level) {
   constexpr double same_trajectories = 1.0;  // errors of rows rise and fall together: never too small

@@ -17,6 +17,7 @@ enum class mark {
   null,       // no better than what stays as it was at the start
   floor,      // no more than sampling makes
   horizon,    // beyond the time for which a path can be followed
+  tail,       // few trajectories decide the mean
   diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);
@@ -34,6 +35,12 @@ bool is_known(const comparison& all, std::size_t metric, const row& its);
 /// The same, and it is better than doing nothing.
 bool is_ranked(const comparison& all, std::size_t metric, const row& its);
 
+/// Whether the rows of a metric are ranked by the median of their trajectories: where few trajectories decide
+/// the mean of any row that counts.
+bool is_by_median(const comparison& all, std::size_t metric);
+/// The number that a row is ranked by, with its standard error: the mean, or the median.
+estimate ranked_value(const comparison& all, std::size_t metric, const row& its);
+
 /// A learned method, and the best of the others that cost no more evaluations.
 struct at_equal_cost {
   const row* learned;
@@ -42,7 +49,9 @@ struct at_equal_cost {
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metric);
 
 /// How many times smaller the error of the learned one is; of acceptances, what is rejected. Its standard
-/// error is that of independent errors: too large, as they share trajectories. NaN where nothing is rejected.
+/// error is that of the differences trajectory by trajectory, which both share; of medians and laws that of
+/// independent numbers, which is too large where what is shared makes both err alike. NaN where nothing is
+/// rejected.
 estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
 
 /// Those that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are
@@ -58,6 +67,10 @@ struct cost_at_level {
   threshold_crossing evaluations;
   threshold_crossing seconds;
 };
+/// The errors at which costs are told: those that were asked for, or the power of ten, or twice or five times
+/// it, that most methods cross, the learned and the others; of equals the one in the middle. Empty where none
+/// crosses any.
+std::vector<double> levels_for(const comparison& all, std::size_t metric);
 /// Of methods with ranked rows; the cheapest in evaluations first, then those of which that is not known.
 std::vector<cost_at_level> costs_at(const comparison& all, std::size_t metric, double level);
 

@@ -11,7 +11,6 @@
 #include "known_word.hpp"
 #include "learning.hpp"
 #include "nysalt/analysis/tail.hpp"
-#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/served_letters.hpp"
 #include "seeds.hpp"
 #include "stability_margin.hpp"
@@ -159,6 +158,11 @@ std::string recommendation::objection_to(const candidate& its) const {
   } else if (const auto warning = stability_warning(name, *its.method, *system_, its.step,
                                                     seed_for(role::test, common_.seed))) {
     found->second = *warning;
+  } else {
+    constexpr std::int64_t steps = 10'000;  // more than most race for: a winner is taken for longer runs
+    found->second = failed_trial(name, *its.method, *system_, its.step, steps,
+                                 seed_for(role::test, common_.seed), common_.threads)
+                        .value_or("");
   }
   return found->second;
 }
@@ -212,8 +216,8 @@ void recommendation::plan_classical() {
       its.symmetric = method.symmetric;
       its.rotates = has_rotation(method.letters());
     } else {
-      its.order = s_aia2::order;
-      its.symmetric = s_aia2::symmetric;
+      its.order = its.source.adaptive->properties.order;
+      its.symmetric = its.source.adaptive->properties.symmetric;
     }
     consider(std::move(its));
   }
@@ -251,6 +255,7 @@ bool recommendation::is_fixed_in(const run_time_family& family) const {
 /// Takes part, or is left out with the reason why.
 void recommendation::consider(candidate its) {
   const std::string name = its.source.typed;
+  charge(its.source, *system_);
   const auto leave_out = [&](const std::string& why) { left_out_.emplace_back(name, why); };
   if ((command_.reversible || command_.metric == "acceptance") && !its.symmetric) {
     return leave_out("it is not reversible");
@@ -303,7 +308,7 @@ void recommendation::prepare(candidate& its, const std::vector<double>& from, bo
     } else if (const auto known = known_as(*its.source.family, theta_of(fit), formulas_at(its.step))) {
       its.reason = "nothing was learned: it is " + *known;
     }
-  } catch (const refusal& problem) {  // s_aia2 where it is not defined
+  } catch (const refusal& problem) {  // an adaptive method where it is not defined
     its.reason = problem.what();
   }
 }
@@ -313,7 +318,7 @@ std::vector<tabulated> recommendation::formulas_at(double step) const {
   std::vector<tabulated> all;
   if (system_->its_bath().acts()) return all;
   for (const auto& its : all_) {
-    if (!its.source.is_adaptive()) continue;
+    if (its.source.adaptive == nullptr) continue;
     try {
       std::vector<std::string> ignored;
       const auto method = coefficients_at(its.source, *system_, step, false, {}, ignored);
@@ -370,11 +375,9 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   for (std::size_t k = 0; k < group.size(); ++k) {
     candidate& its = *group[k];
     const method_error& its_error = found.methods[k];
-    // What each trajectory has in a root is linear in its score, whose mean is the root's square.
-    const double root = its_error.error.mean;
-    std::vector<double> scores = its_error.of_each;
+    std::vector<double> scores = its_error.own;
     if (is_root) {
-      for (double& x : scores) x = std::max(0.0, root * (2.0 * x - root));
+      for (double& x : scores) x *= x;
     }
     its.evaluations_per_time = its_error.evaluations_per_time;
     if (found.reference_error) its.reference_error = found.reference_error->mean;

@@ -109,8 +109,8 @@ struct compare_command {
   std::int64_t trajectories = 400;
   std::vector<std::string> metrics{"path"};
   std::string observable;
-  std::vector<double> levels{0.01};  // of errors, at which costs are compared
-  std::vector<double> range;         // of the histogram; empty: that of the starts
+  std::vector<double> levels;  // of errors, at which costs are compared; empty: those of the data
+  std::vector<double> range;   // of the histogram; empty: that of the starts
   std::int64_t bins = 100;
   double longest_lag = 1.0;      // of the autocovariance, a time
   double hmc_temperature = 1.0;  // kT of the acceptance

@@ -89,12 +89,12 @@ double quarter_turn_of(const tabulated& method, double end) {
   return end;
 }
 
-double safe_step_of(const tabulated& method, const stability_chart& chart, double highest_frequency) {
+double linear_step_of(const tabulated& method, const stability_chart& chart, double highest_frequency) {
   if (chart.windows.empty() || chart.windows.front().low > 0.0 || highest_frequency == 0.0) return 0.0;
   double end = chart.windows.front().high;
   if (!chart.touching.empty()) end = std::min(end, chart.touching.front());
   const double turned = quarter_turn_of(method, end);
-  return std::min((1.0 - safe_margin) * end, (1.0 - turn_margin) * turned) / highest_frequency;
+  return std::min((1.0 - linear_margin) * end, (1.0 - turn_margin) * turned) / highest_frequency;
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ judged_step judge(const tabulated& method, const stability_chart& chart, const k
   judged_step result{{},
                      gaps_below(chart.windows, step * frequencies.highest()),
                      stable_steps(chart.windows, frequencies.bands),
-                     safe_step_of(method, chart, frequencies.highest())};
+                     linear_step_of(method, chart, frequencies.highest())};
   for (const auto& band : frequencies.bands) {
     const double low = step * band.low;
     const double high = step * band.high;
@@ -125,8 +125,76 @@ double rounded_down(double x) {
 }  // namespace
 
 std::string advice(const judged_step& judged) {
-  if (judged.safe_step == 0.0) return "no small step is safe";
-  return fmt::format("a safe step is {:g}", rounded_down(judged.safe_step));
+  if (judged.linear_step == 0.0) return "it has no stability window from 0 on";
+  return fmt::format("by the linear criterion steps up to {:g} have a margin of {:g} %",
+                     rounded_down(judged.linear_step), 100.0 * linear_margin);
+}
+
+namespace {
+
+/// 192 trajectories of 20,000 steps, or fewer steps where these are dear.
+trajectories_plan plan_of_trial(const tabulated& method, const bundled_system& system, double step,
+                                std::int64_t most_steps, std::uint64_t seed, int threads) {
+  constexpr std::int64_t trajectories = 192;
+  constexpr std::int64_t shortest = 100;
+  constexpr std::int64_t work = 2'000'000'000;  // coordinates times evaluations, some seconds
+  const std::int64_t each = trajectories * method.letters().evaluations_per_step * system.dimension();
+  const std::int64_t steps = std::clamp<std::int64_t>(work / std::max<std::int64_t>(1, each), shortest,
+                                                      std::max(shortest, most_steps));
+  return {step, steps, trajectories, seed, threads};
+}
+
+constexpr std::int64_t usual_steps = 20'000;
+
+}  // namespace
+
+trial_result try_step(const tabulated& method, const bundled_system& system, double step, std::uint64_t seed,
+                      int threads) {
+  return system.trial(method, plan_of_trial(method, system, step, usual_steps, seed, threads));
+}
+
+std::optional<double> safe_step(const tabulated& method, const bundled_system& system,
+                                const judged_step& judged, std::uint64_t seed, int threads) {
+  if (has_rotation(method.letters()) || judged.linear_step == 0.0 || system.frequency_bands().empty()) {
+    return std::nullopt;
+  }
+  constexpr int most_tries = 12;
+  double step = rounded_down(judged.linear_step);
+  for (int n = 0; n < most_tries; ++n) {
+    if (try_step(method, system, step / (1.0 - tried_margin), seed, threads).passed()) return step;
+    step = rounded_down(0.8 * step);
+  }
+  return std::nullopt;
+}
+
+json to_json(const trial_result& trial) {
+  json result{{"trajectories", trial.trajectories},
+              {"steps", trial.steps},
+              {"passed", trial.passed()},
+              {"diverged", trial.diverged},
+              {"first_diverged", nullptr},
+              {"largest_deviation", nullptr},
+              {"largest_deviation_in_first_tenth", nullptr},
+              {"report", trial.report()}};
+  if (trial.lost) {
+    result["first_diverged"] = {{"trajectory", trial.lost->trajectory}, {"step", trial.lost->step}};
+  }
+  if (trial.energy_was_watched) {
+    result["largest_deviation"] = trial.deviation;
+    result["largest_deviation_in_first_tenth"] = trial.first_deviation;
+  }
+  return result;
+}
+
+std::optional<std::string> failed_trial(const std::string& name, const tabulated& method,
+                                        const bundled_system& system, double step, std::int64_t steps,
+                                        std::uint64_t seed, int threads) {
+  if (!has_rotation(method.letters()) && !system.frequency_bands().empty()) return std::nullopt;
+  const auto trial =
+      system.trial(method, plan_of_trial(method, system, step, std::min(steps, usual_steps), seed, threads));
+  const std::string objection = trial.objection();
+  if (objection.empty()) return std::nullopt;
+  return fmt::format("{} at step {:g}: {}; take a smaller step", name, step, objection);
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bundled_system.hpp"
+#include "json.hpp"
 #include "nysalt/derivatives/stability_margin.hpp"
 
 namespace nysalt::program {
@@ -16,13 +17,15 @@ namespace nysalt::program {
 /// 256 trajectories to t = 2000, phi4, lennard_jones and henon_heiles lose 3, 8 and 1 just below the end, and
 /// none at four fifths of it.
 inline constexpr double wanted_margin = 0.2;
-/// What a step that is called safe leaves to the first end, or to a quarter of a turn of the fastest
-/// oscillation, whichever comes first: nonlinear motion is lost at the resonances of low order, where a step
-/// turns by a half, a third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
-/// Of the pendulum 128 trajectories go 20,000 steps of Verlet, and of Takahashi and Imada's method, whose
-/// window is sqrt 3 times as wide: they lose 2 at z = 1.4 and 60 at 2.42.
-inline constexpr double safe_margin = 0.3;
+/// What linear_step leaves to the first end, or to a quarter of a turn of the fastest oscillation, whichever
+/// comes first: nonlinear motion is lost at the resonances of low order, where a step turns by a half, a
+/// third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
+inline constexpr double linear_margin = 0.3;
 inline constexpr double turn_margin = 0.05;
+/// What a safe step leaves to the largest step at which a trial run passed. The pendulum under Verlet is the
+/// standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just beyond, momenta
+/// diffuse too slowly for a trial run to see.
+inline constexpr double tried_margin = 0.2;
 
 /// Angular frequencies that a system is asked to be stable for: its bands, and 0 to the highest where it
 /// declares none. The last band goes up to the highest of what is known beside.
@@ -54,8 +57,8 @@ struct judged_step {
   std::vector<judged_band> bands;
   std::vector<stability_window> gaps;  // below the highest z
   std::vector<step_range> stable_steps;
-  double safe_step;  // nothing below it is unstable, touches or turns by a quarter, on 0 to the highest, with
-                     // the margins above; 0 if there is none
+  double linear_step;  // by the linear criterion nothing below it is unstable, touches or turns by a quarter,
+                       // on 0 to the highest, with the margins above; 0 if there is none
 
   bool is_stable() const;
   double margin() const;  // the least
@@ -63,8 +66,24 @@ struct judged_step {
 judged_step judge(const tabulated& method, const stability_chart& chart, const known_frequencies& frequencies,
                   double step);
 
-/// "a safe step is 0.0317"
+/// "by the linear criterion steps up to 0.0317 have a margin of 30 %"
 std::string advice(const judged_step& judged);
+
+/// A trial run at a step, as long as is affordable for the size of the system.
+trial_result try_step(const tabulated& method, const bundled_system& system, double step, std::uint64_t seed,
+                      int threads);
+/// The largest step of linear_step, 4/5 of it and so on such that a trial run passes at the step over
+/// 1 - tried_margin; nothing if there is none, if the word rotates, or if the system's frequencies have no
+/// bound. Cost: a trial run for each step that is tried.
+std::optional<double> safe_step(const tabulated& method, const bundled_system& system,
+                                const judged_step& judged, std::uint64_t seed, int threads);
+json to_json(const trial_result& trial);
+
+/// One sentence where linear windows say nothing, of a word that rotates or where frequencies have no bound,
+/// and a trial run fails. Cost: that of a trial run of at most so many steps.
+std::optional<std::string> failed_trial(const std::string& name, const tabulated& method,
+                                        const bundled_system& system, double step, std::int64_t steps,
+                                        std::uint64_t seed, int threads);
 
 /// One sentence where the step is unstable on what is known without work, or of a word that rotates, where
 /// soft forces magnify a mode.

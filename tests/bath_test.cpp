@@ -182,6 +182,25 @@ BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_double) {
   }
 }
 
+// A letter O whose coefficient is 0, and stays it, has no noise and no derivative; one that moves has the
+// derivative of sqrt(t), which is infinite.
+BOOST_AUTO_TEST_CASE(the_deviation_of_no_time_has_the_derivative_of_its_limit) {
+  using D = dual<double, 2>;
+  for (const double friction : {0.0, 0.7}) {
+    const auto noisy = bath::of_sigma(friction, 0.5);
+    D time(0.0);
+    time.derivative = {0.0, 2.0};
+    const D found = noisy.deviation(time);
+    BOOST_TEST(found.value == 0.0);
+    BOOST_TEST(found.derivative[0] == 0.0);  // sqrt alone says 0/0
+    BOOST_TEST(found.derivative[1] == infinite);
+    BOOST_TEST(std::isnan(sqrt(time).derivative[0]));
+    time.value = 1e-30;
+    BOOST_TEST(noisy.deviation(time).derivative[0] == 0.0);
+    BOOST_TEST(relative(noisy.deviation(time).derivative[1], 0.5 * 0.5 * 2.0 / 1e-15) <= 8.0 * eps);
+  }
+}
+
 // 1 - e^{-2 gamma t} is 2 gamma t to a relative gamma t: nothing is left of it but sigma sqrt(t). Below the
 // least normal number 1/gamma overflows.
 BOOST_AUTO_TEST_CASE(friction_that_is_hardly_there_is_none) {

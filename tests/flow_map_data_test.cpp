@@ -143,18 +143,47 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
-  // 16 of the 205 pairs: every thirteenth.
+  // 16 of the 205 pairs: one in each sixteenth.
   const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 41, .threads = 3});
   std::set<std::size_t> checked;
+  std::set<std::size_t> sixteenths;
   for (const auto& [pair, finish] : data.finer) {
     BOOST_TEST(checked.insert(pair).second);
-    BOOST_TEST(pair % 13 == 0U);
+    BOOST_TEST(sixteenths.insert((16 * pair + 15) / 205).second);
     auto x = data.start[pair];
     fine_steps<>(5e-4).advance(chain, x, 0.02);
     BOOST_TEST((x.q == finish.q));
     BOOST_TEST((x.q != data.finish[pair].q));  // that is another step
   }
   BOOST_TEST(checked.size() == 16U);
+}
+
+// Of M trajectories of S steps: a stride of M S/16 would see starts alone where M = 16 k - 1 and S = 16.
+BOOST_AUTO_TEST_CASE(checks_are_spread_over_trajectories_and_along_them) {
+  for (std::size_t trajectories = 1; trajectories <= 400; ++trajectories) {
+    for (const std::size_t steps : {1, 2, 3, 5, 8, 10, 16, 17, 20, 32, 50, 100, 128, 1000}) {
+      const std::size_t all = trajectories * steps;
+      const auto pairs = detail::spread_pairs(all, 16);
+      std::set<std::size_t> whose;
+      std::set<std::size_t> when;  // in eighths of a trajectory
+      std::size_t starts = 0;
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        BOOST_REQUIRE(pairs[k] < all);
+        BOOST_REQUIRE((k == 0 || pairs[k - 1] < pairs[k]));
+        whose.insert(pairs[k] / steps);
+        when.insert(pairs[k] % steps * 8 / steps);
+        starts += pairs[k] % steps == 0 ? 1U : 0U;
+      }
+      BOOST_TEST_CONTEXT(trajectories << " trajectories of " << steps << " steps") {
+        BOOST_TEST(pairs.size() == std::min<std::size_t>(16, all));
+        BOOST_TEST(whose.size() + 1 >= std::min<std::size_t>(8, trajectories));
+        // Sixteen places at random miss more than half of eight eighths once in 10^6; starts are at most
+        // half.
+        if (steps >= 8 && all >= 128) BOOST_TEST(when.size() >= 4U);
+        if (steps >= 8 && all >= 128) BOOST_TEST(starts <= 8U);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {

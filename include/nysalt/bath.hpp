@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -53,15 +54,15 @@ class bath {
     return exp(time * -friction_);
   }
   /// Standard deviation, for unit mass, of the noise int_0^t sigma e^{-gamma (t - s)} dW_s:
-  /// sigma sqrt((1 - e^{-2 gamma t})/(2 gamma)), which goes to sigma sqrt(t) with gamma to 0.
+  /// sigma sqrt((1 - e^{-2 gamma t})/(2 gamma)), which goes to sigma sqrt(t) with gamma to 0. Over dual
+  /// numbers its derivative at t = 0 is that of the limit: 0 along what leaves t at 0, and else infinite.
   template <Scalar T>
   T deviation(const T& time) const {
     using std::expm1;
-    using std::sqrt;
     if (sigma_ == 0.0) return T(0.0);
     constexpr double least = std::numeric_limits<double>::min();  // below it 1/friction overflows
-    if (friction_ < least) return sqrt(time) * sigma_;
-    return sqrt(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
+    if (friction_ < least) return root(time) * sigma_;
+    return root(expm1(time * (-2.0 * friction_)) * (-0.5 / friction_)) * sigma_;
   }
 
   std::string description() const { return sentence("bath(friction={}, sigma={})", friction_, sigma_); }
@@ -71,6 +72,18 @@ class bath {
       : friction_(friction), sigma_(sigma), temperature_(temperature) {
     require("friction", friction);
     require("sigma", sigma);
+  }
+  /// sqrt(x), whose derivatives at 0 are 0 where those of x are, not 0/0.
+  template <Scalar T>
+  static T root(const T& x) {
+    using std::sqrt;
+    T result = sqrt(x);
+    if constexpr (detail::is_dual_of_double<T>) {
+      for (std::size_t k = 0; k < T::derivatives && x.value == 0.0; ++k) {
+        if (x.derivative[k] == 0.0) result.derivative[k] = 0.0;
+      }
+    }
+    return result;
   }
   static void require(const char* what, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;

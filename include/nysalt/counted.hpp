@@ -17,12 +17,11 @@ template <System S>
 struct counted : S {
   explicit counted(const S& system) : S(system) {}  ///< counts from 0
 
-  /// One evaluation; of a black box one more for each direction in which it is differentiated.
+  /// One evaluation. Of a black box it is over double alone, so that each call that differences make counts.
   template <class T>
-    requires SystemOver<S, T>
+    requires(BlackBoxForce<S> ? std::is_same_v<T, double> : SystemOver<S, T>)
   void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
     ++evaluations;
-    if constexpr (BlackBoxForce<S> && is_dual<T>) evaluations += T::derivatives;  // a directional one each
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 
@@ -34,22 +33,13 @@ struct counted : S {
     S::soft_force(q, f);
   }
 
-  /// One evaluation, however a black box comes by it; and two for each direction in which that is
-  /// differentiated.
+  /// One evaluation.
   template <class T>
-    requires(HasForceDerivative<S, T> ||
-             (BlackBoxForce<S> && (std::is_same_v<T, double> || detail::is_dual_of_double<T>)))
+    requires HasForceDerivative<S, T>
   void force_derivative(const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
                         vector<T, S::dimension>& g) const {
     ++evaluations;
-    if constexpr (HasForceDerivative<S, T>) {
-      S::force_derivative(q, v, g);
-    } else if constexpr (is_dual<T>) {
-      evaluations += 2 * static_cast<std::int64_t>(T::derivatives);
-      detail::black_box_along<T>(static_cast<const S&>(*this), q, v, g);
-    } else {
-      directional_derivative(static_cast<const S&>(*this), q, v, g);
-    }
+    S::force_derivative(q, v, g);
   }
 
   /// One evaluation.

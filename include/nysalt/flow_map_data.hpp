@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "nysalt/energy_range.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/progress_of_share.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/shard.hpp"
@@ -50,6 +52,11 @@ struct flow_map_data {
   /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k] for k from 0 to
   /// noise_parts - 1.
   std::vector<vector<double, N>> noise;
+
+  /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
+  /// among them: at all ranks the same. They are where trial runs begin, and where frequencies are looked
+  /// for.
+  std::vector<phase_point<double, N>> further_starts;
 
   /// A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, N>>> finer;
@@ -186,18 +193,32 @@ std::int64_t follow_reference(const S& system, const E& ensemble, const R& refer
   return watched.evaluations * (AdvancesLanes<R, S, T> || PathReference<R, S> ? count : 1);
 }
 
-/// finish = that of the finer reference from the same start, for every so many of all pairs.
+/// Numbers of some pairs of all, rising: one somewhere in each of as many equal parts. Where is drawn, so
+/// that no length of trajectories makes all of them starts, say.
+inline std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
+  std::mt19937_64 bits{1};
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t from = all / most * k + all % most * k / most;
+    const std::size_t to = all / most * (k + 1) + all % most * (k + 1) / most;
+    const double share = static_cast<double>(bits() >> 11U) * 0x1p-53;
+    if (from == to) continue;
+    result.push_back(from + static_cast<std::size_t>(share * static_cast<double>(to - from)));
+  }
+  return result;
+}
+
+/// finish = that of the finer reference from the same start, for a few of all pairs.
 template <SeparableSystem S, Reference<S> R>
 std::int64_t check_reference(const S& system, const R& reference, const data_options& options,
                              flow_map_data<S::dimension>& data) {
   constexpr std::size_t checks = 16;  // enough for the size of an error
   const counted<S> watched(system);
   const R finer = reference.finer();
-  std::size_t trajectory = 0;
-  const std::size_t between = data.all_pairs() / checks + 1;
-  const std::size_t from_here = (between - data.first_pair() % between) % between;
-  for (std::size_t pair = from_here; pair < data.pairs(); pair += between) {
-    while (data.first_of[trajectory + 1] <= pair) ++trajectory;
+  for (const std::size_t number : spread_pairs(data.all_pairs(), checks)) {
+    if (number < data.first_pair() || number >= data.first_pair() + data.pairs()) continue;
+    const std::size_t pair = number - data.first_pair();
+    const std::size_t trajectory = data.trajectory_of(pair);
     const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
                         static_cast<std::int64_t>(pair - data.first_of[trajectory])};
     data.finer.emplace_back(pair, data.start[pair]);
@@ -289,6 +310,8 @@ flow_map_data<S::dimension> make_flow_map_data(const S& system, const E& ensembl
     data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
   });
   detail::add_up(data);
+  data.further_starts = typical_and_energetic_starts(
+      system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   if (options.ranks->is_alone()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);

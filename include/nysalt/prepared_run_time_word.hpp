@@ -97,7 +97,7 @@ class prepared_word<run_time_word, C, N> {
     char letter = ' ';
     evaluation evaluates = evaluation::none;  // of the force, before it
     C prepared{0.0};
-    std::array<C, 2> gradient{C(0.0), C(0.0)};
+    gradient_kick_coefficients<C> gradient{};
     ornstein_uhlenbeck::prepared<C> noise{};
     int number = 0;  // among the letters O
     std::shared_ptr<const rotation::prepared<C, N>> turn{};

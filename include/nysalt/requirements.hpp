@@ -78,7 +78,7 @@ constexpr void require_suited() {
                 "nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template");
   static_assert(!HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
                 "nysalt: a kinetic_energy(p) over double alone cannot be differentiated; make it a template");
-  static_assert(HasForceDerivative<S> || !detail::MentionsForceDerivative<S>,
+  static_assert(detail::CanDifferentiateForce<S, double> || !detail::MentionsForceDerivative<S>,
                 "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
   static_assert(detail::CanKick<S, double, double> || !detail::MentionsKick<S>,
                 "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");

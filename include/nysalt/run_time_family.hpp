@@ -61,6 +61,19 @@ class run_time_family {
     }
   }
 
+  /// A method as a family of one member, without parameters.
+  run_time_family(std::string its_name, run_time_word word, std::vector<double> coefficients)
+      : name(std::move(its_name)),
+        starts({{name, Eigen::VectorXd()}}),
+        order(0),
+        symmetric(false),
+        requires_quadratic_kinetic(false),
+        letters(std::move(word)),
+        coefficients_([coefficients](const Eigen::VectorXd&) { return coefficients; }),
+        jacobian_([count = static_cast<Eigen::Index>(coefficients.size())](const Eigen::VectorXd&) {
+          return Eigen::MatrixXd(count, 0);
+        }) {}
+
   std::string name;
   std::vector<std::string> parameter_names;  ///< one for each parameter
   std::vector<parameter_range> ranges;       ///< where each may lie

@@ -100,6 +100,27 @@ template <class S, class T, class C>
 concept KickOfTheForce = std::is_base_of_v<typename decltype(origin_of_force<S, T>())::type,
                                            typename written_in<decltype(&S::template kick<T, C>)>::type>;
 
+/// Nor is a derivative that is inherited beside another force that force's; where nobody can tell it counts.
+template <class S, class T>
+consteval bool derivative_is_of_the_force() {
+  using force = typename decltype(origin_of_force<S, T>())::type;
+  if constexpr (std::is_void_v<force>) {
+    return true;
+  } else if constexpr (requires { written_in<decltype(&S::template force_derivative<T>)>(); }) {
+    return std::is_base_of_v<force, typename written_in<decltype(&S::template force_derivative<T>)>::type>;
+  } else if constexpr (requires { written_in<decltype(&S::force_derivative)>(); }) {
+    return std::is_base_of_v<force, typename written_in<decltype(&S::force_derivative)>::type>;
+  } else {
+    return true;
+  }
+}
+
+template <class S, class T>
+concept CanDifferentiateForce = requires(const S& s, const vector<T, S::dimension>& q,
+                                         const vector<T, S::dimension>& v, vector<T, S::dimension>& g) {
+  s.force_derivative(q, v, g);
+};
+
 template <class S, class T, class C>
 concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
                            const C& c) {
@@ -111,12 +132,11 @@ concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<
 /// further down: one that is inherited beside another force does not count.
 template <class S, class T, class C = double>
 concept HasKick = detail::CanKick<S, T, C> && detail::KickOfTheForce<S, T, C>;
-/// The system has a directional derivative of its force over T, g = f'(q) v.
+/// The system has a directional derivative of its force over T, g = f'(q) v, that is written in the class of
+/// its force or further down, as a kick.
 template <class S, class T = double>
-concept HasForceDerivative = requires(const S& s, const vector<T, S::dimension>& q,
-                                      const vector<T, S::dimension>& v, vector<T, S::dimension>& g) {
-  s.force_derivative(q, v, g);
-};
+concept HasForceDerivative = detail::CanDifferentiateForce<S, T> &&
+    detail::derivative_is_of_the_force<S, T>();
 /// The system has the force of V without its quadratic part.
 template <class S, class T = double>
 concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {

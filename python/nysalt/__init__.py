@@ -140,9 +140,10 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
 
     This is the slow path. Every force is a call of Python, some microseconds instead of some nanoseconds;
     one trajectory goes at a time, on one thread, with the interpreter's lock. Derivatives for learning are
-    central differences of the force, with an error of eps^(2/3) relative to |f|/|q|: two more calls for each
-    parameter. What the functions raise comes through. There are no modes and no bands of frequencies, hence no
-    coordinates but qp, no rotations, no s_aia2, and starts in a bath are those of the function.
+    central differences of the force along what a step does, good to 1e-7 in any units: two more calls for each
+    parameter, and in each gradient kick one more than the two evaluations that it counts otherwise. What the
+    functions raise comes through. There are no modes and no bands of frequencies, hence no coordinates but qp, no
+    rotations, no s_aia2 or phase_fitted_..., and starts in a bath are those of the function.
     """
     return System(_nysalt.own(dict(locals())))
 

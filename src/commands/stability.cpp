@@ -44,7 +44,7 @@ subject subject_of(const stability_command& command, const bundled_system* syste
     return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
   if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
   if (source.fixed) return {source.typed, *source.fixed};
-  if (source.is_adaptive()) {
+  if (source.adaptive != nullptr) {
     refuse("{} depends on step and highest frequency: give --step, and --system if it is not fpu",
            source.typed);
   }
@@ -138,7 +138,7 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
   document["margin"] = judged.margin();
   document["gaps"] = pairs(judged.gaps);
   document["stable_steps"] = pairs(judged.stable_steps);
-  document["safe_step"] = judged.safe_step > 0.0 ? json(judged.safe_step) : json();
+  document["linear_step"] = judged.linear_step > 0.0 ? json(judged.linear_step) : json();
   if (judged.is_stable()) {
     for (const auto& [low, high] : judged.gaps) {
       result.text +=
@@ -147,8 +147,30 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
   }
   for (const auto& [low, high] : judged.stable_steps)
     result.text += fmt::format("  stable steps {:.6g} .. {:.6g}\n", low, high);
-  result.text += fmt::format("  {}: {} below the first end, and less than a quarter of a turn\n",
-                             advice(judged), percent(safe_margin));
+  result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(judged));
+}
+
+/// What a run makes of it. `stable` is both: the linear criterion, and a trial run.
+void add_trial(answer& result, const tabulated& method, const bundled_system& system, double step,
+               const judged_step* judged, std::uint64_t seed, int threads) {
+  json& document = result.document;
+  const auto trial = try_step(method, system, step, seed, threads);
+  document["trial"] = to_json(trial);
+  document["linearly_stable"] = document["stable"];
+  document["stable"] = document["stable"].get<bool>() && trial.passed();
+  result.text += fmt::format("  trial run at step {:g}: {}\n", step, trial.report());
+  document["safe_step"] = nullptr;
+  if (judged == nullptr) return;
+  const auto safe = safe_step(method, system, *judged, seed, threads);
+  if (safe) {
+    document["safe_step"] = *safe;
+    result.text += fmt::format("  safe step {:g}: a trial run at {:g}, {:g} % more, passed\n", *safe,
+                               *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+  } else if (system.frequency_bands().empty()) {
+    result.text += "  no step is called safe: the frequencies of the system have no bound\n";
+  } else {
+    result.text += "  no step is called safe: no trial run passed\n";
+  }
 }
 
 /// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
@@ -175,11 +197,20 @@ void add_rotation(answer& result, const tabulated& method, const bundled_system&
   json& document = result.document;
   document["stable"] = stable;
   document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
-  result.text += fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
-                             stable ? "stable" : "NOT stable", guard.description());
+  result.text +=
+      fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
+                  stable ? "linearly stable on what was looked at" : "NOT stable", guard.description());
   if (worst.frequency > 0.0) {
     result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
                                worst.frequency, worst.factor, guard.steps());
+  }
+  const auto pair = guard.most_resonant(method.letters(), method.coefficients(), step);
+  document["resonant_pair"] = nullptr;
+  if (pair.growth > 0.0) {
+    document["resonant_pair"] = {{"first", pair.first}, {"second", pair.second}, {"growth", pair.growth}};
+    result.text +=
+        fmt::format("  the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
+                    pair.first, pair.second, pair.growth, guard.steps());
   }
   document["resonance"] = nullptr;
   if (const auto nearest = nearest_resonance(guard.modes(), step)) {
@@ -224,16 +255,20 @@ int stability(const stability_command& command, const common_settings& common) {
   if (system) {
     result.document["system"] = system->description();
     result.document["step"] = *command.step;
+    progress shown;
+    prepare_starts(*system, common, shown);  // a bath drives them where its law is
+    shown.clear();
+    const std::uint64_t seed = seed_for(role::test, common.seed);
     if (rotates) {
       add_rotation(result, its.method, *system, *command.step);
+      add_trial(result, its.method, *system, *command.step, nullptr, seed, common.threads);
     } else {
-      progress shown;
-      prepare_starts(*system, common, shown);  // a bath drives them where its law is
-      shown.clear();
       constexpr std::uint64_t starts = 64;
-      const auto known = frequencies_along_starts(*system, seed_for(role::test, common.seed), starts);
+      const auto known = frequencies_along_starts(*system, seed, starts);
       add_frequencies(result, known, *command.step);
-      add_windows_of(result, judge(its.method, chart, known, *command.step), *system, *command.step);
+      const judged_step judged = judge(its.method, chart, known, *command.step);
+      add_windows_of(result, judged, *system, *command.step);
+      add_trial(result, its.method, *system, *command.step, &judged, seed, common.threads);
       marked = {system->description(), *command.step, known.bands};
     }
     result.document["warnings"] = warnings;

@@ -29,14 +29,16 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
   add_number(command, "--horizon", asked.horizon, "length of each trajectory");
   add_number(command, "--trajectories", asked.trajectories, "to compare on");
-  command.add_option("--metric", typed->metrics,
-                     "path, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
-                     "path:OBSERVABLE names that of one [path]");
-  command.add_option("--observable", asked.observable, "of path, distribution and acf [that of the system]");
+  command.add_option(
+      "--metric", typed->metrics,
+      "path, relative, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
+      "path:OBSERVABLE names that of one [path]");
+  command.add_option("--observable", asked.observable,
+                     "of path, relative, distribution and acf [that of the system]");
   command.add_option("--range", typed->range, "LOW,HIGH of the histogram [of the starts]");
   add_number(command, "--bins", asked.bins, "of the histogram");
   command.add_option("--levels", typed->levels,
-                     "errors, joined by commas, whose cost the report tells [0.01]");
+                     "errors, joined by commas, whose cost the report tells [those of the data]");
   add_number(command, "--longest-lag", asked.longest_lag, "of the autocovariance, a time");
   add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, asked.learning, "--learn-");

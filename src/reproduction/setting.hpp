@@ -74,7 +74,7 @@ struct measured_errors {
 struct judged {
   double horizon;
   std::int64_t trajectories;
-  std::string metric = "path";
+  std::string metric = "relative";  // the paper's
   std::string observable = "stiff_energy";
   std::optional<double> fine_step{};  // empty: coarse enough to rank methods
 };

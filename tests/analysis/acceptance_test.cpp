@@ -12,6 +12,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba_free.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/bcss.hpp"
@@ -126,6 +127,58 @@ BOOST_AUTO_TEST_CASE(what_diverged_is_rejected) {
     BOOST_TEST(integrate(chain, verlet(), 0.05, start, 3).diverged_at.value() == step);
   }
   BOOST_TEST(!std::isnan(all.probability.mean));  // a mean of errors would leave them out
+}
+
+namespace {
+
+/// K = sqrt(1 + p^2) + tilt p + bend p^3, odd where it must not be, with a velocity or without.
+struct tilted {
+  static constexpr int dimension = 2;
+  double tilt = 0.0;
+  double bend = 0.0;
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    return (q[0] * q[0] + q[1] * q[1]) * 0.5;
+  }
+  template <class T>
+  T kinetic_energy(const vector<T, 2>& p) const {
+    using std::sqrt;
+    return sqrt(p[0] * p[0] + p[1] * p[1] + 1.0) + p[1] * tilt + p[1] * p[1] * p[1] * bend;
+  }
+};
+struct tilted_with_velocity : tilted {
+  template <class T>
+  void velocity(const vector<T, 2>& p, vector<T, 2>& v) const {
+    using std::sqrt;
+    const T energy = sqrt(p[0] * p[0] + p[1] * p[1] + 1.0);
+    v[0] = p[0] / energy;
+    v[1] = p[1] / energy + p[1] * p[1] * (3.0 * bend) + tilt;
+  }
+};
+
+template <class S>
+void check_even_alone() {
+  const trajectory_options options{.step = 0.1, .steps = 5, .trajectories = 20};
+  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 1.0, 1.0);
+  const auto with = [&](double tilt, double bend) {
+    S system;
+    system.tilt = tilt;
+    system.bend = bend;
+    return acceptance(system, verlet(), starts, options).of_each.size();
+  };
+  BOOST_TEST(with(0.0, 0.0) == 20U);
+  for (const auto& [tilt, bend] : {std::pair(1e-3, 0.0), std::pair(0.0, 1e-3), std::pair(-1.0, 0.3)}) {
+    BOOST_TEST(
+        refuses<std::invalid_argument>([&] { with(tilt, bend); }, {"kinetic energy", "even", "start 0"}));
+  }
+}
+
+}  // namespace
+
+// With an odd K a palindrome runs back from (q, p) by -h, and not from (q, -p).
+BOOST_AUTO_TEST_CASE(a_kinetic_energy_that_is_not_even_is_refused) {
+  check_even_alone<tilted>();
+  check_even_alone<tilted_with_velocity>();
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {

@@ -11,6 +11,7 @@
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
@@ -62,18 +63,49 @@ struct lowered : harmonic_oscillator {
 
 using lanes = pack<double, default_lanes>;
 const harmonic_oscillator oscillator(3.0);
-const auto position = path_measure(oscillator, [](const auto& x) { return x.q[0]; });
+const auto position = relative_measure(oscillator, [](const auto& x) { return x.q[0]; });
+const auto path_of_position = path_measure(oscillator, [](const auto& x) { return x.q[0]; });
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_path_error_is_relative_to_the_observable) {
+BOOST_AUTO_TEST_CASE(the_relative_error_is_relative_to_the_observable_at_each_time) {
   BOOST_TEST(position.width == 1U);
   BOOST_TEST(position.needs_reference);
   BOOST_TEST(error_of(position, at(1.25, 7.0), at(1.0, 2.0)) == 0.0625);
   BOOST_TEST(error_of(position, at(-2.0, 0.0), at(-1.0, 0.0)) == 1.0);
   BOOST_TEST(error_of(position, at(1.0, 7.0), at(1.0, 2.0)) == 0.0);
-  BOOST_TEST(has_no_scale(position, at(0.0, 1.0), {"path error", "which is 0", "another observable"}));
+  BOOST_TEST(has_no_scale(position, at(0.0, 1.0), {"relative error", "which is 0", "another observable"}));
   BOOST_TEST(!has_no_scale(position, at(-1.0, 0.0), {}));
+}
+
+// (.25, 1)^2 over the mean square of the observable: the size is that of all trajectories, where one may be
+// 0.
+BOOST_AUTO_TEST_CASE(the_path_error_is_relative_to_the_mean_square_of_all) {
+  const auto& measure = path_of_position;
+  BOOST_TEST(error_of(measure, at(1.25, 7.0), at(1.0, 2.0)) == 0.0625);
+  BOOST_TEST(lane(measure.relative_to(numbers(measure, at(-2.0, 1.0))), 0) == 4.0);
+  BOOST_TEST(!measure.scale);
+  const std::vector<double> scores{0.25, 1.0};  // roots of means over times
+  const std::vector<double> sizes{0.0, 8.0};
+  BOOST_TEST(measure.unit(sizes) == 2.0, near);
+  BOOST_TEST(measure.average(scores, sizes).mean == 0.625 / 2.0, near);
+  BOOST_TEST(measure.of_each(scores, sizes)[1] == 0.5, near);
+  // d(mean/sqrt(size)) = dx/2 - (.625/2)(ds/4)/2: what the two trajectories differ by, over two, is the
+  // error.
+  const double apart = (1.0 - 0.25) / 2.0 - 0.3125 * (8.0 - 0.0) / 4.0 / 2.0;
+  BOOST_TEST(measure.average(scores, sizes).standard_error == std::abs(apart) / 2.0, near);
+}
+
+// The error in units of the size is the same for any size that is the same everywhere.
+BOOST_AUTO_TEST_CASE(a_size_that_does_not_scatter_adds_no_error) {
+  const std::vector<double> scores{0.5, NAN, 2.0, 0.25};
+  const std::vector<double> sizes(4, 9.0);
+  for (const auto& measure : {path_of_position, energy_measure(oscillator)}) {
+    const estimate relative = measure.average(scores, sizes);
+    const estimate absolute = measure.average(scores);
+    BOOST_TEST(relative.mean == absolute.mean / 3.0, near);
+    BOOST_TEST(relative.standard_error == absolute.standard_error / 3.0, near);
+  }
 }
 
 // sqrt((.0625 + 1)/2) for one trajectory; then the mean of .5 and 1.
@@ -158,24 +190,27 @@ BOOST_AUTO_TEST_CASE(the_exchange_error_is_relative_to_the_whole_stiff_energy) {
     return phase_point<double, 4>{{0.0, 0.0, 0.0, 0.0}, {0.0, first, 0.0, second}};
   };
   BOOST_TEST(measure.width == 2U);
-  BOOST_TEST(error_of(measure, moving(2.0, 4.0), moving(4.0, 2.0)) == (3.0 + 3.0) / 5.0, near);  // I agrees
+  BOOST_TEST(error_of(measure, moving(2.0, 4.0), moving(4.0, 2.0)) == 3.0 + 3.0, near);  // I agrees
   BOOST_TEST(error_of(measure, moving(-4.0, 2.0), moving(4.0, 2.0)) == 0.0);
   BOOST_TEST(measure.average(std::vector<double>{0.5, 1.0}).mean == 0.75, near);
   BOOST_TEST(measure.score(3.0, 4.0) == 0.75);
-  BOOST_TEST(has_no_scale(measure, moving(0.0, 0.0), {"exchange error", "which is 0"}));
-  BOOST_TEST(!has_no_scale(measure, moving(0.0, 1.0), {}));
+  BOOST_TEST(lane(measure.relative_to(numbers(measure, moving(4.0, 2.0))), 0) == 5.0, near);
+  BOOST_TEST(measure.unit(std::vector<double>{5.0, 1.0}) == 3.0, near);
+  BOOST_TEST(measure.no_scale.find("exchange error") != std::string::npos);
   static_assert(HasStiffEnergies<fpu_chain<>>);
   static_assert(!HasStiffEnergies<henon_heiles>);
 }
 
-BOOST_AUTO_TEST_CASE(the_energy_error_is_relative_to_the_start) {
+BOOST_AUTO_TEST_CASE(the_energy_error_is_relative_to_the_energies_of_the_starts) {
   const auto measure = energy_measure(oscillator);
   BOOST_TEST(!measure.needs_reference);
   const auto error = [&](const auto& seen, const auto& start) { return error_of(measure, seen, start); };
-  BOOST_TEST(error(at(0.0, 3.0), at(0.0, 2.0)) == 2.5 * 2.5 / 4.0, near);
+  BOOST_TEST(error(at(0.0, 3.0), at(0.0, 2.0)) == 2.5 * 2.5, near);
   BOOST_TEST(error(at(2.0 / 3.0, 0.0), at(0.0, 2.0)) == 0.0);  // the same energy elsewhere
   BOOST_TEST(measure.average(std::vector<double>{4.0, 4.0}).mean == 2.0, near);
-  BOOST_TEST(has_no_scale(measure, at(0.0, 0.0), {"energy error", "start", "which is 0"}));
+  BOOST_TEST(lane(measure.relative_to(numbers(measure, at(0.0, 2.0))), 0) == 4.0, near);
+  BOOST_TEST(measure.unit(std::vector<double>{4.0, 4.0}) == 2.0, near);
+  BOOST_TEST(measure.no_scale.find("energy error") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_negative_energy_is_as_good) {
@@ -183,20 +218,24 @@ BOOST_AUTO_TEST_CASE(a_negative_energy_is_as_good) {
   const auto seen = at(0.0, 1.0);   // 1/2 - 2
   const auto start = at(1.0, 1.0);  // 1 - 2
   BOOST_TEST(error_of(measure, seen, start) == 0.25, near);
+  BOOST_TEST(lane(measure.relative_to(numbers(measure, start)), 0) == 1.0, near);
 }
 
 // Of the same mean and standard error as the whole, to rounding: also where that is a root.
 BOOST_AUTO_TEST_CASE(an_error_is_the_mean_of_its_parts) {
   const std::vector<double> scores{0.5, NAN, 2.0, 0.25, 1.0};
-  const auto check = [&](const auto& measure) {
-    const auto parts = measure.parts(scores);
-    const estimate whole = measure.average(scores);
+  const std::vector<double> sizes{1.0, 2.0, 0.5, 4.0, 3.0};
+  const auto check = [&](const auto& measure, const std::vector<double>& its_sizes = {}) {
+    const auto parts = measure.parts(scores, its_sizes);
+    const estimate whole = measure.average(scores, its_sizes);
     BOOST_TEST(mean_and_error(parts).mean == whole.mean, near);
     BOOST_TEST(mean_and_error(parts).standard_error == whole.standard_error, near);
     BOOST_TEST(std::isnan(parts[1]));
     return parts;
   };
   BOOST_TEST(check(position)[2] == 2.0);
+  check(path_of_position, sizes);
+  check(energy_measure(oscillator), sizes);
   BOOST_TEST(check(energy_measure(oscillator))[2] < 1.9);  // not its root, and not itself
   BOOST_TEST(energy_measure(oscillator).parts(std::vector<double>{0.0, 0.0})[1] == 0.0);
 }

@@ -16,6 +16,7 @@
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
@@ -117,36 +118,84 @@ BOOST_AUTO_TEST_CASE(a_method_has_no_error_against_itself) {
              boost::test_tools::tolerance(.1));  // relative to either of two paths that differ by 3 %
 }
 
-/// The formulas once more, over paths that are kept.
+/// The formulas once more, over paths that are kept; means over time by all samples alike, or up to a horizon
+/// in the midst of the last step.
 BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
   constexpr std::int64_t trajectories = 3;
   constexpr std::int64_t steps = 70;  // more than integrate goes without looking
-  double mean = 0.0;
-  double exchanged = 0.0;
-  for (std::uint64_t m = 0; m < trajectories; ++m) {
-    auto x = law(7, m);
-    auto y = x;
-    double squares = 0.0;
-    for (int n = 0; n < steps; ++n) {
-      reference.advance(chain, x, .01);
-      make_stepper(chain, verlet(), .01).step(y);
-      const double relative = stiff_energy(y) / stiff_energy(x) - 1.0;
-      squares += relative * relative / steps;
-      for (Eigen::Index j = 0; j < 3; ++j) {
-        exchanged += std::abs(chain.stiff_energy(y, j) - chain.stiff_energy(x, j)) / stiff_energy(x) /
-                     (steps * trajectories);
+  for (const std::optional<double> horizon : {std::optional<double>(), std::optional(.6936)}) {
+    const double last = horizon.value_or(.7) / .01 - (steps - 1);  // of the last step, linear in between
+    const double all = horizon ? steps - 1 + last : steps;
+    const auto weight = [&](int n) {
+      if (!horizon) return n == 0 ? 0.0 : 1.0;
+      if (n == steps) return last * last / 2.0;
+      return n == steps - 1 ? 0.5 + last - last * last / 2.0 : n == 0 ? 0.5 : 1.0;
+    };
+    double mean = 0.0;
+    double mean_relative = 0.0;
+    double size = 0.0;
+    double exchanged = 0.0;
+    double whole = 0.0;
+    for (std::uint64_t m = 0; m < trajectories; ++m) {
+      auto x = law(7, m);
+      auto y = x;
+      double squares = 0.0;
+      double relative_squares = 0.0;
+      for (int n = 0; n <= steps; ++n) {
+        if (n > 0) {
+          reference.advance(chain, x, .01);
+          make_stepper(chain, verlet(), .01).step(y);
+        }
+        const double share = weight(n) / all;
+        const double difference = stiff_energy(y) - stiff_energy(x);
+        squares += difference * difference * share;
+        relative_squares += std::pow(difference / stiff_energy(x), 2) * share;
+        size += stiff_energy(x) * stiff_energy(x) * share / trajectories;
+        whole += stiff_energy(x) * share;
+        for (Eigen::Index j = 0; j < 3; ++j) {
+          exchanged += std::abs(chain.stiff_energy(y, j) - chain.stiff_energy(x, j)) * share;
+        }
       }
+      mean += std::sqrt(squares) / trajectories;
+      mean_relative += std::sqrt(relative_squares) / trajectories;
     }
-    mean += std::sqrt(squares) / trajectories;
+    trajectory_options options{.step = .01, .steps = steps, .trajectories = trajectories, .seed = 7};
+    options.horizon = horizon;
+    const auto error = [&](const auto& measure) {
+      return trajectory_errors(chain, reference, law, verlet(), measure, options).methods[0].error.mean;
+    };
+    // Merging rounds otherwise, 1e-16 a step, and errors of 1e-2 are differences of numbers near 2.
+    const auto near = boost::test_tools::tolerance(1e-10);
+    BOOST_TEST(error(path) == mean / std::sqrt(size), near);
+    BOOST_TEST(error(relative_measure(chain, stiff_energy)) == mean_relative, near);
+    BOOST_TEST(error(exchange_measure(chain)) == exchanged / whole, near);
   }
-  const trajectory_options options{.step = .01, .steps = steps, .trajectories = trajectories, .seed = 7};
-  const auto error = [&](const auto& measure) {
-    return trajectory_errors(chain, reference, law, verlet(), measure, options).methods[0].error.mean;
+}
+
+// Where o_ref is 2 + q_1 with q_1 near 0, and 2 + q_1 of a chain that is far to the left: on each it keeps
+// its sign, on both together it does not; and sin(50 t) changes it on the way.
+BOOST_AUTO_TEST_CASE(a_relative_error_needs_an_observable_of_one_sign) {
+  state left = law(1, 1);
+  left.q.array() -= 10.0;  // the whole chain, whose energy does not mind but for the walls' springs
+  const auto judge = [&](const std::vector<state>& starts, const auto& observable) {
+    trajectory_errors(chain, reference, listed<6>(starts), verlet(), relative_measure(chain, observable),
+                      {.step = .001, .steps = 20, .trajectories = std::ssize(starts)});
   };
-  // Merging rounds otherwise, 1e-16 a step, and errors of 1e-2 are differences of numbers near 2.
-  const auto near = boost::test_tools::tolerance(1e-10);
-  BOOST_TEST(error(path) == mean, near);
-  BOOST_TEST(error(exchange_measure(chain)) == exchanged, near);
+  const auto far = [](const state& x) { return 5.0 + x.q[2]; };
+  BOOST_CHECK_NO_THROW(judge({law(1, 0)}, far));
+  BOOST_CHECK_NO_THROW(judge({left}, far));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] {
+        judge({law(1, 0), left}, far);
+      },
+      {"relative error", "changes its sign", "path error"}));
+  const auto stretch = [](const state& x) { return x.q[1] - x.q[0]; };
+  trajectory_options longer{.step = .002, .steps = 100, .trajectories = 1};
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, stretch), longer); },
+      {"relative error", "changes its sign"}));
+  BOOST_CHECK_NO_THROW(
+      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, stretch), longer));
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_second_order_fall_by_four_with_the_step) {
@@ -272,7 +321,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_lanes_changes_no_bit) {
 BOOST_AUTO_TEST_CASE(diverged_trajectories_are_told_and_left_out) {
   constexpr std::int64_t steps = 8;
   const state at_rest{vector<double, 6>::Constant(1e-3), vector<double, 6>::Constant(1e-3)};
-  const auto measure = path_measure(chain, [](const state& x) { return 2.0 + x.q[0]; });
+  const auto measure = relative_measure(chain, [](const state& x) { return 20.0 + x.q[0]; });
   const auto of = [&](const std::vector<state>& starts) {
     const trajectory_options options{.step = .05, .steps = steps, .trajectories = std::ssize(starts)};
     return trajectory_errors(chain, reference, listed<6>(starts), verlet(), measure, options).methods[0];

@@ -27,7 +27,10 @@
 #include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/mclachlan_atela.hpp"
+#include "nysalt/methods/omelyan.hpp"
 #include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/methods/predescu.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/takahashi_imada.hpp"
@@ -129,12 +132,17 @@ using various_systems =
 
 /// Of those for baths one, as what it is without: its conservative part.
 using classical_methods =
-    std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, s_aia2, forest_ruth, pefrl,
-               mclachlan_atela4, mclachlan5, blanes_moan_s6, srkn6b, srkn11b, srkn14a, baoab>;
+    std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, bcss4, predescu3, s_aia2, forest_ruth,
+               pefrl, vefrl, mclachlan_atela4, mclachlan5, omelyan5v, omelyan5p, blanes_moan_s6, srkn6b,
+               srkn11b, srkn14a, baoab>;
 using families =
-    std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
-using gradient_methods = std::tuple<takahashi_imada, chin4a>;
+    std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
+using gradient_methods = std::tuple<takahashi_imada, chin4a, omelyan_fg4>;
 using gradient_families = std::tuple<fg_chin, fg4>;
+using fitted_methods =
+    std::tuple<phase_fitted<fg_chin, chin4a>, phase_fitted<fg4, omelyan_fg4>, phase_fitted<aba<4>, pefrl>,
+               phase_fitted<bab<4>, vefrl>, phase_fitted<aba<5>, mclachlan5>, phase_fitted<bab<5>, omelyan5v>,
+               phase_fitted<bab<6>, srkn6b>>;
 using rotating_methods = std::tuple<impulse>;
 using rotating_families = std::tuple<r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>;
 
@@ -149,7 +157,7 @@ struct members_of_list<std::tuple<F...>> : std::type_identity<std::tuple<member<
 template <class List>
 using members_of = typename members_of_list<List>::type;
 
-using methods = joined<classical_methods, members_of<families>, gradient_methods,
+using methods = joined<fitted_methods, classical_methods, members_of<families>, gradient_methods,
                        members_of<gradient_families>, rotating_methods, members_of<rotating_families>>;
 
 /// A theta well inside the ranges and near the start, where coefficients are of moderate size.
@@ -164,13 +172,16 @@ parameters_of<F> random_theta(draws& random) {
   return theta;
 }
 
-/// The method itself, or a random member of its family (s_aia2's where it is not yet Verlet).
+/// The method itself, or a random member of its family (s_aia2's where it is not yet Verlet), or one fitted
+/// to a random z.
 template <Method M>
 M any_method(draws& random) {
   if constexpr (requires { typename M::family; }) {
     return M(random_theta<typename M::family>(random));
   } else if constexpr (std::same_as<M, s_aia2>) {
     return M(random.uniform(0.1, 2.8));
+  } else if constexpr (std::constructible_from<M, double>) {
+    return M(random.uniform(0.1, 4.0));
   } else {
     return M{};
   }

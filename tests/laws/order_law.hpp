@@ -59,19 +59,29 @@ double error_in(std::int64_t steps, const S& system, const table& method,
 /// of 5e-15 a unit of time. An error 50 times as large is known to 2 %, which moves the slope by 0.03. What
 /// remains of higher orders moves it by about (w h)^2 for symmetric methods and by w h otherwise. Hence the
 /// measure agrees with the order to +-0.15 if the last w h is below 0.35, that is, from steps of 1/4 on.
+/// method_at(h) is the method at the step h.
 template <SeparableSystem S>
-double measured_order(const S& system, const table& method, const solved<S::dimension>& problem,
+double measured_order(const S& system, const auto& method_at, const solved<S::dimension>& problem,
                       std::int64_t steps) {
-  double coarse = error_in(steps, system, method, problem);
+  const auto error_after = [&](std::int64_t n) {
+    return error_in(n, system, method_at(problem.time / static_cast<double>(n)), problem);
+  };
+  double coarse = error_after(steps);
   for (double slope = 0.0;; steps *= 2) {
-    const double fine = error_in(2 * steps, system, method, problem);
-    const double letters = roundings(method.word.letters(), size(system));
+    const double fine = error_after(2 * steps);
+    const double letters = roundings(method_at(problem.time).word.letters(), size(system));
     const double rounding =
         std::sqrt(static_cast<double>(2 * steps) * letters) * eps + 5e-15 * std::sqrt(8.0 * problem.time);
     if (steps > 2000 || !(fine > 50.0 * rounding)) return slope;
     slope = std::log2(coarse / fine);
     coarse = fine;
   }
+}
+template <SeparableSystem S>
+double measured_order(const S& system, const table& method, const solved<S::dimension>& problem,
+                      std::int64_t steps) {
+  return measured_order(
+      system, [&](double) { return method; }, problem, steps);
 }
 
 }  // namespace nysalt::test

@@ -94,6 +94,69 @@ BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
   }
 }
 
+namespace {
+
+/// Residuals of parameters in other units, x = scale theta.
+template <class T>
+std::array<T, 3> residuals_in_units(const T& a, const T& b) {
+  using std::exp;
+  using std::sin;
+  return {sin(a) + b - 1.0, a * b - 0.3, exp(b) - 2.0};
+}
+
+Eigen::Matrix2d exact_in_units(const Eigen::Vector2d& x) {
+  using inner = dual<double, 2>;
+  using outer = dual<inner, 2>;
+  const auto r = residuals_in_units(outer::variable(inner::variable(x[0], 0), 0),
+                                    outer::variable(inner::variable(x[1], 1), 1));
+  outer sum(0.0);
+  for (const outer& one : r) sum += one * one;
+  Eigen::Matrix2d result;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = sum.derivative[i].derivative[j];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(parameters_in_any_units_have_the_same_hessian) {
+  const Eigen::Vector2d x(0.7, 0.4);
+  const Eigen::Matrix2d exact = exact_in_units(x);
+  for (const auto& [first, second] : std::vector<std::array<double, 2>>{
+           {1.0, 1.0}, {1e4, 1.0}, {1.0, 1e-4}, {1e4, 1e-4}, {1e10, 1e-10}, {1e-6, 1e6}}) {
+    const Eigen::Vector2d scale(first, second);
+    const objective loss = [&](const Eigen::VectorXd& theta) -> squares {
+      const Eigen::Vector2d at = scale.cwiseProduct(theta);
+      const auto r =
+          residuals_in_units(dual<double, 2>::variable(at[0], 0), dual<double, 2>::variable(at[1], 1));
+      squares result{0.0, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+      for (const auto& one : r) {
+        const Eigen::Vector2d slope(one.derivative[0] * scale[0], one.derivative[1] * scale[1]);
+        result.value += one.value * one.value;
+        result.half_gradient += slope * one.value;
+        result.normal_matrix += slope * slope.transpose();
+      }
+      return result;
+    };
+    const Eigen::Vector2d theta = x.cwiseQuotient(scale);
+    const Eigen::Matrix2d back = scale.cwiseInverse().asDiagonal();
+    const Eigen::Matrix2d found = back * hessian(loss, theta) * back;
+    BOOST_TEST_CONTEXT("scales " << first << ", " << second) {
+      // Steps are 1e-5 to 1e-3 of what changes the loss: s^2, and rounding, 20 eps/1e-5.
+      BOOST_TEST(norm(found - exact) <= 2e-6 * norm(exact));
+      if (first != 1e4 && first != 1e10) continue;
+      constexpr double s = 1e-5;  // the same for all, as it must not be
+      const Eigen::Vector2d ahead(theta[0] + s, theta[1]);
+      const Eigen::Vector2d behind(theta[0] - s, theta[1]);
+      const double absolute = (loss(ahead).gradient()[0] - loss(behind).gradient()[0]) / (2.0 * s);
+      BOOST_TEST(std::abs(absolute / (scale[0] * scale[0]) - exact(0, 0)) > 1e-4 * norm(exact));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(flat_directions_are_found_and_left_alone) {
   const curvature flat(valley(1e-9), {0, 1});
   BOOST_REQUIRE(flat.flat_directions().size() == 1);

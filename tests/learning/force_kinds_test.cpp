@@ -85,8 +85,9 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   const auto derived = fit(by_black_box_with_derivative());
   const auto theta = expected.method.parameters();
   const double rounding = allowed(data, theta, 100.0 * eps);  // operations of a step
-  // A central difference is off by eps^(2/3) of |f|/|q| twice over: its two errors balance.
-  const double differences = allowed(data, theta, 2.0 * std::pow(eps, 2.0 / 3.0) + 100.0 * eps);
+  // A central difference along a displacement below 1, of a sine, is off by s^2/6, and eps/s by rounding.
+  constexpr double s = detail::part_of_displacement;
+  const double differences = allowed(data, theta, s * s / 6.0 + 4.0 * eps / s + 100.0 * eps);
   BOOST_TEST_CONTEXT(expected.summary.full()) {
     BOOST_TEST_MESSAGE(distance_of(potential, expected)
                        << ", " << distance_of(derived, expected) << " of " << rounding << "; "

@@ -141,10 +141,10 @@ BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
   BOOST_TEST(!guard.admits(two_stages, with_a_gap(), 3.5 / highest));
 }
 
-BOOST_AUTO_TEST_CASE(without_a_quadratic_kinetic_energy_there_is_no_guard) {
+BOOST_AUTO_TEST_CASE(without_bands_and_states_a_kinetic_energy_that_is_not_quadratic_has_no_guard) {
   const std::vector<phase_point<double, 1>> no_states;
   const stability_guard guard(relativistic{}, no_states);
-  BOOST_TEST(guard.description().find("no guard") == 0U);
+  BOOST_TEST(guard.description().find("no linear criterion") == 0U);
   BOOST_TEST(guard.admits(verlet_word, verlet_coefficients, 1e6));
   BOOST_TEST(guard.gaps(verlet_word, verlet_coefficients, 1e6).empty());
 }

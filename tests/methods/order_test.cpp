@@ -47,11 +47,16 @@ double order_on(const M& method) {
   return order_on<Model>(table_of(method), method.order);
 }
 
+/// The order of those that are fitted to a frequency is that of steps for each of which they are fitted: see
+/// phase_fitted_test.cpp.
+bool changes_with_step(const tabulated& method) { return method.name().starts_with("phase_fitted_"); }
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_declared_order_is_the_measured_one) {
   draws random;
   for (const auto& method : methods_as_data(random)) {
+    if (changes_with_step(method)) continue;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
       BOOST_TEST(std::abs(order_on<a_split_pendulum>(method) - method.order) <= allowed);
       BOOST_TEST(std::abs(order_on<a_galaxy>(method) - method.order) <= allowed);
@@ -62,7 +67,7 @@ BOOST_AUTO_TEST_CASE(the_declared_order_is_the_measured_one) {
 BOOST_AUTO_TEST_CASE(also_with_another_kinetic_energy) {
   draws random;
   for (const auto& method : methods_as_data(random)) {
-    if (method.requires_quadratic_kinetic) continue;
+    if (method.requires_quadratic_kinetic || changes_with_step(method)) continue;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
       BOOST_TEST(std::abs(order_on<a_fast_one>(method) - method.order) <= allowed);
       BOOST_TEST(std::abs(order_on<a_faster_one>(method) - method.order) <= allowed);

@@ -172,6 +172,7 @@ BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
       {run_it + " --horizon inf", {"--horizon", "finite"}},
       {"run --method verlet --output out.csv --step 1e-300 --horizon 1", {"1e-300", "--horizon"}},
       {compare + " --steps 0.6", {"--horizon", "shorter", "0.6"}},
+      {compare + " --steps 0.06", {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
       // Six evaluations a step: 0.6 again.
       {"compare --methods srkn6b --equal-cost --steps 0.1 --output folder", {"--horizon", "shorter", "0.6"}},
       {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},
@@ -254,6 +255,9 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_or_are_missing) {
       {"stability --method verlet --system fpu --step 0", {"--step", "positive"}},
       {"stability --method s_aia2", {"s_aia2", "--system", "--step"}},
       {"stability --method s_aia2 --system fpu --step 1", {"s_aia2", "step"}},
+      {"stability --method phase_fitted_pefrl", {"phase_fitted_pefrl", "--system", "--step"}},
+      {"stability --method phase_fitted_pefrl --system fpu --step 0.11",
+       {"phase_fitted_pefrl", "at most 5.3"}},
       {"stability --method learned:nystrom", {"learned first"}},
       {learn + " --masses 3", {"fpu", "--masses", "--pairs, --omega"}},
       {learn + " --system pendulum --omega 3", {"pendulum", "--omega", "it takes --spread"}},
@@ -269,6 +273,8 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_or_are_missing) {
       {learn + " --system lennard_jones --atoms 1", {"--atoms", "at least 2"}},
       {learn + " --system phi4 --masses 0", {"phi4", "0 masses"}},
       {"run --method s_aia2 --system kepler --step 0.1 --horizon 1", {"s_aia2", "kepler", "declares none"}},
+      {"run --method phase_fitted_chin4a --system lennard_jones --step 0.01 --horizon 1",
+       {"phase_fitted_chin4a", "lennard_jones", "declares none"}},
       {"run --method verlet --step 0.1 --horizon 1 --plot", {"--plot", "--output"}},
       {"run --method s_aia2 --step 1 --horizon 1", {"s_aia2", "step"}},
       {compare + " --steps 0.01 --metric state --observable energy", {"--observable", "path", "state"}},
@@ -370,7 +376,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const std::string fast = " --step 0.02 --horizon 0.1 ";
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
   const std::string rows = "run --method verlet" + fast;
-  const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.1 --steps 0.02 ";
+  const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.2 --steps 0.02 ";
   all_refused(folder, {
                           {few + "--output there", {"there", "folder"}},
                           {few + "--output nowhere/scheme.json", {"nowhere", "make it"}},

@@ -56,6 +56,8 @@ BOOST_AUTO_TEST_CASE(each_part_of_a_setup_has_its_works) {
   BOOST_TEST((cited(folder, "--system pendulum") == with(random_numbers)));
   BOOST_TEST((cited(folder, "--methods srkn6b,s_aia2") ==
               with({"blanes_moan_2002", "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024"})));
+  BOOST_TEST((cited(folder, "--methods phase_fitted_mclachlan5,omelyan_fg4") ==
+              with({"van_de_vyver_2007", "omelyan_mryglod_folk_2003"})));
   BOOST_TEST((cited(folder, "--methods learned:nystrom") ==
               with({"okunbor_skeel_1992", "ceres", "blanes_moan_2002"})));
   BOOST_TEST(

@@ -13,6 +13,7 @@
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
@@ -20,10 +21,13 @@
 #include "nysalt/ensembles/kepler_law.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/chin.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -48,7 +52,7 @@ constexpr std::uint64_t seed = 5;  // the user's
 template <Method M>
 void must_be(const json& row, const M& method, const error_measure<6>& measure) {
   const trajectory_options options{
-      .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed)};
+      .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
   const auto its = trajectory_errors(chain, fine_steps<>(.02 / 200), law, method, measure, options);
   BOOST_TEST_CONTEXT(row["method"] << " by " << measure.name) {
     BOOST_TEST(row["error"] == its.methods[0].error.mean);
@@ -67,18 +71,21 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
   const auto must_all_be = [](const std::string& metric, const error_measure<6>& measure) {
     const auto all = document(
-        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b --steps 0.02 --fine-step 1e-4 "
+        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b,phase_fitted_chin4a --steps 0.02 "
+        "--fine-step 1e-4 "
         "--trajectories 20 "
         "--learn-trajectories 5 " +
         metric);
     const auto& theta = all["fits"][0]["parameters"];
-    BOOST_REQUIRE(all["rows"].size() == 3U);
+    BOOST_REQUIRE(all["rows"].size() == 4U);
     must_be(all["rows"][0], member<nystrom>({theta["b1"], theta["beta1"]}), measure);
     must_be(all["rows"][1], s_aia2(.02 * chain.frequency_bands().back().high), measure);
     must_be(all["rows"][2], srkn6b(), measure);
+    must_be(all["rows"][3], phase_fitted_for<fg_chin, chin4a>(chain, .02), measure);
   };
   must_all_be("", path_measure(chain, stiff_energy));
   must_all_be("--observable kinetic_energy", path_measure(chain, kinetic));
+  must_all_be("--metric relative", relative_measure(chain, stiff_energy));
   must_all_be("--metric state", state_measure(chain));
   must_all_be("--metric exchange", exchange_measure(chain));
   must_all_be("--metric energy", energy_measure(chain));
@@ -89,7 +96,8 @@ BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
   const henon_heiles system;
   const auto its = trajectory_errors(
       system, fine_steps<>(.25 / 50), normal_around<2>({rest, rest}, .1, .1), mclachlan2(),
-      state_measure(system), {.step = .25, .steps = 40, .trajectories = 7, .seed = seed_for(role::test, 1)});
+      state_measure(system),
+      {.step = .25, .steps = 40, .trajectories = 7, .seed = seed_for(role::test, 1), .horizon = 10.0});
   const auto all = document(
       "compare --system henon_heiles --methods mclachlan2 --steps 0.25 --horizon 10 --trajectories 7 "
       "--metric state --fine-step 0.005");
@@ -207,8 +215,9 @@ BOOST_AUTO_TEST_CASE(windows_are_the_known_ones) {
 
 // Measured beforehand by other programs, with other random numbers, and rounded to two digits.
 BOOST_AUTO_TEST_CASE(path_errors_are_the_known_ones) {
-  const auto all =
-      document("compare --methods verlet,verlet_2x,learned:nystrom --steps 0.01 --trajectories 400");
+  const auto all = document(
+      "compare --methods verlet,verlet_2x,learned:nystrom --steps 0.01 --trajectories 400 "
+      "--metric relative");
   const std::vector<double> known{2.2e-2, 5.4e-3, 3.9e-4};
   const std::vector<double> last_digit{1e-3, 1e-4, 1e-5};
   for (std::size_t k = 0; k < 3; ++k) {

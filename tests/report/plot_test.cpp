@@ -220,3 +220,53 @@ BOOST_AUTO_TEST_CASE(levels_are_drawn_as_all_can_read_them) {
   draw({"levels", {one}}, folder.path());
   if (has_gnuplot) BOOST_TEST(contents(folder / "levels.svg").find("scale(0.00)") == std::string::npos);
 }
+
+namespace {
+
+/// Numbers that are told beside an axis; empty where gnuplot chooses.
+std::vector<double> ticks_in(const std::string& script, const std::string& axis) {
+  const auto from = script.find("set " + axis + "tics (");
+  if (from == std::string::npos) return {};
+  const auto open = script.find('(', from);
+  std::istringstream text(script.substr(open + 1, script.find(')', open) - open - 1));
+  std::vector<double> result;
+  for (std::string number; std::getline(text, number, ',');) result.push_back(std::stod(number));
+  return result;
+}
+
+std::string script_of(const std::vector<double>& costs, const std::vector<double>& errors) {
+  return detail::plot_script(
+      {"picture",
+       {{.x_label = "cost", .y_label = "error", .log_log = true, .curves = {{"a", costs, errors}}}}});
+}
+
+}  // namespace
+
+// gnuplot writes numbers beside powers of ten alone, and there may be none.
+BOOST_AUTO_TEST_CASE(an_axis_of_costs_always_has_numbers) {
+  for (const double low : {1.0, 1.4, 2.3, 3.7, 5.5, 8.9, 23.0, 0.0061}) {
+    for (const double ratio : {1.0, 1.01, 1.5, 2.9, 9.0, 60.0}) {
+      const auto script = script_of({low, low * ratio}, {1e-3, 1e-7});
+      const auto ticks = ticks_in(script, "x");
+      BOOST_TEST_CONTEXT(low << " to " << low * ratio << "\n" << script) {
+        BOOST_REQUIRE(!ticks.empty());
+        BOOST_TEST((ratio < 3.0 || ticks.size() >= 2U));  // 1, 2, 5: never more than 2.5 apart
+        const double most = std::max(ratio, 3.0) * low * 1.25;
+        for (const double tick : ticks) {
+          BOOST_TEST(tick <= most);
+          BOOST_TEST(tick >= low / 2.0);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(decades_are_numbers_enough) {
+  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {1e-3, 1e-7}), "x").empty());
+  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {1e-3, 1e-7}), "y").empty());
+  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {2e-3, 2.1e-3}), "y").size() >= 1U);
+  // An axis that is not logarithmic is gnuplot's own matter.
+  const figure linear{"picture",
+                      {{.x_label = "t", .y_label = "I", .curves = {{"a", {3.0, 4.0}, {1.0, 2.0}}}}}};
+  BOOST_TEST(ticks_in(detail::plot_script(linear), "x").empty());
+}

@@ -3,6 +3,7 @@
 // where there is MPI (NYSALT_MPIEXEC).
 #pragma once
 
+#include <sstream>
 #include <string>
 
 #include "program.hpp"
@@ -29,9 +30,23 @@ inline std::string on_known_ranks(int ranks, const std::string& arguments) {
   return line;
 }
 
-/// `mpirun -n RANKS nysalt arguments` in the folder.
+/// What ranks wrote to the standard error stream, without what the launcher tells of the machine: lines such
+/// as
+/// "[hwloc/linux] failed to find sysfs cpu topology", and banners, whose lines begin with stars.
+inline std::string without_launcher(const std::string& err) {
+  std::string kept;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("[hwloc") && !line.starts_with("*")) kept += line + "\n";
+  }
+  return kept;
+}
+
+/// `mpirun -n RANKS nysalt arguments` in the folder; of the errors those of the program.
 inline finished run_on(int ranks, const scratch& folder, const std::string& arguments) {
-  return shell(folder, on_ranks(ranks) + arguments);
+  finished done = shell(folder, on_ranks(ranks) + arguments);
+  done.err = without_launcher(done.err);
+  return done;
 }
 
 }  // namespace nysalt::test

@@ -6,6 +6,10 @@
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/counted.hpp"
+#include "nysalt/lanes.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -91,15 +95,93 @@ BOOST_AUTO_TEST_CASE(a_derivative_of_ones_own_goes_first) {
   const vector<D, 2> lifted(D::variable(1.0, 0), D(-2.0));
   const auto found = along<field::whole, D>(by_itself(), q.cast<D>(), lifted);
   BOOST_TEST(found[0].derivative[0] == 7.0);
-  // Where it is known over double alone, its derivatives are differences of it: eps^(2/3), twice.
-  check_pendulum(black_box_with_derivative(), 4.0 * eps, 2.0 * std::pow(eps, 2.0 / 3.0));
+  // Where it is known over double alone, its derivatives are differences of it: s^2/6, twice, and eps/s.
+  constexpr double s = detail::part_of_displacement;
+  check_pendulum(black_box_with_derivative(), 4.0 * eps, 2.0 * s * s / 6.0 + 8.0 * eps / s);
 }
 
 BOOST_AUTO_TEST_CASE(of_a_black_box_it_is_a_difference) {
-  // eps^(2/3), twice; and a difference of differences, which err by that, over a step of eps^(1/3).
-  check_pendulum(black_box(), 2.0 * std::pow(eps, 2.0 / 3.0), 4.0 * std::pow(eps, 1.0 / 3.0));
+  // s^2/6 and eps/s; and of differences of differences, 10 s along v and along dq, of length 1 and .3, whose
+  // cosine terms are (10 s)^2/6 and eps/(100 s^2).
+  constexpr double s = detail::part_of_displacement;
+  check_pendulum(black_box(), s * s / 6.0 + 4.0 * eps / s,
+                 100.0 * s * s / 6.0 * 2.0 + 8.0 * eps / (100.0 * s * s));
   const vector<double, 1> none(0.0);
   BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
+}
+
+namespace {
+
+/// Without the derivative by hand.
+template <class S>
+struct automatic {
+  static constexpr int dimension = S::dimension;
+  S system;
+  Eigen::Index size() const { return system.size(); }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    system.force(q, f);
+  }
+};
+
+template <Scalar T, class S>
+void check_by_hand(const S& system, const Eigen::VectorXd& q) {
+  static_assert(HasForceDerivative<S, T> && !HasForceDerivative<automatic<S>, T>);
+  draws random;
+  auto at = make_vector<T>(system);
+  auto v = at;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    at[i] = T(q[i] + random.uniform(-0.02, 0.02));
+    v[i] = T(random.uniform(-1.0, 1.0));
+  }
+  const auto found = along<field::whole, T>(system, at, v);
+  const auto expected = along<field::whole, T>(automatic<S>{system}, at, v);
+  double size = 0.0;
+  for (Eigen::Index i = 0; i < at.size(); ++i) size = std::max(size, std::abs(lane(expected[i], 0)));
+  for (Eigen::Index i = 0; i < at.size(); ++i) {  // sums of some terms that cancel
+    BOOST_TEST(std::abs(lane(found[i] - expected[i], 0)) <= 100.0 * eps * size);
+  }
+  BOOST_TEST(size > 0.1);
+}
+
+/// Another force, and by no word of its own another derivative.
+struct stronger : fpu_chain<3> {
+  using fpu_chain<3>::fpu_chain;
+  template <class T>
+  void force(const vector<T, 6>& q, vector<T, 6>& f) const {
+    fpu_chain<3>::force(q, f);
+    for (auto& entry : f) entry = entry * 2.0;
+  }
+};
+static_assert(HasForceDerivative<fpu_chain<3>> && !HasForceDerivative<stronger>);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
+  const auto all = [](const auto& system, const Eigen::VectorXd& q) {
+    check_by_hand<double>(system, q);
+    check_by_hand<pack<double, 4>>(system, q);
+  };
+  const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
+  all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
+  all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
+  for (const double omega : {2.0, 50.0}) {
+    all(fpu_chain<1>(omega), waves.head(2));
+    all(fpu_chain<3>(omega), waves.head(6));
+    all(fpu_chain<>(100, omega), waves.head(200));
+    for (const Eigen::Index pairs : {1, 2, 63, 64, 65, 128}) {
+      all(long_fpu_chain(pairs, omega), waves.head(2 * pairs));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_that_is_inherited_beside_another_force_is_not_its) {
+  const stronger twice(50.0);
+  const vector<double, 6> q = vector<double, 6>::Constant(0.3);
+  const vector<double, 6> v = vector<double, 6>::LinSpaced(0.0, 1.0);
+  const vector<double, 6> expected = 2.0 * along<field::whole, double>(fpu_chain<3>(50.0), q, v);
+  const vector<double, 6> found = along<field::whole, double>(twice, q, v);
+  BOOST_TEST((found - expected).norm() <= 10.0 * eps * expected.norm());
 }
 
 BOOST_AUTO_TEST_CASE(of_the_soft_part_it_is_that_of_the_soft_force) {
@@ -113,7 +195,7 @@ BOOST_AUTO_TEST_CASE(of_the_soft_part_it_is_that_of_the_soft_force) {
   BOOST_TEST((along<field::whole, double>(split, q, v) - soft).norm() > 1e-3);
 }
 
-BOOST_AUTO_TEST_CASE(it_counts_one_evaluation) {
+BOOST_AUTO_TEST_CASE(it_counts_what_is_called) {
   const auto evaluations = [](const auto& system) {
     using S = std::decay_t<decltype(system)>;
     const counted<S> watched(system);
@@ -125,6 +207,6 @@ BOOST_AUTO_TEST_CASE(it_counts_one_evaluation) {
   BOOST_TEST(evaluations(potential_only()) == 1);
   BOOST_TEST(evaluations(dynamic_potential()) == 1);
   BOOST_TEST(evaluations(by_itself()) == 1);
-  BOOST_TEST(evaluations(black_box()) == 1);
+  BOOST_TEST(evaluations(black_box()) == 2);  // a difference
   BOOST_TEST(evaluations(black_box_with_derivative()) == 1);
 }

@@ -36,8 +36,8 @@ BOOST_AUTO_TEST_CASE(a_black_box_has_derivatives_too) {
     const auto q = random.state(open, 3.0).q;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", draw " << n) {
       BOOST_TEST(std::abs(hessian(black_box_with_derivative(), q)(0, 0) - visible(q)) <= 2.0 * eps);
-      // Central differences with s = eps^(1/3) max(1, |q|): |f'''| s^2 / 6 + |f| eps / s.
-      const double s = std::cbrt(eps) * std::max(1.0, std::abs(q[0]));
+      // Central differences along a displacement of 1: |f'''| s^2 / 6 + |f| eps / s.
+      const double s = detail::part_of_displacement;
       const double error = std::abs(hessian(black_box(), q)(0, 0) - visible(q));
       BOOST_TEST(error <= s * s / 6.0 + 4.0 * eps * std::max(1.0, std::abs(q[0])) / s);
     }

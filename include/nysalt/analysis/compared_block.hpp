@@ -41,15 +41,17 @@ class compared_block {
   /// Refers to all but the start, and partly to itself.
   compared_block(const S& system, const R& reference, std::span<const M> methods, double step,
                  std::span<const measure_type> measures, const state& start, int count,
-                 const reference_checks& checks, const shared_noise& noise)
+                 const reference_checks& checks, const shared_noise& noise, const sample_weights& weights)
       : measures_(measures),
         step_(step),
+        weights_(weights),
         path_(path_in(system, step, noise)),
         reference_(system, reference, measures, step, start, count, checks,
-                   {noise.seed, static_cast<std::uint64_t>(noise.first), 0}, path_, noise.parts) {
+                   {noise.seed, static_cast<std::uint64_t>(noise.first), 0}, path_, noise.parts, weights) {
     for (const M& method : methods)
       steppers_.push_back(make_stepper(system, method, step, noise_of(method, noise)));
-    const std::vector<errors_type> none(measures.begin(), measures.end());
+    std::vector<errors_type> none;
+    for (const measure_type& measure : measures) none.emplace_back(measure, weights(0));
     for (const auto& stepper : steppers_) runs_.push_back({{stepper, start, count, noise.first}, none});
   }
 
@@ -63,12 +65,12 @@ class compared_block {
       const std::int64_t next = std::min(done + steps_between_checks, steps);
       reference_.go_on(done, next);
       for (watched_run& its : runs_) {
-        its.run.go_on(next, 1, measures_.width(), read,
-                      [&](std::int64_t n, std::span<const T> seen, const auto& live) {
-                        for (std::size_t i = 0; i < measures_.size(); ++i) {
-                          its.errors[i].add(n, measures_.part(i, seen), reference_.expected(i, n), live);
-                        }
-                      });
+        its.run.go_on(
+            next, 1, measures_.width(), read, [&](std::int64_t n, std::span<const T> seen, const auto& live) {
+              for (std::size_t i = 0; i < measures_.size(); ++i) {
+                its.errors[i].add(n, measures_.part(i, seen), reference_.expected(i, n), live, weights_(n));
+              }
+            });
       }
     }
   }
@@ -103,6 +105,7 @@ class compared_block {
 
   measures_type measures_;
   double step_;
+  sample_weights weights_;
   path_type path_;  // of the stretch at hand
   compared_reference<S, R> reference_;
   std::vector<stepper_type> steppers_;

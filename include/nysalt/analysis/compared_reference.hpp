@@ -13,6 +13,7 @@
 #include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/analysis/predictability.hpp"
 #include "nysalt/analysis/reference_along.hpp"
+#include "nysalt/analysis/sample_weights.hpp"
 
 namespace nysalt {
 
@@ -40,16 +41,21 @@ class compared_reference {
   /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
   compared_reference(const S& system, const R& reference, std::span<const measure_type> measures, double step,
                      const state& start, int count, const reference_checks& checks, const path_place& at,
-                     path_type& path, int noise_parts)
+                     path_type& path, int noise_parts, const sample_weights& weights)
       : measures_(measures, measures_type::which::of_reference),
         step_(step),
+        weights_(weights),
         checks_(checks),
         live_(first_lanes<T>(count)) {
     for (const measure_type& measure : measures) {
       at_start_.push_back(measure.numbers_of(start));
       if (!measure.needs_reference && measure.scale) require_scale(measure, at_start_.back(), count);
-      errors_.push_back({errors_type(measure), errors_type(measure), errors_type(measure),
-                         predictable_samples<lanes_of<S>>(measure.how)});
+      const errors_type none(measure, weights(0));
+      errors_.push_back({none, none, none, predictable_samples<lanes_of<S>>(measure.how)});
+      if (measure.relative_to) {  // of what needs no reference that is all
+        const double weight = measure.needs_reference ? weights(0) : weights.total();
+        errors_.back().size = measure.relative_to(at_start_.back()) * weight;
+      }
     }
     const bool needed = measures_.width() > 0;
     if (needed || noise_parts > 0) {
@@ -93,6 +99,14 @@ class compared_reference {
   double finer_error(std::size_t i, int k) const { return errors_[i].finer.score(k).value; }
   /// The null model's error by measure i in lane k, if it was wanted.
   double null_error(std::size_t i, int k) const { return errors_[i].null_model.score(k).value; }
+  /// The mean over time of what measure i is relative to, in lane k.
+  double size(std::size_t i, int k) const { return lane(errors_[i].size, k) / weights_.total(); }
+  /// The sign of the scale of measure i in lane k; 0 if it has none.
+  double sign(std::size_t i, int k) const {
+    if (!measures_[i].scale) return 0.0;
+    if (measures_.reads(i)) return reference_->sign(i, k);
+    return std::copysign(1.0, lane(measures_[i].scale(at_start_[i]), k));
+  }
   /// A time, by measure i in lane k, if it was wanted; infinite if it is beyond the end.
   double predictable_until(std::size_t i, int k) const {
     return errors_[i].predictable.until(k) * std::abs(step_);
@@ -104,6 +118,7 @@ class compared_reference {
     errors_type null_model;
     errors_type perturbed;
     predictable_samples<lanes_of<S>> predictable;
+    T size{0.0};  // what they are relative to, summed over time
   };
 
   std::span<const T> seen_by(const reference_along<S, R>& run, std::size_t i, std::int64_t n) const {
@@ -114,10 +129,12 @@ class compared_reference {
     errors_of_measure& its = errors_[i];
     for (std::int64_t n = from_ + 1; n <= to; ++n) {
       const auto exact = expected(i, n);
-      if (finer_) its.finer.add(n, exact, seen_by(*finer_, i, n), live_);
-      if (checks_.null_model || perturbed_) its.null_model.add(n, at_start_[i], exact, live_);
+      const double weight = weights_(n);
+      if (measures_[i].relative_to) its.size += measures_[i].relative_to(exact) * weight;
+      if (finer_) its.finer.add(n, exact, seen_by(*finer_, i, n), live_, weight);
+      if (checks_.null_model || perturbed_) its.null_model.add(n, at_start_[i], exact, live_, weight);
       if (!perturbed_) continue;
-      its.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_);
+      its.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_, weight);
       its.predictable.add(n, its.perturbed.sum(), its.null_model.sum());
     }
   }
@@ -131,6 +148,7 @@ class compared_reference {
 
   measures_type measures_;  // those that need a reference
   double step_;
+  sample_weights weights_;
   reference_checks checks_;
   condition_of<T> live_;
   std::int64_t from_ = 0;

@@ -38,35 +38,75 @@ struct error_measure {
   std::function<T(numbers seen, numbers reference)> error;
   averaging how;                ///< makes one number of all errors
   bool needs_reference = true;  ///< false: the reference is the start
-  /// What the error is relative to; where that is 0 there is none, which `no_scale` says. Not given:
-  /// absolute.
+  /// What `error` divides by, sample by sample. Where that is 0 there is no error, and where its sign is not
+  /// the same everywhere its mean does not exist: `no_scale` says so. Not given: nothing.
   std::function<T(numbers reference)> scale = {};
-  std::string no_scale = {};  ///< the sentence that is thrown where the scale is 0
+  std::string no_scale = {};  ///< the sentence that is thrown where there is no scale
+  /// What errors are relative to, >= 0 and in the units of `error`: the mean error is divided by the mean of
+  /// this over all trajectories and times, which is a property of their law, and positive unless all is 0
+  /// (`no_scale` then). Not given: absolute.
+  std::function<T(numbers reference)> relative_to = {};
 
-  /// What a trajectory contributes whose `samples` errors add up to `sum`.
-  double score(double sum, double samples) const {
-    const double mean = sum / samples;
+  /// What a trajectory contributes whose errors, weighted by time, add up to `sum`.
+  double score(double sum, double weights) const {
+    const double mean = sum / weights;
     return how == averaging::root_of_each ? std::sqrt(mean) : mean;
   }
 
-  /// The error over all trajectories and its standard error, from their scores (NaN: does not count).
-  /// A root has the standard error of the mean below it times 1/(2 root): the delta method.
-  estimate average(std::span<const double> scores) const {
+  /// What errors are divided by: 1, or the mean of `sizes`, the means over time of what they are relative to,
+  /// one a trajectory; its root where errors are of squares. Without sizes errors are absolute.
+  double unit(std::span<const double> sizes) const {
+    if (!relative_to || sizes.empty()) return 1.0;
+    const double mean = mean_and_error(sizes).mean;
+    return how == averaging::mean ? mean : std::sqrt(mean);
+  }
+
+  /// The error over all trajectories and its standard error, from their scores (NaN: does not count) and
+  /// sizes, of which there may be more. A root has the standard error of the mean below it times 1/(2 root),
+  /// a ratio that of its parts: the delta method.
+  estimate average(std::span<const double> scores, std::span<const double> sizes = {}) const {
     const estimate mean = mean_and_error(scores);
+    const double root = how == averaging::root_of_all ? std::sqrt(mean.mean) : mean.mean;
+    if (relative_to && !sizes.empty())
+      return {root / unit(sizes), mean_and_error(parts(scores, sizes)).standard_error};
     if (how != averaging::root_of_all || mean.mean == 0.0) return mean;
-    const double root = std::sqrt(mean.mean);
     return {root, mean.standard_error / (2.0 * root)};
   }
 
   /// What each trajectory has in that error: numbers of which it is the mean, and whose scatter makes its
-  /// standard error (linearised about the mean where it is a root). On the same trajectories two methods
-  /// differ by the mean of the differences of theirs.
-  std::vector<double> parts(std::span<const double> scores) const {
+  /// standard error (linearised about the mean where it is a root or a ratio). On the same trajectories two
+  /// methods differ by the mean of the differences of theirs.
+  std::vector<double> parts(std::span<const double> scores, std::span<const double> sizes = {}) const {
     std::vector<double> result(scores.begin(), scores.end());
     const double mean = mean_and_error(scores).mean;
-    if (how != averaging::root_of_all || mean == 0.0) return result;
-    const double root = std::sqrt(mean);
-    for (double& x : result) x = root + (x - mean) / (2.0 * root);
+    const bool is_root = how == averaging::root_of_all && mean != 0.0;
+    const double root = is_root ? std::sqrt(mean) : mean;
+    if (is_root) {
+      for (double& x : result) x = root + (x - mean) / (2.0 * root);
+    }
+    if (!relative_to || sizes.empty()) return result;
+    const double its_unit = unit(sizes);
+    const double power = how == averaging::mean ? 1.0 : 0.5;
+    const double slope = power * root / mean_and_error(sizes).mean;
+    double seen = 0.0;  // the mean size of those that count
+    double count = 0.0;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      if (std::isnan(scores[i])) continue;
+      seen += sizes[i];
+      count += 1.0;
+    }
+    seen /= count;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i] = (result[i] - slope * (sizes[i] - seen)) / its_unit;
+    }
+    return result;
+  }
+
+  /// The error of each trajectory by itself, in the unit of the whole: of these there are quantiles.
+  std::vector<double> of_each(std::span<const double> scores, std::span<const double> sizes = {}) const {
+    std::vector<double> result(scores.begin(), scores.end());
+    const double its_unit = unit(sizes);
+    for (double& x : result) x = (how == averaging::root_of_all ? std::sqrt(x) : x) / its_unit;
     return result;
   }
 

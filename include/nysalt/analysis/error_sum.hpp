@@ -27,13 +27,15 @@ class error_sum {
   using T = scalar_of_lanes<W>;        ///< double, or a pack of W
   using numbers = std::span<const T>;  ///< those of one state
 
-  /// Refers to the measure.
-  explicit error_sum(const error_measure<N, W>& measure) : measure_(&measure) {}
+  /// Refers to the measure. The start, where all errors are 0, may have a weight too.
+  explicit error_sum(const error_measure<N, W>& measure, double weight_of_start = 0.0)
+      : measure_(&measure), weights_(weight_of_start) {}
 
   /// Adds the errors of sample i = 1, 2, ..., in this order, in the lanes that are live.
-  void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live) {
-    sum_ = select(live, sum_ + measure_->error(seen, reference), sum_);
-    samples_ = i;
+  void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live,
+           double weight = 1.0) {
+    sum_ = select(live, sum_ + measure_->error(seen, reference) * weight, sum_);
+    weights_ += weight;
     const auto lost = both(!(sum_ - sum_ == T(0.0)), live);
     if (!any(lost)) return;
     for (int k = 0; k < W; ++k) {
@@ -50,13 +52,13 @@ class error_sum {
     const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
     if (lost_at) return {.diverged_at = lost_at};
     if (diverged_at) return {.diverged_at = diverged_at};
-    return {.value = measure_->score(lane(sum_, k), static_cast<double>(samples_))};
+    return {.value = measure_->score(lane(sum_, k), weights_)};
   }
 
  private:
   const error_measure<N, W>* measure_;
+  double weights_;
   T sum_{0.0};
-  std::int64_t samples_ = 0;
   std::array<std::optional<std::int64_t>, W> lost_at_{};
 };
 

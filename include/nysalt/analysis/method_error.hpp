@@ -2,14 +2,29 @@
 // What the runs of one method come to.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include "nysalt/analysis/error_sum.hpp"
+#include "nysalt/analysis/tail.hpp"
 #include "nysalt/divergence.hpp"
 
 namespace nysalt {
+
+/// The quantiles that are told of errors.
+inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
+
+/// How the errors of single trajectories lie about the one number that is made of them: each is the error
+/// that this trajectory would have alone, in the unit of the whole.
+struct distribution_of_errors {
+  tail largest{};                                          ///< of the scores, whose mean the error is
+  estimate median{};                                       ///< with its standard error
+  std::array<double, shown_quantiles.size()> quantiles{};  ///< at shown_quantiles
+};
 
 /// How far off a method is, and what it costs.
 struct method_error {
@@ -17,12 +32,16 @@ struct method_error {
   std::int64_t diverged = 0;                     ///< number of trajectories that did
   std::vector<diverged_trajectory> diverged_at;  ///< in their order
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
-  std::vector<double> of_each{};  ///< what each trajectory has in the error; NaN if it diverged
+  std::vector<double> of_each{};    ///< what each trajectory has in the error; NaN if it diverged
+  std::vector<double> own{};        ///< the error of each by itself, in the unit of the whole; NaN likewise
+  distribution_of_errors spread{};  ///< of the trajectories that did not diverge
 };
 
-/// From the runs of all trajectories, in their order. What a run cost is counted elsewhere.
+/// From the runs of all trajectories, in their order, and what their errors are relative to. What a run cost
+/// is counted elsewhere.
 template <int N, int W>
-method_error error_of_runs(const std::vector<run_score>& runs, const error_measure<N, W>& measure) {
+method_error error_of_runs(const std::vector<run_score>& runs, const error_measure<N, W>& measure,
+                           std::span<const double> sizes = {}) {
   method_error result;
   std::vector<double> scores;
   for (const auto& run : runs) {
@@ -30,8 +49,15 @@ method_error error_of_runs(const std::vector<run_score>& runs, const error_measu
     scores.push_back(run.value);
   }
   result.diverged = std::ssize(result.diverged_at);
-  result.error = measure.average(scores);
-  result.of_each = measure.parts(scores);
+  result.error = measure.average(scores, sizes);
+  result.of_each = measure.parts(scores, sizes);
+  result.spread = {.largest = tail_of(scores), .median = {}, .quantiles = {}};
+  result.own = measure.of_each(scores, sizes);
+  const auto own = sorted_numbers(result.own);
+  result.spread.median = median_and_error(own);
+  for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
+    result.spread.quantiles[i] = quantile(own, shown_quantiles[i]);
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,7 +40,8 @@ class reference_along {
         count_(count),
         at_(at),
         path_(path),
-        noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)) {}
+        noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)),
+        signs_(measures.size()) {}
 
   /// Reads the next `samples`, each a time `step` after the last. What is not sound is remembered.
   void go_on(double step, std::int64_t samples) {
@@ -63,8 +65,12 @@ class reference_along {
     return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
   }
 
+  /// The sign of the scale of a measure in lane k; 0 where it has none.
+  double sign(std::size_t measure, int k) const { return signs_[measure][static_cast<std::size_t>(k)]; }
+
   /// Throws for the first trajectory that came to grief: std::runtime_error where the reference, or what is
-  /// read of it, is not finite; std::invalid_argument where a measure has no scale. `first` is in lane 0.
+  /// read of it, is not finite; std::invalid_argument where a measure has no scale, or one that changes sign.
+  /// `first` is in lane 0.
   void require_sound(std::int64_t first) const {
     for (int k = 0; k < count_; ++k) {
       const auto& its = failures_[static_cast<std::size_t>(k)];
@@ -95,11 +101,18 @@ class reference_along {
       if (measures_->reads(i) && (*measures_)[i].scale) scale = (*measures_)[i].scale(here);
       for (int k = 0; k < count_; ++k) {
         auto& its = failures_[static_cast<std::size_t>(k)];
-        const bool without_scale = scale && lane(*scale, k) == 0.0;
+        const bool without_scale = scale && !keeps_sign(i, k, lane(*scale, k));
         if (its || (lane(sound, k) && !without_scale)) continue;
         its = failure{at_.step, i, lane(sound, k)};
       }
     }
+  }
+
+  /// Not where it is 0.
+  bool keeps_sign(std::size_t measure, int k, double scale) {
+    double& its = signs_[measure][static_cast<std::size_t>(k)];
+    if (its == 0.0) its = scale > 0.0 ? 1.0 : scale < 0.0 ? -1.0 : 0.0;
+    return its * scale > 0.0 || std::isnan(scale);
   }
 
   const S* system_;
@@ -112,6 +125,7 @@ class reference_along {
   std::vector<vector<T, S::dimension>> noise_;
   std::vector<T> numbers_;
   std::array<std::optional<failure>, lanes_of<S>> failures_{};
+  std::vector<std::array<double, lanes_of<S>>> signs_;  // of the scale of each measure
 };
 
 }  // namespace nysalt

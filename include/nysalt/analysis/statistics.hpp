@@ -50,6 +50,34 @@ inline double median(std::vector<double> samples) {
   return lower == upper ? upper : 0.5 * (lower + upper);
 }
 
+/// The numbers that are not NaN, from the smallest on.
+inline std::vector<double> sorted_numbers(std::vector<double> samples) {
+  std::erase_if(samples, [](double x) { return std::isnan(x); });
+  std::ranges::sort(samples);
+  return samples;
+}
+
+/// Below which the share p of sorted numbers lies, linear between neighbours. NaN if there is none.
+inline double quantile(std::span<const double> sorted, double p) {
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double at = p * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  if (below + 1 == sorted.size()) return sorted[below];
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+/// The median of n sorted numbers, and half of the distance between those that are sqrt(n)/2 places above and
+/// below: as many lie below the median of the law as heads fall among n coins, whatever the law is. NaN where
+/// there are too few.
+inline estimate median_and_error(std::span<const double> sorted) {
+  estimate result{quantile(sorted, 0.5), std::numeric_limits<double>::quiet_NaN()};
+  if (sorted.size() < 2) return result;
+  const double off = 0.5 / std::sqrt(static_cast<double>(sorted.size()));
+  const double above = quantile(sorted, std::min(0.5 + off, 1.0));
+  result.standard_error = 0.5 * (above - quantile(sorted, std::max(0.5 - off, 0.0)));
+  return result;
+}
+
 /// Slope of the least-squares line through (x_i, y_i).
 inline double slope(std::span<const double> x, std::span<const double> y) {
   const double mean_x = mean_and_error(x).mean;

@@ -72,8 +72,9 @@ void require_comparable(const S& system, const R& reference, std::span<const M> 
 /// By each of several measures, in their order: runs the reference once along each trajectory, and every
 /// method beside it, as many trajectories at a time as there are lanes; all measures look at the same runs.
 /// In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
-/// reference's own error is taken on the first 16 trajectories. If no measure needs a reference, none runs
-/// but for its noise. Neither lanes, threads nor ranks change a bit, nor does a measure those of another.
+/// reference's own error is taken on the first 16 trajectories, along noisy paths with error_over_difference.
+/// If no measure needs a reference, none runs but for its noise. Neither lanes, threads nor ranks change a
+/// bit, nor does a measure those of another.
 ///
 /// For the measures that need a reference, if the options ask for it:
 ///   null_model         the error of what stays as it was at the start, over all trajectories;
@@ -85,11 +86,11 @@ void require_comparable(const S& system, const R& reference, std::span<const M> 
 ///
 /// System, reference, ensemble and measures are used by several threads at once. Ranks share the trajectories
 /// by whole leaves, and all get the results. Memory: 24 bytes for each measure, method and trajectory on each
-/// rank, and none that grows with the steps. Messages: once at the end, these bytes.
-/// Throws std::invalid_argument if there is not one measure, step or trajectory, they do not fit into memory,
-/// the perturbation is not positive, a start does not fit, or what method, reference and measure refuse;
-/// std::runtime_error if the reference is not finite. Of several trajectories in trouble it is the first that
-/// is named.
+/// rank, 16 for each measure and trajectory, and none that grows with the steps. Messages: once at the end,
+/// these bytes. Throws std::invalid_argument if there is not one measure, step or trajectory, they do not fit
+/// into memory, the perturbation is not positive, the horizon is not within the last step, a start does not
+/// fit, or what method, reference and measure refuse; std::runtime_error if the reference is not finite. Of
+/// several trajectories in trouble it is the first that is named.
 template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Methods Given>
 std::vector<trajectory_errors_result> trajectory_errors(
     const S& system, const R& reference, const E& ensemble, const Given& methods,
@@ -106,6 +107,7 @@ std::vector<trajectory_errors_result> trajectory_errors(
   const std::size_t checks = std::min(trajectories, most_checks);
   const std::size_t perturbed = options.perturbation ? checks : 0;
   std::vector<detail::measured_trajectories> found;
+  sample_weights weights(options.steps);
   int parts = 0;
 
   const auto follow = [&](std::int64_t first, int n) {
@@ -116,7 +118,7 @@ std::vector<trajectory_errors_result> trajectory_errors(
     compared_block<M, S, R> block(
         system, reference, all, options.step, measures, start, n,
         {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
-        {parts, options.seed, first});
+        {parts, options.seed, first}, weights);
     block.run(options.steps);
     block.reference().require_sound(first);
     for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -129,6 +131,8 @@ std::vector<trajectory_errors_result> trajectory_errors(
         if (slot < checks) its.checks[slot] = block.reference().finer_error(i, k);
         if (slot < perturbed) its.predictable_until[slot] = block.reference().predictable_until(i, k);
         if (options.null_model) its.null_model[slot] = block.reference().null_error(i, k);
+        its.sizes[slot] = block.reference().size(i, k);
+        its.signs[slot] = block.reference().sign(i, k);
       }
     }
   };
@@ -137,6 +141,7 @@ std::vector<trajectory_errors_result> trajectory_errors(
     require_room(options, count, joined_measures(measures).width(), measures.size());
     parts = parts_of_noise(system, all);
     detail::require_comparable(system, reference, all, parts, options);
+    if (options.horizon) weights = sample_weights(options.step, options.steps, *options.horizon);
     found.assign(measures.size(), {count, trajectories, checks, options.null_model, perturbed});
     for_each_block(own.count(), lanes_of<S>, options.threads, follow_own,
                    progress_of_share(ranks, own.count(), options.trajectories, options.progress));
@@ -146,6 +151,8 @@ std::vector<trajectory_errors_result> trajectory_errors(
   std::vector<trajectory_errors_result> results;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     results.push_back(detail::summary(found[i], measures[i], reference));
+    auto& its_own = results.back().reference_error;
+    if (parts > 0 && its_own) its_own->mean *= error_over_difference;
   }
   const auto first = ensemble(options.seed, 0);
   const double time = static_cast<double>(options.steps) * std::abs(options.step);

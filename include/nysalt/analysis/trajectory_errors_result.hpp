@@ -2,8 +2,10 @@
 // What methods, and their reference, come to along many trajectories by one measure.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct trajectory_errors_result {
   std::string reference;                    ///< its description, or empty
   std::optional<estimate> null_model;       ///< of what stays as it was at the start, if asked for
   std::optional<double> predictable_until;  ///< a time, perhaps infinite, if asked for
+  double unit = 1.0;                        ///< what errors are divided by: a mean over all trajectories
 };
 
 namespace detail {
@@ -31,12 +34,16 @@ struct measured_trajectories {
       : runs(methods, std::vector<run_score>(trajectories)),
         checks(checked),
         null_model(null ? trajectories : 0),
-        predictable_until(perturbed) {}
+        predictable_until(perturbed),
+        sizes(trajectories),
+        signs(trajectories) {}
 
   /// Each rank has filled in its own, and all get all. The few that checks are of are in the first leaf.
   void gather(const shard& its) {
     for (auto& of_method : runs) its.gather(of_method);
     if (!null_model.empty()) its.gather(null_model);
+    its.gather(sizes);
+    its.gather(signs);
     broadcast(its.ranks(), checks);
     broadcast(its.ranks(), predictable_until);
   }
@@ -45,17 +52,29 @@ struct measured_trajectories {
   std::vector<double> checks;                // of the reference against its finer self
   std::vector<double> null_model;
   std::vector<double> predictable_until;
+  std::vector<double> sizes;  // means over time of what errors are relative to
+  std::vector<double> signs;  // of scales; 0 where there is none
 };
+
+/// Throws std::invalid_argument where what errors are relative to is 0, or a scale is of both signs.
+template <int N, int W>
+void require_relative(const measured_trajectories& all, const error_measure<N, W>& measure) {
+  const bool is_nothing = measure.relative_to && !(measure.unit(all.sizes) > 0.0);
+  const auto differs = [&](double sign) { return sign != all.signs.front(); };
+  if (is_nothing || std::ranges::any_of(all.signs, differs)) throw std::invalid_argument(measure.no_scale);
+}
 
 template <int N, int W>
 trajectory_errors_result summary(const measured_trajectories& all, const error_measure<N, W>& measure,
                                  const auto& reference) {
+  require_relative(all, measure);
   trajectory_errors_result result;
-  for (const auto& runs : all.runs) result.methods.push_back(error_of_runs(runs, measure));
+  for (const auto& runs : all.runs) result.methods.push_back(error_of_runs(runs, measure, all.sizes));
+  result.unit = measure.unit(all.sizes);
   if (!measure.needs_reference) return result;
-  result.reference_error = measure.average(all.checks);
+  result.reference_error = measure.average(all.checks, all.sizes);
   result.reference = reference.description();
-  if (!all.null_model.empty()) result.null_model = measure.average(all.null_model);
+  if (!all.null_model.empty()) result.null_model = measure.average(all.null_model, all.sizes);
   if (!all.predictable_until.empty()) result.predictable_until = median(all.predictable_until);
   return result;
 }

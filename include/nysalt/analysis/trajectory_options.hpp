@@ -28,6 +28,9 @@ struct trajectory_options {
   /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
   std::optional<double> perturbation = {};
   const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit
+  /// Errors are means over [0, horizon], which ends within the last step (sample_weights), so that methods of
+  /// other steps are judged over the same time. Nothing: over all samples alike.
+  std::optional<double> horizon = {};
 };
 
 /// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure

@@ -20,13 +20,14 @@ inline double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double
 /// Of so many coordinates each is looked along.
 inline constexpr Eigen::Index looked_along_singly = 64;
 
-/// Unit vectors: all coordinates, or four at random, the same at every point. A defect d of some coordinates
-/// is seen along these as |d|/sqrt(N) or so; a tolerance of 2e-4, that of differences, still shows one whole
-/// coordinate in 10^6. Sums over N terms of either sign err by eps sqrt(N) of their size.
-inline std::vector<Eigen::VectorXd> directions_to_look_along(Eigen::Index n) {
+/// Along coordinates, each as far as its length, or four at random, the same at every point. A defect d of
+/// some coordinates is seen along these as |d|/sqrt(N) or so; a tolerance of 2e-4, that of differences, still
+/// shows one whole coordinate in 10^6. Sums over N terms of either sign err by eps sqrt(N) of their size.
+inline std::vector<Eigen::VectorXd> directions_to_look_along(const Eigen::VectorXd& lengths) {
+  const Eigen::Index n = lengths.size();
   std::vector<Eigen::VectorXd> result;
   if (n <= looked_along_singly) {
-    for (Eigen::Index j = 0; j < n; ++j) result.push_back(Eigen::VectorXd::Unit(n, j));
+    for (Eigen::Index j = 0; j < n; ++j) result.push_back(lengths[j] * Eigen::VectorXd::Unit(n, j));
     return result;
   }
   std::minstd_rand random(1);
@@ -34,17 +35,25 @@ inline std::vector<Eigen::VectorXd> directions_to_look_along(Eigen::Index n) {
   for (int j = 0; j < 4; ++j) {
     Eigen::VectorXd direction(n);
     for (double& x : direction) x = static_cast<double>(random()) - middle;
-    result.push_back(direction.normalized());
+    result.push_back(lengths.cwiseProduct(direction.normalized()));
   }
   return result;
 }
 
+/// Forces are compared as the energies that they are over the lengths of coordinates, and velocities over
+/// those of momenta: then no unit of a coordinate matters.
 class force_examination {
   using column = Eigen::VectorXd;
 
  public:
-  explicit force_examination(const force_source& its)
-      : its_(its), along_(directions_to_look_along(its.size)), f_(its.size), other_(its.size) {
+  force_examination(const force_source& its, const column& lengths, const column& lengths_of_momenta)
+      : its_(its),
+        lengths_(lengths),
+        lengths_of_momenta_(lengths_of_momenta),
+        along_(directions_to_look_along(lengths)),
+        along_momenta_(directions_to_look_along(lengths_of_momenta)),
+        f_(its.size),
+        other_(its.size) {
     found_.has_potential = its.has_potential;
     found_.tolerance = its.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
     found_.asymmetry_tolerance = its.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
@@ -55,19 +64,19 @@ class force_examination {
 
   void look_at(const column& q, const column& p) {
     its_.force(q, f_);
-    keep(f_, largest_force_);
+    keep(energies(f_), largest_force_);
     if (its_.has_potential) look_at_potential(q);
     if (its_.has_kick) look_at_kick(q);
     if (its_.has_soft_force && its_.size <= looked_along_singly) look_at_soft_force(q);
     const auto slope = [&](const column& v) { its_.force_slope(q, v, other_); };
-    look_at_symmetry(slope, found_.asymmetry, largest_slope_);
+    look_at_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
     if (its_.has_derivative) look_at_derivative(q);
     if (its_.has_velocity) look_at_velocity(p);
   }
 
   force_check result() const {
     force_check result = found_;
-    // Where all is at rest: what a displacement by cbrt(eps), that of differences, would make.
+    // Where all is at rest: what a small displacement would make, of a part cbrt(eps) of the lengths.
     const double rest = std::cbrt(std::numeric_limits<double>::epsilon()) * largest_slope_;
     const double scale = std::max(largest_force_, rest);
     result.gradient_defect /= scale;
@@ -91,7 +100,7 @@ class force_examination {
   void look_at_kick(const column& q) {
     other_ = f_;
     its_.kick(q, other_);
-    note(other_ - 1.5 * f_, found_.kick_defect, found_.kick_coordinate);
+    note(energies(other_ - 1.5 * f_), found_.kick_defect, found_.kick_coordinate);
   }
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
@@ -105,7 +114,7 @@ class force_examination {
       const double omega = part->frequencies()[static_cast<std::size_t>(entry.mode)];
       defect[entry.coordinate] -= entry.heavy * omega * omega * x[entry.mode];
     }
-    note(defect, found_.soft_defect, found_.soft_coordinate);
+    note(energies(defect), found_.soft_defect, found_.soft_coordinate);
   }
 
   void look_at_derivative(const column& q) {
@@ -117,42 +126,45 @@ class force_examination {
     for (const auto& v : along_) {
       its_.derivative(q, v, other_);
       const column differences = difference_along(force_at, q, v);
-      keep(other_, largest_slope_);
-      keep(differences, largest_slope_);
-      found_.derivative_defect = std::max(found_.derivative_defect, largest(other_ - differences));
+      keep(energies(other_), largest_slope_);
+      keep(energies(differences), largest_slope_);
+      found_.derivative_defect = std::max(found_.derivative_defect, largest(energies(other_ - differences)));
     }
   }
 
   void look_at_velocity(const column& p) {
     column v(its_.size);
     its_.velocity(p, v);
-    keep(v, largest_velocity_);
+    keep(v.cwiseProduct(lengths_of_momenta_), largest_velocity_);
     if (!its_.has_kinetic_energy) {
       const auto slope = [&](const column& along) { its_.velocity_slope(p, along, other_); };
-      look_at_symmetry(slope, found_.velocity_asymmetry, largest_velocity_slope_);
+      look_at_symmetry(along_momenta_, lengths_of_momenta_, slope, found_.velocity_asymmetry,
+                       largest_velocity_slope_);
       return;
     }
-    for (std::size_t j = 0; j < along_.size(); ++j) {
-      const double defect = v.dot(along_[j]) - its_.kinetic_slope(p, along_[j]);
+    for (std::size_t j = 0; j < along_momenta_.size(); ++j) {
+      const double defect = v.dot(along_momenta_[j]) - its_.kinetic_slope(p, along_momenta_[j]);
       note_along(defect, j, found_.velocity_defect, found_.velocity_coordinate);
     }
   }
 
   /// Of the matrix that slope_along multiplies a direction with, into other_.
-  void look_at_symmetry(const auto& slope_along, double& most, double& largest_slope) {
+  void look_at_symmetry(const std::vector<column>& along, const column& lengths, const auto& slope_along,
+                        double& most, double& largest_slope) {
     std::vector<column> slopes;
-    for (const auto& v : along_) {
+    for (const auto& v : along) {
       slope_along(v);
-      keep(other_, largest_slope);
+      keep(other_.cwiseProduct(lengths), largest_slope);
       slopes.push_back(other_);
     }
-    for (std::size_t j = 0; j < along_.size(); ++j) {
+    for (std::size_t j = 0; j < along.size(); ++j) {
       for (std::size_t i = 0; i < j; ++i) {
-        most = std::max(most, std::abs(along_[i].dot(slopes[j]) - along_[j].dot(slopes[i])));
+        most = std::max(most, std::abs(along[i].dot(slopes[j]) - along[j].dot(slopes[i])));
       }
     }
   }
 
+  column energies(const column& forces) const { return forces.cwiseProduct(lengths_); }
   static double largest(const column& entries) { return entries.cwiseAbs().maxCoeff(); }
   void keep(const column& entries, double& most) {
     found_.finite = found_.finite && entries.allFinite();
@@ -174,7 +186,10 @@ class force_examination {
   }
 
   const force_source& its_;
+  column lengths_;
+  column lengths_of_momenta_;
   std::vector<column> along_;
+  std::vector<column> along_momenta_;
   column f_;
   column other_;
   force_check found_;
@@ -186,17 +201,18 @@ class force_examination {
 
 /// At all points; what fails is looked at once more a little beside them.
 force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
-                          const std::vector<Eigen::VectorXd>& momenta) {
+                          const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
+                          const Eigen::VectorXd& lengths_of_momenta) {
   const auto examined = [&](double away) {
-    force_examination examination(its);
+    force_examination examination(its, lengths, lengths_of_momenta);
     std::minstd_rand random(1);
-    const auto beside = [&](Eigen::VectorXd x) {
-      for (double& one : x) one += random() % 2 == 0 ? away : -away;
+    const auto beside = [&](Eigen::VectorXd x, const Eigen::VectorXd& length) {
+      for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += (random() % 2 == 0 ? away : -away) * length[i];
       return x;
     };
     for (std::size_t m = 0; m < points.size(); ++m) {
-      const Eigen::VectorXd q = beside(points[m]);
-      examination.look_at(q, beside(momenta[m]));
+      const Eigen::VectorXd q = beside(points[m], lengths);
+      examination.look_at(q, beside(momenta[m], lengths_of_momenta));
     }
     return examination.result();
   };

@@ -30,7 +30,7 @@ class force_source {
 
   virtual ~force_source() = default;
   virtual void force(const column& q, column& f) const = 0;
-  /// Of the force along v.
+  /// Of the force along v, which is as long as a displacement of the motion, as all directions are.
   virtual void force_slope(const column& q, const column& v, column& g) const = 0;
   virtual double potential_slope(const column& q, const column& v) const = 0;
   /// p += force(q)/2
@@ -155,10 +155,12 @@ class force_source_of final : public force_source {
 // A project may compile force_examination.hpp apart, once.
 #if defined NYSALT_COMPILED_ONCE
 force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
-                          const std::vector<Eigen::VectorXd>& momenta);
+                          const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
+                          const Eigen::VectorXd& lengths_of_momenta);
 #else
 inline force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
-                                 const std::vector<Eigen::VectorXd>& momenta);
+                                 const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
+                                 const Eigen::VectorXd& lengths_of_momenta);
 #endif
 
 }  // namespace nysalt::detail

@@ -11,7 +11,9 @@
 #include <random>
 #include <ranges>
 #include <stdexcept>
+#include <vector>
 
+#include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
 #include "nysalt/force.hpp"
 
@@ -23,8 +25,9 @@ struct stiffness_range {
   double lowest = std::numeric_limits<double>::infinity();  ///< least eigenvalue of all states
   /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
-  std::int64_t states = 0;       ///< how many were looked at
-  std::int64_t evaluations = 0;  ///< of f'(q) v
+  std::vector<double> highest_of_state;  ///< largest eigenvalue of each state
+  std::int64_t states = 0;               ///< how many were looked at
+  std::int64_t evaluations = 0;          ///< of f'(q) v
 
   /// sqrt(highest), 0 if that is negative.
   double highest_frequency() const { return std::sqrt(std::max(0.0, highest)); }
@@ -32,9 +35,9 @@ struct stiffness_range {
 
 /// Over all states (a range of phase_point<double, N>), of the whole force or of its soft part. Both ends are
 /// known to 1 % and mostly rounded outwards, see ends_of_spectrum(); who needs a bound adds a percent. The
-/// same states give the same bits. Cost: some 8 to 40 directional derivatives a state, less below 8
-/// dimensions. Throws std::invalid_argument if there are no states, or one where the force has no finite
-/// derivative.
+/// same states give the same bits. Differences of a black box go a part of how far the states lie apart.
+/// Cost: some 8 to 40 directional derivatives a state, less below 8 dimensions. Throws std::invalid_argument
+/// if there are no states, or one where the force has no finite derivative.
 template <field F = field::whole, NystromSystem S>
   requires ForceDerivativeOver<S, double, F> stiffness_range
   stiffness_along(const S& system, const std::ranges::range auto& states) {
@@ -52,14 +55,13 @@ template <field F = field::whole, NystromSystem S>
     Eigen::VectorXd start = chance;
 
     stiffness_range found;
-    lifted_room<double, S::dimension> room(n);
+    force_jacobian<F, S> jacobian(system, states);
     auto v = make_vector<double>(system);
-    auto g = make_vector<double>(system);
     for (const auto& state : states) {
+      jacobian.move_to(state.q);
       const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
         v = root.cwiseProduct(x);
-        force_along<F, double>(system, state.q, v, g, room);
-        return -root.cwiseProduct(g);
+        return -root.cwiseProduct(jacobian.times(v));
       };
       const auto ends = ends_of_spectrum(multiply, start);
       if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
@@ -68,6 +70,7 @@ template <field F = field::whole, NystromSystem S>
       }
       found.lowest = std::min(found.lowest, ends.lowest);
       found.highest = std::max(found.highest, ends.highest);
+      found.highest_of_state.push_back(ends.highest);
       found.evaluations += ends.products;
       ++found.states;
       start = chance + ends.lowest_direction + ends.highest_direction;

@@ -1,54 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a word does to the harmonic oscillator, letter by letter.
+// trace/2 of a word on the harmonic oscillator, as a polynomial.
 #pragma once
 
-#include <cmath>
-#include <cstddef>
 #include <vector>
 
 #include "nysalt/derivatives/bernstein.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/step_on_oscillator.hpp"
 
 namespace nysalt {
 
-/// (q, p) after one step of size 1 of the word without its bath, on q'' = -(theta^2 + k) q. R rotates by
-/// theta, S and H know k alone, B and G all of it. times_k(x) is k x, so that k may be a number or the
-/// variable of a polynomial. With a step h: theta = h omega, k = h^2 kappa, and p counts in units of q/h.
-template <class P>
-void step_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients, double theta,
-                        const auto& times_k, P& q, P& p) {
-  const auto times_all = [&](const P& x) {
-    P result = times_k(x);
-    result += theta * theta * x;
-    return result;
-  };
-  const auto simple_kick = [&](const auto& times, double c) { p += -c * times(q); };
-  const auto with_gradient = [&](const auto& times, double b, double c) {
-    P force = -1.0 * times(q);
-    p += b * force;
-    p += -2.0 * c * times(force);
-  };
-  const auto rotate = [&](double part) {
-    const double angle = part * theta;
-    P turned = std::cos(angle) * q;
-    turned += (theta > 0.0 ? std::sin(angle) / theta : part) * p;
-    p *= std::cos(angle);
-    p += -theta * std::sin(angle) * q;
-    q = turned;
-  };
-  for (std::size_t i = 0; i < word.length; ++i) {
-    const char letter = word.letters()[i];
-    const double* c = &coefficients[word.first_slot(i)];
-    if (letter == drift::letter) q += c[0] * p;
-    if (letter == kick::letter) simple_kick(times_all, c[0]);
-    if (letter == gradient_kick::letter) with_gradient(times_all, c[0], c[1]);
-    if (letter == rotation::letter) rotate(c[0]);
-    if (letter == soft_kick::letter) simple_kick(times_k, c[0]);
-    if (letter == soft_gradient_kick::letter) with_gradient(times_k, c[0], c[1]);
-  }
-}
-
-/// trace/2 of that step as a polynomial in k, low <= k <= high. The step is stable where it is within +-1.
+/// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
+/// within +-1.
 inline bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
                                        double theta, double low, double high) {
   const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -27,6 +28,7 @@ class listed {
     }
     return states_[n];
   }
+  std::size_t size() const { return states_.size(); }  ///< how many are given
   std::string description() const { return fmt::format("listed({} states)", states_.size()); }
 
  private:

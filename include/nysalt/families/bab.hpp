@@ -10,6 +10,8 @@
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/omelyan.hpp"
+#include "nysalt/methods/predescu.hpp"
 
 namespace nysalt {
 
@@ -25,7 +27,11 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
-    if constexpr (Drifts == 3) return {{"bcss3", base::of(bcss3())}};
+    if constexpr (Drifts == 3) {
+      return {{"bcss3", base::of(bcss3())}, {"predescu3", base::of(predescu3())}};
+    }
+    if constexpr (Drifts == 4) return {{"vefrl", base::of(vefrl())}, {"bcss4", base::of(bcss4())}};
+    if constexpr (Drifts == 5) return {{"omelyan5v", base::of(omelyan5v())}};
     if constexpr (Drifts == 6) return {{"srkn6b", base::of(srkn6b())}};
     return {};
   }

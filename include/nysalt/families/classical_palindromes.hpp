@@ -6,6 +6,7 @@
 #include "nysalt/families/symmetric_composition.hpp"
 #include "nysalt/methods/forest_ruth.hpp"
 #include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/omelyan.hpp"
 #include "nysalt/methods/pefrl.hpp"
 
 namespace nysalt {
@@ -17,7 +18,9 @@ std::vector<classical_member<F::parameters>> classical_palindromes() {
   if constexpr (Kicks == 2) return {{"mclachlan2", F::of(mclachlan2())}};
   if constexpr (Kicks == 3) return {{"forest_ruth", F::of(forest_ruth())}};
   if constexpr (Kicks == 4) return {{"pefrl", F::of(pefrl())}};
-  if constexpr (Kicks == 5) return {{"mclachlan5", F::of(mclachlan5())}};
+  if constexpr (Kicks == 5) {
+    return {{"mclachlan5", F::of(mclachlan5())}, {"omelyan5p", F::of(omelyan5p())}};
+  }
   return {};
 }
 

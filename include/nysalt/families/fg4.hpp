@@ -2,12 +2,18 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <stdexcept>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
+#include "nysalt/methods/omelyan.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -21,7 +27,30 @@ struct gradient_composition : composition<3> {
   static constexpr bool requires_quadratic_kinetic = true;
 
   /// Chin's method 4A, where a = 0.
-  static std::array<double, 3> start() { return {0.0, 1.0 / 6.0, 1.0 / 72.0}; }
+  static std::array<double, 3> start() { return of_order_four(0.0); }
+
+  static std::vector<classical_member<3>> classical_members() { return {{"omelyan_fg4", of(omelyan_fg4())}}; }
+
+  /// The member of order 4 that has this a: b = 1/(6 (1 - 2 a)^2) and c = (1/6 - (1 - 2 a) b (1 - b))/2
+  /// [omelyan_mryglod_folk_2003, equation (44)]. Throws std::invalid_argument at a = 1/2, where there is
+  /// none.
+  static std::array<double, 3> of_order_four(double a) {
+    const double middle = 1.0 - 2.0 * a;
+    if (!(std::abs(middle) > 0.0) || !std::isfinite(a)) {
+      throw std::invalid_argument(
+          sentence("of_order_four: a must be finite and not 1/2, got {}; take a near 0.1", a));
+    }
+    const double b = 1.0 / (6.0 * middle * middle);
+    return {a, b, 0.5 * (1.0 / 6.0 - middle * b * (1.0 - b))};
+  }
+
+  /// The parameters that a method of this word has. Rotations may stand for its drifts.
+  template <class M>
+  static std::array<double, 3> of(const M& method) {
+    static_assert(std::is_same_v<typename M::word, word> || QuadraticFlow<X>);
+    const auto c = method.coefficients();
+    return {c[0], c[1], c[4]};
+  }
 
   /// Three equal steps of drift-kick-drift.
   static std::array<double, 3> refuge() { return {1.0 / 6.0, 1.0 / 3.0, 0.0}; }

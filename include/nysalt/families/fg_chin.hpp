@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -24,6 +25,14 @@ struct fg_chin : composition<2> {
 
   /// Two equal steps of kick-drift-kick.
   static std::array<double, 2> refuge() { return {0.25, 0.0}; }
+
+  /// The parameters that a method of this word has.
+  template <class M>
+  static std::array<double, 2> of(const M& method) {
+    static_assert(std::is_same_v<typename M::word, word>);
+    const auto c = method.coefficients();
+    return {c[0], c[3]};
+  }
 
   template <Scalar C>
   static std::array<C, 6> coefficients(const std::array<C, 2>& theta) {

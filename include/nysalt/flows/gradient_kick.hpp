@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <array>
-
 #include "nysalt/energy.hpp"
 #include "nysalt/flow.hpp"
 
 namespace nysalt {
 
+/// Coefficients of a gradient kick with the step folded in.
+template <Scalar C>
+struct gradient_kick_coefficients {
+  C of_f{0.0};             ///< b h
+  C of_g{0.0};             ///< 2 c h^3
+  double reach_of_v{0.0};  ///< by how much of M^-1 f a black box goes to either side: a part of h^2
+};
+
 /// A kick with the force of b V - c h^2 |grad V|^2 in the metric of M^-1, its second coefficient beside it:
 ///   p += b h f + 2 c h^3 f'(q) M^-1 f,   f = -grad V or -grad V_soft.
 /// [V, [K, V]] depends on q alone, so that this is an exact flow too; where a quadratic K is meant
-/// [takahashi_imada_1984; chin_1997]. Two evaluations: f'(q) v counts as one.
+/// [takahashi_imada_1984; chin_1997]. Two evaluations: f'(q) v counts as one, of a black box as two. There it
+/// is a difference along h^2 M^-1 f, which is what f moves q by in a step: in any units of any coordinate,
+/// and by q alone, so that the kick is reversible and keeps volume whatever the differences err by.
 template <field Field>
 struct gradient_kick_of {
   static constexpr char letter = Field == field::soft ? 'H' : 'G';
@@ -27,18 +35,18 @@ struct gradient_kick_of {
                            : HasQuadraticKinetic<S>&& ForceDerivativeOver<S, T, Field>;
 
   template <Scalar C>
-  static std::array<C, 2> prepare(const C& b, const C& c, double h) {
-    return {b * h, c * (2.0 * h * h * h)};
+  static gradient_kick_coefficients<C> prepare(const C& b, const C& c, double h) {
+    return {b * h, c * (2.0 * h * h * h), detail::part_of_displacement * h * h};
   }
 
   template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const std::array<C, 2>& prepared, flow_state<T, S::dimension>& x,
-                    flow_room<T, S::dimension>& room) {
-    const auto& [of_f, of_g] = prepared;
+  static void apply(const S& system, const gradient_kick_coefficients<C>& prepared,
+                    flow_state<T, S::dimension>& x, flow_room<T, S::dimension>& room) {
+    const auto& [of_f, of_g, reach_of_v] = prepared;
     auto& v = room.x;
     auto& g = room.y;
     velocity<T>(system, x.f, v);
-    force_along<Field, T>(system, x.q, v, g, room);
+    force_along<Field, T>(system, x.q, v, g, room, reach_of_v);
     for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += x.f[i] * of_f + g[i] * of_g;
   }
 };

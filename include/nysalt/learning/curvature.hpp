@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -30,19 +31,47 @@ struct trajectory_scores {
   double blocks() const { return static_cast<double>(share.total()); }  ///< B, of all ranks
 };
 
+namespace detail {
+
+/// By how much Gauss-Newton's curvatures differ at two points, relative to their sum; infinite where one is
+/// not finite. Each is of one parameter, so that no unit matters.
+inline double relative_difference(const squares& a, const squares& b) {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < a.normal_matrix.rows(); ++k) {
+    const double sum = a.normal_matrix(k, k) + b.normal_matrix(k, k);
+    const double difference = std::abs(a.normal_matrix(k, k) - b.normal_matrix(k, k));
+    if (sum > 0.0) largest = std::max(largest, difference / sum);
+  }
+  return a.is_finite() && b.is_finite() ? largest : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace detail
+
 /// The full Hessian (not Gauss-Newton's: residuals do not vanish at the minimum) by central differences of
 /// the exact gradient. Its relative error is about 1e-8: some hundred s^2 of the step, and eps/s of the
-/// gradient. Cost: two passes with derivatives for each parameter, as much as one with exact second
-/// derivatives, which a black box has not.
+/// gradient. The step is 1e-5 of a parameter beyond 1 and else of 1; of one in other units, where
+/// Gauss-Newton's curvatures change by more than 1e-3 over it, it is shorter, until they do not. Cost: two
+/// passes with derivatives for each parameter, as much as one with exact second derivatives, which a black
+/// box has not; two more for each step that is too long.
 inline Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta) {
-  constexpr double s = 1e-5;  // parameters are of order one
+  constexpr double much = 1e-3;    // a step s is then 1e-3 of the length over which the loss changes its form
+  constexpr double wanted = 1e-4;  // as 1e-5 is of a coefficient, which is of order one
+  constexpr int most = 20;         // a step 1e-20 times as long is lost in theta
   Eigen::MatrixXd result(theta.size(), theta.size());
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    Eigen::VectorXd ahead = theta;
-    Eigen::VectorXd behind = theta;
-    ahead[k] += s;
-    behind[k] -= s;
-    result.col(k) = (loss(ahead).gradient() - loss(behind).gradient()) / (ahead[k] - behind[k]);
+    double s = 1e-5 * std::max(1.0, std::abs(theta[k]));
+    for (int n = 0; n < most; ++n) {
+      Eigen::VectorXd ahead = theta;
+      Eigen::VectorXd behind = theta;
+      ahead[k] += s;
+      behind[k] -= s;
+      const squares there = loss(ahead);
+      const squares back = loss(behind);
+      result.col(k) = (there.gradient() - back.gradient()) / (ahead[k] - behind[k]);
+      const double changes = detail::relative_difference(there, back);
+      if (changes <= much) break;
+      s *= std::max(0.01, wanted / changes);
+    }
   }
   return 0.5 * (result + result.transpose());
 }

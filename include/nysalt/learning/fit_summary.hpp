@@ -4,12 +4,26 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "nysalt/trial_run.hpp"
+
 namespace nysalt {
+
+/// What to do with a fit. nothing_gained: it may be used, but a classical method that costs as much is as
+/// good.
+enum class verdict { usable, nothing_gained, not_usable };
+
+/// usable, nothing gained or not usable, as programs and files write it.
+constexpr std::string_view to_string(verdict v) {
+  constexpr std::array<std::string_view, 3> names{"usable", "nothing gained", "not usable"};
+  return names[static_cast<std::size_t>(v)];
+}
 
 /// One entry of theta.
 struct fitted_parameter {
@@ -72,12 +86,42 @@ struct fit_summary {
   double reference_error = 0.0;    ///< of the reference itself, in the measure of one_step_error
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
+  trial_result trial{};  ///< of the parameters that are handed out, from held-out and further starts
+  double highest_frequency = 0.0;  ///< along the states that the guard looked at; 0: not known
+  /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
+  /// nothing is gained over it, it withstands a trial run. Empty if there is none.
+  std::string rival;
+  double rival_loss = 0.0;     ///< its held-out loss
+  double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss
+  bool gains_nothing = false;  ///< the rival's loss is not larger by two of these
+
   double data_seconds = 0.0;              ///< wall time that the data took
   double fit_seconds = 0.0;               ///< wall time that the fit took
   std::int64_t learning_evaluations = 0;  ///< force evaluations of data and fit
 
-  bool usable = false;  ///< whether the method may be used
+  bool usable = false;  ///< whether the method may be used: false if not_usable
   std::string reason;   ///< why it is not usable; else empty
+
+  /// The verdict of three.
+  nysalt::verdict verdict() const {
+    return !usable         ? nysalt::verdict::not_usable
+           : gains_nothing ? nysalt::verdict::nothing_gained
+                           : nysalt::verdict::usable;
+  }
+  /// The verdict in words, with the reason or with what to take instead.
+  std::string verdict_in_words() const {
+    switch (verdict()) {
+      case nysalt::verdict::usable:
+        return "usable";
+      case nysalt::verdict::nothing_gained:
+        return fmt::format("nothing gained over {}: take {}", rival, rival);
+      case nysalt::verdict::not_usable:
+        break;
+    }
+    return "NOT usable: " + reason;
+  }
+  /// Of the held-out losses of the rival and of this: how many times smaller this is.
+  double gain() const { return rival_loss / held_out_loss; }
 
   /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
   double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }
@@ -102,13 +146,13 @@ struct fit_summary {
     std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
     for (const auto& p : parameters) {
       text += fmt::format(" {} = {:.6f}", p.name, p.value);
-      text += p.free             ? fmt::format(" +- {:.1e}", p.standard_error)
-              : is_held_by_guard ? " (held)"
-                                 : " (fixed)";
+      text += p.free && !std::isfinite(p.standard_error) ? std::string(" (not determined)")
+              : p.free                                   ? fmt::format(" +- {:.1e}", p.standard_error)
+              : is_held_by_guard                         ? " (held)"
+                                                         : " (fixed)";
     }
-    text +=
-        fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
-                    held_out_is_new ? "" : " (the same data)", usable ? "usable" : "NOT usable: " + reason);
+    text += fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
+                        held_out_is_new ? "" : " (the same data)", verdict_in_words());
     return text;
   }
 
@@ -117,26 +161,43 @@ struct fit_summary {
     std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
     for (const auto& p : parameters) {
       text += fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
-                          p.free             ? fmt::format("  +- {:.2e}", p.standard_error)
+                          p.free && !std::isfinite(p.standard_error)
+                              ? std::string("  (not determined by the data)")
+                          : p.free           ? fmt::format("  +- {:.2e}", p.standard_error)
                           : is_held_by_guard ? "  (held by the guard)"
                                              : "  (not free)");
     }
     const auto line = [&](const char* what, const std::string& value) {
       text += fmt::format("  {:<22}{}\n", what, value);
     };
-    line("usable", usable ? "yes" : "no: " + reason);
+    line("usable", !usable         ? "no: " + reason
+                   : gains_nothing ? fmt::format("yes, but nothing is gained over {}: take {}", rival, rival)
+                                   : "yes");
     line("loss", is_of_data ? fmt::format("{:.6e} ({}) on {} pairs of {} trajectories", loss, loss_name,
                                           samples, trajectories)
                             : fmt::format("{:.6e} ({})", loss, loss_name));
     line("held-out loss",
          fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
                      held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
+    if (is_of_data && coordinates_used > 0) {
+      line("per coordinate",
+           fmt::format("{:.3g} root mean square on held-out data, {} to {:.3g} at the start",
+                       std::sqrt(held_out_loss / static_cast<double>(coordinates_used)),
+                       held_out_loss <= held_out_start_loss ? "compared" : "WORSE compared",
+                       std::sqrt(held_out_start_loss / static_cast<double>(coordinates_used))));
+    }
+    if (!rival.empty()) {
+      line("best classical",
+           fmt::format("{} of the same cost, held-out loss {:.6e} ({:.3g} times this, +- {:.2g})", rival,
+                       rival_loss, gain(), rival_noise / held_out_loss));
+    }
     if (is_of_data) line("uncertainty", uncertainty());
     line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
                                is_held_by_guard ? ", held by the guard"
                                : is_in_valley   ? ", in a valley of parameters that do as well"
                                                 : ""));
     line("stability", guard);
+    line("trial run", trial.report());
     if (!unguarded.empty()) line("without the guard", unguarded);
     for (const auto& [low, high] : gaps) {
       line("gap", fmt::format("unstable for z = {:.4g} to {:.4g}, which the system has not", low, high));

@@ -97,6 +97,29 @@ inline void require_name(const std::string& name) {
                   name));
 }
 
+/// Where a word has its letters O; nothing if it has none, or not as placement says.
+inline std::optional<placement> placement_in(const run_time_word& word) {
+  const std::string& letters = word.letters();
+  constexpr char o = ornstein_uhlenbeck::letter;
+  if (word.stochastic_letters == 2 && letters.front() == o && letters.back() == o)
+    return placement::symmetric;
+  if (word.stochastic_letters != 1) return std::nullopt;
+  return letters.back() == o ? placement::end : placement::middle;
+}
+
+/// The guard that knows the frequencies along both sets of data.
+template <SeparableSystem S>
+stability_guard guard_along(const S& system, const flow_map_data<S::dimension>& data,
+                            const flow_map_data<S::dimension>& held_out, bool rotations,
+                            const fit_options& options) {
+  auto [states, typical] = some_states(system, data);
+  const auto extreme = some_states(system, held_out).states;
+  states.insert(states.end(), extreme.begin(), extreme.end());
+  // Over ten thousand steps, as at first: what grows more slowly a trial run tells.
+  constexpr std::int64_t most_steps = 10'000;
+  return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
+}
+
 /// A loss other than those of loss_choice.
 template <SeparableSystem S, Scalar R>
 struct other_loss {
@@ -155,15 +178,57 @@ learning_problem make_problem(const run_time_family& family, const S& system,
       .one_step_loss = [one_step,
                         measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
       .loss_at_end = [at_end, measure](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
-      .judge = [its = other ? held : at_end,
+      .judge = [its = other || options.loss.of != loss_choice::kind::state ? held : at_end,
                 measure](const Eigen::VectorXd& theta) { return loss_value(*its, theta); },
       .evaluations =
           [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
             return of_data + ranks.total(loss->evaluations() + held->evaluations() + one_step->evaluations() +
                                          at_end->evaluations());
           },
-      .guard = stability_guard(system, some_states(data, size(system)), rotates(family.letters)),
+      .trial = {},
+      .rival = {},
+      .guard = guard_along(system, data, held_out, rotates(family.letters), options),
       .facts = {}};
+  auto starts = std::make_shared<std::vector<phase_point<double, S::dimension>>>(
+      starts_of_trial(system, data, held_out));
+  problem.trial_starts = std::ssize(*starts);
+  const auto run = [&system, starts, step = data.step, seed = held_out.seed, threads = options.threads](
+                       const run_time_word& letters, const std::vector<double>& coefficients,
+                       std::int64_t trajectories, std::int64_t steps) {
+    const std::vector<phase_point<double, S::dimension>> first(starts->begin(),
+                                                               starts->begin() + trajectories);
+    const tabulated method("trial", letters, coefficients, {1, false, false});
+    return trial_run(system, method, step, first, {.steps = steps, .seed = seed, .threads = threads});
+  };
+  problem.trial = [run, letters = family.letters](const std::vector<double>& coefficients,
+                                                  std::int64_t trajectories, std::int64_t steps) {
+    return run(letters, coefficients, trajectories, steps);
+  };
+  const auto place = placement_in(family.letters);
+  problem.rival = [&system, family, place, held, measure,
+                   run](const tabulated& method) -> std::optional<rival_method> {
+    if (method.requires_quadratic_kinetic && !NystromSystem<S>) return std::nullopt;
+    run_time_family alone(method.name(), method.letters(), method.coefficients());
+    if (family.letters.stochastic_letters > 0) {
+      if (!place || (*place == placement::middle && alone.letters.length % 2 == 0)) return std::nullopt;
+      alone = thermostatted(alone, *place);
+    }
+    try {
+      require_served<S, double>(alone.letters, system);
+      require_served<S, dual<R, directions_at_a_time>>(alone.letters, system);
+    } catch (const std::invalid_argument&) {
+      return std::nullopt;
+    }
+    const auto coefficients = alone.coefficients({});
+    const loss_type its_loss(*held, alone);
+    rival_method result;
+    result.name = method.name();
+    result.held_out_losses = trajectory_losses(its_loss, Eigen::VectorXd());
+    result.trial = [run, letters = alone.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
+      return run(letters, coefficients, trajectories, n);
+    };
+    return result;
+  };
   if (!has_data) {
     if constexpr (HasBath<S> && HasModes<S>) {
       problem.law.emplace(system, family.letters, data.step);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "nysalt/learning/compressed_cost.hpp"
@@ -97,8 +99,9 @@ inline void polish(const objective& loss, const std::function<bool(const Eigen::
 
 }  // namespace detail
 
-/// Minimises over the free parameters, from a start that is defined. Converged: another Newton step would
-/// lower the loss by less than 1e-6 of itself.
+/// Minimises over the free parameters. Converged: another Newton step would lower the loss by less than 1e-6
+/// of itself. From a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is
+/// infinite: Ceres would say so on the standard error stream.
 inline minimum minimise(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
                         const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free,
                         int max_iterations) {
@@ -109,9 +112,14 @@ inline minimum minimise(const objective& loss, const std::function<bool(const Ei
     found.converged = true;
     return found;
   }
+  auto cost = std::make_unique<compressed_cost>(loss, defined, static_cast<int>(start.size()));
+  if (!cost->is_usable_at(start)) {
+    found.loss = std::numeric_limits<double>::infinity();
+    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());
+    return found;
+  }
   ceres::Problem problem;
-  problem.AddResidualBlock(new compressed_cost(loss, defined, static_cast<int>(start.size())), nullptr,
-                           found.theta.data());
+  problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
   detail::descend(problem, free, max_iterations, found);
   detail::polish(loss, defined, free, found);
   return found;

@@ -14,7 +14,9 @@
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/trial_run.hpp"
 
 namespace nysalt {
 
@@ -26,11 +28,21 @@ struct fit_options {
   std::vector<named_parameters> further_starts{};  ///< beside them, such as the optimum at a smaller step
   int random_starts = 0;                           ///< beside all these, normal around the first
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
-  bool guarded = true;       ///< false: an unstable optimum is found, and said not to be usable
+  bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
+  /// How many steps a run with the method will take at most: so long is a trial run, and over so many, up to
+  /// 10,000, the guard looks at growth. A proposal of Hybrid Monte Carlo takes few.
+  std::int64_t planned_steps = 20'000;
   bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
   std::uint64_t seed = 1;    ///< of the random starts
   int max_iterations = 200;  ///< of the search from each start
   int threads = 1;           ///< changes no bit of what is learned
+};
+
+/// Another method at the step of the data.
+struct rival_method {
+  std::string name;                     ///< what it is called
+  std::vector<double> held_out_losses;  ///< what each held-out trajectory of this rank adds to the loss
+  std::function<trial_result(std::int64_t trajectories, std::int64_t steps)> trial;  ///< runs it
 };
 
 /// What learn() makes of system and data, and solve() of this. Refers to the system. Where ranks share the
@@ -49,11 +61,20 @@ struct learning_problem {
   std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;
   std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
   std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
-  /// What is least for the best of several minima: loss_at_end, or an own loss on the held-out data.
+  /// What is least for the best of several minima: loss_at_end where the loss is of the state, else the loss
+  /// itself on the held-out data.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
-  stability_guard guard;                      ///< knows the frequencies of the system
-  fit_summary facts;                          ///< what is known before a search
+  std::int64_t trial_starts = 0;              ///< how many there are
+  /// Runs the word with these coefficients from the first of these starts.
+  std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
+                             std::int64_t steps)>
+      trial;
+  /// What each held-out trajectory of this rank adds to the loss of another method, with the letters O of the
+  /// family's word; nothing if the system does not serve its letters.
+  std::function<std::optional<rival_method>(const tabulated&)> rival;
+  stability_guard guard;  ///< knows the frequencies of the system
+  fit_summary facts;      ///< what is known before a search
 };
 
 }  // namespace nysalt

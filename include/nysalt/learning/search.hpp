@@ -28,18 +28,21 @@ struct candidate {
   int iterations = 0;                                       ///< of all descents from this start
   bool converged = false;                                   ///< see `minimum`
   bool in_valley = false;  ///< of almost equal losses, where the search was given up
-  bool admitted = true;    ///< whether the guard lets it
+  bool admitted = true;    ///< whether the guard lets it, and it withstands a trial run
   bool is_held = false;    ///< whether the guard held it, at the edge of what it admits
 };
 
 /// What a search is told.
 struct search_task {
-  const run_time_family* family;                        ///< its ranges and where it is defined
-  objective loss;                                       ///< what is minimised
-  std::function<double(const Eigen::VectorXd&)> judge;  ///< what is least for the best
-  std::function<bool(const Eigen::VectorXd&)> admits;   ///< the guard
-  std::vector<Eigen::Index> free;                       ///< numbers of the parameters that may change
-  int max_iterations;                                   ///< of each descent
+  const run_time_family* family;                             ///< its ranges and where it is defined
+  objective loss;                                            ///< what is minimised
+  std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
+  std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
+  std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
+  /// The guard where the search goes on among admitted points only; empty: the same.
+  std::function<bool(const Eigen::VectorXd&)> admits_at_edge{};
+  std::vector<Eigen::Index> free;            ///< numbers of the parameters that may change
+  int max_iterations;                        ///< of each descent
   std::optional<named_parameters> refuge{};  ///< the member that is stable farthest, for where the guard acts
 };
 
@@ -87,14 +90,31 @@ inline candidate descend(const search_task& task, const std::function<bool(const
   return found;
 }
 
-/// The one that the judge likes best, among those that may be used; the first of equals.
-inline const candidate* best_of(const std::vector<candidate>& all, auto may_be_used) {
-  const candidate* best = nullptr;
-  for (const auto& one : all) {
-    if (!may_be_used(one) || !std::isfinite(one.judged)) continue;
-    if (best == nullptr || one.judged < best->judged) best = &one;
+/// Those that the judge can judge, from the one that it likes best on; of equals the first comes first.
+inline std::vector<candidate> by_judgement(std::vector<candidate> all) {
+  std::erase_if(all, [](const candidate& one) { return !std::isfinite(one.judged); });
+  std::ranges::stable_sort(all, {}, &candidate::judged);
+  return all;
+}
+
+/// The first that is admitted and withstands a trial run; nothing if none of the first few different ones
+/// does.
+inline std::optional<candidate> first_to_withstand(const search_task& task,
+                                                   const std::vector<candidate>& in_order) {
+  constexpr int most_trials = 4;
+  constexpr double same = 1e-6;  // of coefficients of order one
+  std::vector<Eigen::VectorXd> failed;
+  for (const candidate& one : in_order) {
+    if (!one.admitted) continue;
+    if (!task.withstands) return one;
+    const bool has_failed = std::ranges::any_of(
+        failed, [&](const Eigen::VectorXd& theta) { return (theta - one.theta).norm() <= same; });
+    if (has_failed) continue;
+    if (task.withstands(one.theta)) return one;
+    failed.push_back(one.theta);
+    if (std::ssize(failed) == most_trials) break;
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace detail
@@ -102,35 +122,36 @@ inline const candidate* best_of(const std::vector<candidate>& all, auto may_be_u
 /// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
   candidate best;                      ///< what is to be used
-  std::optional<candidate> unguarded;  ///< the best of all, if the guard refused it
+  std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it
   int tried = 0;                       ///< number of searches
 };
 
-/// From each start to its minimum; the judge takes the best that the guard admits, of those that converged or
-/// ended in a valley. Where it admits none, the search goes on among admitted points only, from the starts
-/// that are and from the refuge: what it finds lies at the edge mostly. A single start is what it was,
-/// whatever the judge thinks. Cost: a search for each start, twice where the guard acts.
+/// From each start to its minimum; the judge takes the best that the guard admits and that withstands a trial
+/// run, of those that converged or ended in a valley. Where there is none, the search goes on among admitted
+/// points only, from the starts that are and from the refuge: what it finds lies at the edge mostly. A single
+/// start is what it was, whatever the judge thinks. Cost: a search for each start, twice where the guard
+/// acts, and a trial run for each of a few candidates.
 inline search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(detail::descend(task, is_defined, start));
   search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(all.size())};
 
-  const auto sound = [](const candidate& c) { return c.converged || c.in_valley; };
-  const auto sound_and_admitted = [&](const candidate& c) { return sound(c) && c.admitted; };
-  const candidate* of_all = detail::best_of(all, sound);
-  const candidate* of_admitted = detail::best_of(all, sound_and_admitted);
-  if (of_all != nullptr) result.best = *of_all;
-  if (of_all != nullptr && !of_all->admitted) result.unguarded = *of_all;
-  if (of_admitted != nullptr) {
-    result.best = *of_admitted;
+  std::erase_if(all, [](const candidate& c) { return !c.converged && !c.in_valley; });
+  const auto sound = detail::by_judgement(std::move(all));
+  if (sound.empty()) return result;
+  result.best = sound.front();
+  if (const auto found = detail::first_to_withstand(task, sound)) {
+    if (found->theta != sound.front().theta) result.unguarded = sound.front();
+    result.best = *found;
     return result;
   }
-  if (!result.unguarded) return result;
+  result.unguarded = sound.front();
 
   std::vector<candidate> held;
   const auto is_allowed = [&](const Eigen::VectorXd& theta) {
-    return is_defined(theta) && task.family->is_in_range(theta) && task.admits(theta);
+    const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
+    return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
   };
   std::vector<named_parameters> refuges = starts;
   if (task.refuge) refuges.push_back(*task.refuge);
@@ -144,8 +165,9 @@ inline search_result search(const search_task& task, const std::vector<named_par
     held.push_back(one);
     ++result.tried;
   }
-  const candidate* best = detail::best_of(held, [](const candidate&) { return true; });
-  if (best != nullptr) result.best = *best;
+  held = detail::by_judgement(std::move(held));
+  if (held.empty()) return result;
+  result.best = detail::first_to_withstand(task, held).value_or(held.front());
   return result;
 }
 

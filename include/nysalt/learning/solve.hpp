@@ -8,14 +8,19 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
+#include "nysalt/methods/classical_methods.hpp"
 
 namespace nysalt {
 
@@ -58,6 +63,10 @@ inline void require_same(const communicator& ranks, const Eigen::VectorXd& theta
 }
 
 inline void require_sound(const run_time_family& family, const fit_options& options) {
+  if (options.planned_steps < 1) {
+    throw std::invalid_argument(
+        fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));
+  }
   if (options.max_iterations < 0 || options.random_starts < 0) {
     throw std::invalid_argument(
         fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
@@ -82,6 +91,75 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
   require_in_range(family, first);
 }
 
+/// The member of the family whose step is exact on an oscillator of the highest frequency that is met often;
+/// nothing if there is none.
+inline std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
+  double highest = 0.0;
+  for (const auto& band : problem.guard.frequencies(met::often)) {
+    // Of a band from zero the end; of a narrow one the middle, where the modes are.
+    highest = std::max(highest, band.low > 0.0 ? std::midpoint(band.low, band.high) : band.high);
+  }
+  const double z = problem.step * highest;
+  if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
+  return phase_fitted_start(problem.family, z);
+}
+
+/// How many trajectories of how many steps a trial takes.
+struct trial_length {
+  std::int64_t trajectories = 0;
+  std::int64_t steps = 0;
+  std::string not_run{};  // why there is none
+};
+
+/// As long as runs are planned, from up to 256 starts, but no more force evaluations than the budget; fewer
+/// trajectories before fewer steps.
+inline trial_length length_of_trial(const learning_problem& problem, std::int64_t budget) {
+  constexpr std::int64_t most = 256;
+  constexpr std::int64_t few = 64;
+  constexpr std::int64_t fewest = 8;
+  constexpr std::int64_t long_enough = 1000;
+  constexpr std::int64_t shortest = 100;
+  trial_length result{std::min(most, problem.trial_starts), problem.options.planned_steps};
+  const std::int64_t steps_in_all = budget / std::max(1, problem.family.letters.evaluations_per_step);
+  const auto fewer_trajectories = [&](std::int64_t least) {
+    result.trajectories = std::min(result.trajectories, std::max(least, steps_in_all / result.steps));
+  };
+  fewer_trajectories(few);
+  result.steps = std::clamp(steps_in_all / std::max<std::int64_t>(1, result.trajectories),
+                            std::min(long_enough, result.steps), result.steps);
+  fewer_trajectories(fewest);
+  result.steps = std::min(result.steps, steps_in_all / std::max<std::int64_t>(1, result.trajectories));
+  if (result.trajectories < 1 || result.steps < std::min(shortest, problem.options.planned_steps)) {
+    result.not_run =
+        fmt::format("learning took {} force evaluations, fewer than {} trajectories of {} steps would take",
+                    budget, std::max<std::int64_t>(1, result.trajectories), shortest);
+  }
+  return result;
+}
+
+/// Whether a trial run tells what rare frequencies do to a method: it is long enough to meet states many
+/// times over that are one in a thousand.
+inline bool tells_of_rare_states(const trial_result& trial) {
+  constexpr std::int64_t many_steps = 100'000;
+  return trial.passed() && trial.trajectories * trial.steps >= many_steps;
+}
+
+/// A method that is compared by its held-out losses.
+struct contender {
+  std::string name;
+  std::vector<double> losses;  // of each held-out trajectory of this rank
+  double loss = 0.0;           // of all
+  std::function<bool()> withstands{};
+  Eigen::VectorXd theta{};  // of members of the family
+};
+
+/// Whether the loss of a is smaller than that of b by two standard errors of their difference, and by more
+/// than rounding: losses below 1e-24 are errors of 1e-12 of an increment.
+inline bool is_better(const contender& a, const contender& b, const shard& share) {
+  const double noise = noise_of_difference(a.losses, b.losses, share);
+  return b.loss > 1e-24 && a.loss < b.loss - 2.0 * noise && a.loss < b.loss * (1.0 - 1e-9);
+}
+
 }  // namespace detail
 
 /// Searches from all starts, and judges the best. Throws std::invalid_argument for options that the family
@@ -90,25 +168,63 @@ fit solve(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;
+  const shard& share = problem.held_out;
   detail::require_sound(family, options);
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  const auto starts = detail::starts_of(family, options, free);
+  auto starts = detail::starts_of(family, options, free);
+  const auto fitted = detail::phase_fitted_member(problem);
+  if (fitted && !options.start) {
+    starts.push_back(*fitted);
+    detail::fix(options, starts.back().theta);
+  }
   const bool has_data = !problem.law;
-  const auto objection_of_guard = [&](const Eigen::VectorXd& theta) {
-    return problem.guard.objection(problem.family.letters, problem.family.coefficients(theta), problem.step);
+  const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
+    return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
+  };
+  // Half of what the data and the descents took at most, and the same for all that are tried.
+  std::optional<detail::trial_length> length;
+  const auto run_for_trial = [&](const auto& run) {
+    if (!length) length = detail::length_of_trial(problem, problem.evaluations() / 2);
+    if (length->not_run.empty()) return trial_result(run(length->trajectories, length->steps));
+    trial_result result;
+    result.not_run = length->not_run;
+    return result;
+  };
+  std::vector<std::pair<Eigen::VectorXd, trial_result>> tried;
+  const auto trial_of = [&](const Eigen::VectorXd& theta) {
+    const auto known = std::ranges::find_if(tried, [&](const auto& one) { return one.first == theta; });
+    if (known != tried.end()) return known->second;
+    const auto coefficients = family.coefficients(theta);
+    tried.emplace_back(theta, run_for_trial([&](std::int64_t trajectories, std::int64_t steps) {
+                         return problem.trial(coefficients, trajectories, steps);
+                       }));
+    return tried.back().second;
+  };
+  // Where no trial can tell, the guard has the last word on all frequencies that were met.
+  const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
+    if (const std::string failed = trial.objection(); !failed.empty()) return failed;
+    return objection_of_guard(theta, detail::tells_of_rare_states(trial) ? met::often : met::ever);
+  };
+  const auto withstands = [&](const Eigen::VectorXd& theta) {
+    return instability_of(theta, trial_of(theta)).empty();
   };
   search_task task{.family = &problem.family,
                    .loss = has_data ? problem.loss : objective_of(*problem.law, problem.family),
                    .judge = problem.judge,
                    .admits =
                        [&](const Eigen::VectorXd& theta) {
-                         return !problem.options.guarded || objection_of_guard(theta).empty();
+                         return !options.guarded || objection_of_guard(theta, met::often).empty();
+                       },
+                   .admits_at_edge =
+                       [&](const Eigen::VectorXd& theta) {
+                         return !options.guarded || objection_of_guard(theta, met::ever).empty();
                        },
                    .free = free,
                    .max_iterations = options.max_iterations};
+  if (options.guarded) task.withstands = withstands;
   if (family.refuge) {
     task.refuge = named_parameters{"refuge", *family.refuge};
     detail::fix(options, task.refuge->theta);
@@ -116,18 +232,54 @@ fit solve(const learning_problem& problem) {
   if (!has_data) {  // it is its own judge
     task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
   }
-  const search_result found = search(task, starts);
-  detail::require_same(problem.held_out.ranks(), found.best.theta);
+  search_result found = search(task, starts);
+
+  const auto member_at = [&](const std::string& name, const Eigen::VectorXd& theta) {
+    detail::contender result{name, problem.held_out_losses(theta)};
+    result.loss = share.sum(result.losses);
+    result.theta = theta;
+    result.withstands = [&, theta] { return task.admits(theta) && withstands(theta); };
+    return result;
+  };
+  detail::contender chosen = member_at(found.best.from, found.best.theta);
+
+  // What is handed out is not worse than a member of the family that was known before.
+  std::vector<detail::contender> members;
+  const bool is_free = std::ssize(free) == family.parameters();
+  if (is_free && has_data) {
+    for (const auto& known : family.starts) {
+      if (known.name != "further start") members.push_back(member_at(known.name, known.theta));
+    }
+    if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
+    if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
+    std::ranges::stable_sort(members, {}, &detail::contender::loss);
+  }
+  const bool has_settled = found.best.converged || found.best.in_valley || found.best.is_held;
+  const bool is_chosen_sound = !options.guarded || chosen.withstands();
+  for (const auto& member : members) {
+    if (!options.guarded || !has_settled) break;
+    const bool may_replace = detail::is_better(member, chosen, share) || !is_chosen_sound;
+    if (!may_replace || !member.withstands()) continue;
+    if (!found.unguarded) found.unguarded = found.best;
+    found.best = {.from = member.name,
+                  .theta = member.theta,
+                  .hessian = {},
+                  .free = free,
+                  .loss = task.loss(member.theta).value,
+                  .is_held = true};
+    chosen = member;
+    break;
+  }
+  detail::require_same(share.ranks(), found.best.theta);
   const candidate& best = found.best;
   const Eigen::VectorXd& theta = best.theta;
 
   fit_summary summary = problem.facts;
   const auto at_start = problem.held_out_losses(starts.front().theta);
-  const auto at_end = problem.held_out_losses(theta);
   summary.loss = best.loss;
-  summary.held_out_loss = problem.held_out.sum(at_end);
-  summary.held_out_start_loss = problem.held_out.sum(at_start);
-  summary.held_out_noise = detail::noise_of_difference(at_end, at_start, problem.held_out);
+  summary.held_out_loss = chosen.loss;
+  summary.held_out_start_loss = share.sum(at_start);
+  summary.held_out_noise = detail::noise_of_difference(chosen.losses, at_start, share);
   summary.one_step_error = std::sqrt(problem.one_step_loss(theta));
   summary.trajectory_error = std::sqrt(problem.loss_at_end(theta));
   summary.starts_tried = found.tried;
@@ -135,7 +287,12 @@ fit solve(const learning_problem& problem) {
   summary.iterations = best.iterations;
   summary.is_in_valley = best.in_valley;
   summary.is_held_by_guard = best.is_held;
-  if (found.unguarded) summary.unguarded = objection_of_guard(found.unguarded->theta);
+  summary.highest_frequency = problem.guard.highest_along();
+  if (found.unguarded) {
+    summary.unguarded = objection_of_guard(found.unguarded->theta, met::often);
+    if (summary.unguarded.empty()) summary.unguarded = trial_of(found.unguarded->theta).objection();
+    if (summary.unguarded.empty()) summary.unguarded = objection_of_guard(found.unguarded->theta, met::ever);
+  }
 
   Eigen::VectorXd errors = Eigen::VectorXd::Zero(theta.size());
   if (best.is_held && has_data) summary.expected_excess = std::numeric_limits<double>::quiet_NaN();
@@ -153,19 +310,49 @@ fit solve(const learning_problem& problem) {
     }
   }
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const bool is_free = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
+    const bool varies = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
     summary.parameters.push_back(
-        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], is_free ? errors[k] : 0.0, is_free});
+        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], varies ? errors[k] : 0.0, varies});
   }
   for (const Eigen::Index k : free) {
     const bool is_held_there = std::find(best.free.begin(), best.free.end(), k) == best.free.end();
     if (is_held_there && std::abs(theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
   }
-  const std::string instability = objection_of_guard(theta);
+  summary.trial = trial_of(theta);
+  const std::string instability = instability_of(theta, summary.trial);
   if (instability.empty()) {
     for (const auto& [low, high] :
          problem.guard.gaps(family.letters, family.coefficients(theta), problem.step)) {
       summary.gaps.push_back({low, high});
+    }
+  }
+
+  // The strongest rival of the same cost, whether the family contains it or not.
+  if (has_data) {
+    std::vector<detail::contender> rivals = std::move(members);
+    std::vector<std::optional<rival_method>> methods;
+    for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
+      // Rotations are not counted, and are not free: words with them are compared with each other.
+      if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
+      methods.push_back(problem.rival(method));
+      const auto& known = methods.back();
+      if (!known) continue;
+      detail::contender one{known->name, known->held_out_losses};
+      one.loss = share.sum(one.losses);
+      one.withstands = [&run_for_trial, trial = known->trial] { return run_for_trial(trial).passed(); };
+      rivals.push_back(std::move(one));
+    }
+    std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });
+    std::ranges::stable_sort(rivals, {}, &detail::contender::loss);
+    for (const auto& rival : rivals) {
+      if (rival.name == "start") continue;
+      const bool is_beaten = detail::is_better(chosen, rival, share);
+      if (!is_beaten && !rival.withstands()) continue;
+      summary.rival = rival.name;
+      summary.rival_loss = rival.loss;
+      summary.rival_noise = detail::noise_of_difference(chosen.losses, rival.losses, share);
+      summary.gains_nothing = !is_beaten;
+      break;
     }
   }
   summary.reason = detail::objection(summary, best.converged || best.in_valley || best.is_held, instability);

@@ -2,10 +2,15 @@
 // A few states of data, wherever they are.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <random>
+#include <utility>
 #include <vector>
 
+#include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/flow_map_data.hpp"
 
 namespace nysalt {
@@ -32,14 +37,100 @@ std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eige
   return result;
 }
 
-/// The starts of some hundred pairs, evenly spread: at all ranks.
+namespace detail {
+
+/// Numbers, among those of all ranks, of the pairs at whose starts the force changes most along itself and
+/// along a direction of chance: where the highest frequency may be.
+template <SeparableSystem S>
+std::vector<std::size_t> stiffest_pairs(const S& system, const flow_map_data<S::dimension>& data,
+                                        std::size_t most) {
+  std::vector<double> scored;  // a score and a number, of one pair after the other
+  if constexpr (ForceDerivativeOver<S, double, field::whole>) {
+    const auto motion = starts_of(data, size(system), spread_pairs(data.all_pairs(), most));
+    force_jacobian<field::whole, S> jacobian(system, motion);
+    auto v = make_vector<double>(system);
+    std::mt19937_64 bits{1};
+    auto chance = v;
+    for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+    chance /= chance.norm();
+    std::vector<std::pair<double, std::size_t>> scores;
+    for (std::size_t pair = 0; pair < data.pairs(); ++pair) {
+      const auto& q = data.start[pair].q;
+      force<double>(system, q, v);
+      const double length = v.norm();
+      if (length > 0.0) v /= length;
+      v += chance;
+      jacobian.move_to(q);
+      const double score = jacobian.times(v).norm();
+      if (std::isfinite(score)) scores.emplace_back(-score, data.first_pair() + pair);  // the largest first
+    }
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(most, scores.size()));
+    std::partial_sort(scores.begin(), scores.begin() + kept, scores.end());
+    for (std::ptrdiff_t k = 0; k < kept; ++k) {
+      scored.push_back(scores[static_cast<std::size_t>(k)].first);
+      scored.push_back(static_cast<double>(scores[static_cast<std::size_t>(k)].second));
+    }
+    scored = one_after_the_other(data.share().ranks(), scored);
+  }
+  std::vector<std::pair<double, std::size_t>> all;
+  for (std::size_t k = 0; k + 1 < scored.size(); k += 2) {
+    all.emplace_back(scored[k], static_cast<std::size_t>(scored[k + 1]));
+  }
+  std::ranges::sort(all);
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < std::min(most, all.size()); ++k) result.push_back(all[k].second);
+  return result;
+}
+
+}  // namespace detail
+
+/// States of data, at all ranks.
 template <int N>
-std::vector<phase_point<double, N>> some_states(const flow_map_data<N>& data, Eigen::Index dimension) {
-  constexpr std::size_t most = 128;
+struct states_of_data {
+  std::vector<phase_point<double, N>> states;  ///< typical ones, then such as are likely to be extreme
+  std::size_t typical;                         ///< number of the former
+};
+
+/// Starts of some hundred pairs, spread over all; then of 32 more where the force changes most, and the
+/// further starts. Cost: two evaluations a pair.
+template <SeparableSystem S>
+states_of_data<S::dimension> some_states(const S& system, const flow_map_data<S::dimension>& data) {
+  constexpr std::size_t spread = 128;
+  constexpr std::size_t stiffest = 32;
+  auto result = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), spread));
+  const std::size_t typical = result.size();
+  auto pairs = detail::stiffest_pairs(system, data, stiffest);
+  std::ranges::sort(pairs);
+  const auto add = [&](const auto& more) { result.insert(result.end(), more.begin(), more.end()); };
+  add(starts_of(data, size(system), pairs));
+  add(data.further_starts);
+  return {std::move(result), typical};
+}
+
+/// Where trial runs begin: up to 64 states of held-out data and the further starts of both sets; energetic
+/// ones, which are the last of the further starts, in turn with the others as long as there are some.
+template <SeparableSystem S>
+std::vector<phase_point<double, S::dimension>> starts_of_trial(const S& system,
+                                                               const flow_map_data<S::dimension>& data,
+                                                               const flow_map_data<S::dimension>& held_out) {
+  constexpr std::size_t most = 64;
+  const auto trajectories = static_cast<std::size_t>(held_out.share().total());
   std::vector<std::size_t> pairs;
-  const std::size_t all = data.all_pairs();
-  for (std::size_t n = 0; n < all; n += all / most + 1) pairs.push_back(n);
-  return starts_of(data, dimension, pairs);
+  for (const std::size_t m : detail::spread_pairs(trajectories, most)) {
+    // The first pair of a trajectory, where all are of one length; else a state of the same motion.
+    pairs.push_back(m * (held_out.all_pairs() / trajectories));
+  }
+  auto plain = starts_of(held_out, size(system), pairs);
+  decltype(plain) energetic;
+  for (const auto* of : {&held_out.further_starts, &data.further_starts}) {
+    for (std::size_t k = 0; k < of->size(); ++k) (k < plain_starts ? plain : energetic).push_back((*of)[k]);
+  }
+  decltype(plain) result;
+  for (std::size_t k = 0; k < std::max(plain.size(), energetic.size()); ++k) {
+    if (k < energetic.size()) result.push_back(energetic[k]);
+    if (k < plain.size()) result.push_back(plain[k]);
+  }
+  return result;
 }
 
 }  // namespace nysalt

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -78,8 +79,22 @@ class after_steps {
                       options.steps));
     }
     weight_ = 1.0 / static_cast<double>(stretches);
-    parts_ = gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data));
+    parts_ = std::make_shared<const parts>(
+        gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data)));
   }
+
+  /// The loss of another family over the same stretches, which both share. The other word must have its
+  /// letters O where this one has.
+  after_steps(const after_steps& same, const run_time_family& family)
+      : family_(family),
+        system_(same.system_),
+        error_(same.error_),
+        step_(same.step_),
+        weight_(same.weight_),
+        options_(same.options_),
+        share_(same.share_),
+        starts_(same.starts_),
+        parts_(same.parts_) {}
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
@@ -100,7 +115,7 @@ class after_steps {
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
     const auto visit = [&](std::int64_t index) {
-      const auto& part = parts_[static_cast<std::size_t>(index)];
+      const auto& part = (*parts_)[static_cast<std::size_t>(index)];
       if (part.entries.empty()) return;  // trajectories that are too short
       const counted<S> watched(*system_);
       std::vector<stepper_type> steppers;
@@ -134,7 +149,7 @@ class after_steps {
       const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
-    const auto pass = [&] { for_each_trajectory(std::ssize(parts_), options_.threads, visit); };
+    const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
     if (error_.may_throw) {
       together(share_.ranks(), pass);
     } else {
@@ -145,6 +160,7 @@ class after_steps {
 
  private:
   using stepper_type = stepper<counted<S>, run_time_word, C, noise_of_entries<R, N>>;
+  using parts = std::vector<stretches_in_lanes<R, N>>;
 
   static flow_state<C, N> make_state(const counted<S>& system) {
     return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
@@ -155,7 +171,7 @@ class after_steps {
     const auto c = family_.coefficients(theta);
     const Eigen::MatrixXd slopes = family_.jacobian(theta);
     std::vector<std::vector<C>> result;
-    for (Eigen::Index first = 0; first < parameters(); first += directions_at_a_time) {
+    for (Eigen::Index first = 0; first == 0 || first < parameters(); first += directions_at_a_time) {
       result.emplace_back(c.begin(), c.end());
       if (!with_slopes) return result;
       for (std::size_t i = 0; i < c.size(); ++i) {
@@ -216,7 +232,7 @@ class after_steps {
   after_steps_options options_;
   shard share_;
   stretch_starts starts_;
-  std::vector<stretches_in_lanes<R, N>> parts_;
+  std::shared_ptr<const parts> parts_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;
 };
 

@@ -25,4 +25,14 @@ struct bcss3 : palindromic<kick, drift, 7> {
   }
 };
 
+/// B A B A B A B A B, the same up to z = 4: order 2, four evaluations [blanes_casas_sanz_serna_2014, equation
+/// (6.8)].
+struct bcss4 : palindromic<kick, drift, 9> {
+  static constexpr int order = 2;
+  static std::string name() { return "bcss4"; }
+  static constexpr std::array<double, 9> coefficients() {
+    return palindrome<9>({0.071353913450279725904, 0.191667800000000000000, 0.268548791161230105820});
+  }
+};
+
 }  // namespace nysalt

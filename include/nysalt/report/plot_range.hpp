@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "nysalt/report/figure.hpp"
+#include "nysalt/report/plot_ticks.hpp"
 
 namespace nysalt::detail {
 
@@ -52,6 +55,23 @@ inline log_range range_of_logarithms(const panel& its) {
   const auto [low, high] = std::minmax_element(shown.begin(), shown.end());
   const double margin = std::max(std::log10(2.0), 0.05 * (*high - *low));  // a level's name has room
   return {std::pow(10.0, *low - margin), std::pow(10.0, *high + margin), outside};
+}
+
+/// Of x on a logarithmic axis, with a margin; empty where there is no positive point.
+inline log_range range_of_costs(const panel& its) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const auto& curve : its.curves) {
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i]) || !(curve.x[i] > 0.0)) continue;
+      low = std::min(low, curve.x[i]);
+      high = std::max(high, curve.x[i]);
+    }
+  }
+  if (!(high > 0.0)) return {};
+  const axis_range wide = at_least_threefold({low, high});
+  const double margin = std::pow(wide.high / wide.low, 0.05);  // a twentieth of the axis
+  return {wide.low / margin, wide.high * margin};
 }
 
 }  // namespace nysalt::detail

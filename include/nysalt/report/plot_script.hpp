@@ -98,8 +98,13 @@ inline std::string axes(const panel& its) {
   text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
   if (its.log_log) text += log_y ? "set logscale xy\n" : "set logscale x\n";
   // Whole decades would leave much of a logarithmic axis empty.
-  text += its.log_log ? "set autoscale xfix\nset offsets graph 0.05, graph 0.05, 0, 0\n"
-                      : "set autoscale x\nset offsets 0, 0, 0, 0\n";
+  const log_range costs = its.log_log ? range_of_costs(its) : log_range();
+  if (costs.is_empty()) {
+    text += "set autoscale x\nset xtics autofreq\n";
+  } else {
+    text += fmt::format("set xrange [{:.6g}:{:.6g}]\n{}", costs.low, costs.high,
+                        ticks_command('x', {costs.low, costs.high}));
+  }
   text += has_key_beside(its) ? "set key outside right top vertical Left reverse samplen 4\n"
                               : "set key outside top center horizontal Right noreverse samplen 4\n";
   text += "unset label\nunset arrow\n" + stretches(its);
@@ -114,8 +119,10 @@ inline std::string axes(const panel& its) {
                     quoted(level.label), at_right ? 0.99 : 0.01, level.y, at_right ? "right" : "left");
     at_right = !at_right;
   }
+  text += "set ytics autofreq\n";
   if (!log_y || its.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", its.y_range);
   const log_range range = range_of_logarithms(its);
+  if (!range.is_empty()) text += ticks_command('y', {range.low, range.high});
   if (range.outside > 0) {
     text += fmt::format(
         "set label '{} beyond the frame' at graph 0.01, graph 0.03 left tc '#555555' font ',10'\n",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -73,6 +74,30 @@ class fpu_chain {
     }
   }
 
+  /// By how much that changes where u changes by w, 12 u^2 w.
+  template <class T>
+  static T slope_of_pull(const T& u, const T& w) {
+    return u * u * (w * 12.0);
+  }
+
+  /// g = f'(q) v
+  template <class T>
+  void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
+                        vector<T, dimension>& g) const {
+    const double k = 0.5 * omega_ * omega_;
+    const auto stretch = [&](const vector<T, dimension>& x, Eigen::Index i) {
+      return i + 1 < pairs() ? T(x[2 * i + 2] - x[2 * i + 1]) : T(-x[2 * i + 1]);
+    };
+    T left = slope_of_pull(q[0], v[0]);
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      const T stiff = (v[2 * i + 1] - v[2 * i]) * k;
+      const T right = slope_of_pull(stretch(q, i), stretch(v, i));
+      g[2 * i] = stiff - left;
+      g[2 * i + 1] = right - stiff;
+      left = right;
+    }
+  }
+
   /// The force of the soft bonds alone.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
@@ -137,6 +162,10 @@ class fpu_chain {
   std::vector<frequency_band> frequency_bands(double soft_energy = 2.0) const {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
+  }
+  /// In a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  std::vector<frequency_band> frequency_bands_at(double temperature) const {
+    return frequency_bands(std::max(2.0, 12.5 * temperature));
   }
   std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
 

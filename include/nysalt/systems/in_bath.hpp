@@ -4,6 +4,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "nysalt/bath.hpp"
 #include "nysalt/sentence.hpp"
@@ -21,6 +22,16 @@ class in_bath : public S {
 
   const nysalt::bath& bath() const { return bath_; }
   const S& alone() const { return *this; }  ///< without the bath
+
+  /// Those of the system, at the temperature of the bath if the system tells frequency_bands_at(temperature).
+  std::vector<frequency_band> frequency_bands() const
+    requires HasFrequencyBands<S>
+  {
+    if constexpr (requires { alone().frequency_bands_at(1.0); }) {
+      if (bath_.acts() && bath_.has_temperature()) return alone().frequency_bands_at(bath_.temperature());
+    }
+    return alone().frequency_bands();
+  }
 
   /// The system, and the bath that it is in; one that does not act goes without saying.
   std::string description() const {

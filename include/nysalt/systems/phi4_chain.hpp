@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -79,10 +80,17 @@ class phi4_chain {
     return result;
   }
 
+  /// Energy of a mass that starts at five deviations of q, 0.5, and of p, 1: p^2/2 + q^4/4.
+  static constexpr double usual_well_energy = 0.5 * 5.0 * 5.0 + 0.25 * 2.5 * 2.5 * 2.5 * 2.5;
+
   /// While each well holds an energy up to `well_energy`: its stiffness is 3 q^2 = 6 sqrt(energy) then, and
   /// that of the springs at most 4.
-  std::vector<frequency_band> frequency_bands(double well_energy = 2.0) const {
+  std::vector<frequency_band> frequency_bands(double well_energy = usual_well_energy) const {
     return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
+  }
+  /// In a bath: a well holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  std::vector<frequency_band> frequency_bands_at(double temperature) const {
+    return frequency_bands(std::max(usual_well_energy, 12.5 * temperature));
   }
   std::string description() const { return sentence("phi4_chain(masses={})", size()); }
 

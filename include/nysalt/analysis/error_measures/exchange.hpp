@@ -23,8 +23,8 @@ template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 
 /// How wrongly the stiff springs exchange their energies I_j, relative to their sum I: the mean over
-/// trajectories and times of sum_j |I_j - I_j^ref| / I^ref. The system is copied. There is no such error
-/// where I^ref is 0.
+/// trajectories and times of sum_j |I_j - I_j^ref|, over that of I^ref. The system is copied. There is no
+/// such error where I^ref is 0 on all trajectories at all times.
 template <HasStiffEnergies S>
 error_measure<S::dimension, lanes_of<S>> exchange_measure(const S& system) {
   using T = scalar_of_lanes<lanes_of<S>>;
@@ -39,26 +39,26 @@ error_measure<S::dimension, lanes_of<S>> exchange_measure(const S& system) {
       }
     }
   };
-  const auto scale = [](numbers expected) {
+  const auto whole = [](numbers expected) {
     T total(0.0);
     for (const T& energy : expected) total += energy;
     return total;
   };
-  const auto error = [scale](numbers seen, numbers expected) {
+  const auto error = [](numbers seen, numbers expected) {
     using std::abs;
     T differences(0.0);
     for (std::size_t j = 0; j < expected.size(); ++j) differences += abs(seen[j] - expected[j]);
-    return differences / scale(expected);
+    return differences;
   };
-  return {"exchange",
-          static_cast<std::size_t>(system.pairs()),
-          read,
-          error,
-          averaging::mean,
-          true,
-          scale,
-          "the exchange error is relative to the stiff energy on the reference, which is 0 somewhere; take "
-          "starts at which the stiff springs move, or measure states"};
+  return {.name = "exchange",
+          .width = static_cast<std::size_t>(system.pairs()),
+          .read = read,
+          .error = error,
+          .how = averaging::mean,
+          .no_scale =
+              "the exchange error is relative to the stiff energy on the reference, which is 0; take "
+              "starts at which the stiff springs move, or measure states",
+          .relative_to = whole};
 }
 
 }  // namespace nysalt

@@ -16,10 +16,11 @@ concept IsObservable = requires(const F& f, const phase_point<T, N>& x) {
   { f(x) } -> std::convertible_to<T>;
 };
 
-/// The paper's average relative error of an observable o [li_lu_tao_ye_2023, equations (5.6-7)]: the mean
-/// over trajectories of sqrt(mean over times of ((o - o_ref)/o_ref)^2). The observable is copied, and called
-/// as observable(x) for one trajectory after the other, or for all lanes at a time if it is marked by
-/// over_lanes. There is no such error where o_ref is 0.
+/// The error of an observable o along the path: the mean over trajectories of sqrt(mean over times of
+/// (o - o_ref)^2), over the root mean square of o_ref over trajectories and times, which is the same for all:
+/// o may pass through 0. The observable is copied, and called as observable(x) for one trajectory after the
+/// other, or for all lanes at a time if it is marked by over_lanes. There is no such error where o_ref is 0
+/// on all trajectories at all times.
 // clang-format off
 template <System S, class Observable>
   requires(IsObservable<Observable, double, S::dimension> ||
@@ -33,18 +34,18 @@ error_measure<S::dimension, lanes_of<S>> path_measure(const S&, Observable obser
   };
   const auto error = [](numbers seen, numbers expected) {
     const T difference = seen[0] - expected[0];
-    return difference * difference / (expected[0] * expected[0]);
+    return difference * difference;
   };
-  const auto scale = [](numbers expected) { return expected[0]; };
-  return {"path",
-          1,
-          read,
-          error,
-          averaging::root_of_each,
-          true,
-          scale,
-          "the path error is relative to the observable on the reference, which is 0 somewhere; take another "
-          "observable, or measure states"};
+  const auto square = [](numbers expected) { return expected[0] * expected[0]; };
+  return {.name = "path",
+          .width = 1,
+          .read = read,
+          .error = error,
+          .how = averaging::root_of_each,
+          .no_scale =
+              "the path error is relative to the observable on the reference, which is 0; take another "
+              "observable, or measure states",
+          .relative_to = square};
 }
 
 }  // namespace nysalt

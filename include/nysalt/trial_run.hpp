@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSL-1.0
+// A method run for long from many starts: what no linear criterion sees.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/bath.hpp"
+#include "nysalt/divergence.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+
+namespace nysalt {
+
+/// How long a trial lasts.
+struct trial_options {
+  std::int64_t steps = 20'000;  ///< of each trajectory
+  std::uint64_t seed = 1;       ///< of the noise, in a bath
+  int threads = 1;              ///< changes no bit
+};
+
+/// Result of a trial run: whether a trajectory diverged, and how far the energies went.
+struct trial_result {
+  std::int64_t trajectories = 0;            ///< that were run; fewer than the starts after a divergence
+  std::int64_t steps = 0;                   ///< of each
+  std::int64_t diverged = 0;                ///< number of trajectories that diverged
+  std::optional<diverged_trajectory> lost;  ///< the one of the lowest number that diverged
+  bool energy_was_watched = false;          ///< false: in a bath, or H is not known
+  double first_deviation = 0.0;    ///< largest |H - H_0| of all trajectories in the first stretch, steps/10
+  double deviation = 0.0;          ///< the same over all steps
+  double rounding = 0.0;           ///< bound of what rounding adds to |H - H_0|
+  diverged_trajectory farthest{};  ///< where `deviation` was met
+  std::string not_run{};           ///< why no trial was run; else empty
+
+  /// Ten times as many samples of a stationary deviation with a finite variance, or a random walk ten times
+  /// as long, have a maximum larger by sqrt(10); a larger one means that the energy drifts.
+  static constexpr double stretches = 10.0;
+
+  /// Of fewer steps the first stretch may be shorter than a period of slow motion, some hundred steps.
+  static constexpr std::int64_t fewest_steps_for_drift = 5'000;
+
+  /// Whether the energy went farther than the first stretch explains.
+  bool energy_wanders() const {
+    return energy_was_watched && steps >= fewest_steps_for_drift &&
+           deviation > std::sqrt(stretches) * first_deviation + rounding;
+  }
+  bool passed() const { return not_run.empty() && !lost && !energy_wanders(); }
+
+  /// One sentence on why it failed; empty if it passed or was not run.
+  std::string objection() const {
+    if (lost) {
+      return fmt::format(
+          "in a trial run of {} steps, {} of {} trajectories diverge, trajectory {} at step {}", steps,
+          diverged, trajectories, lost->trajectory, lost->step);
+    }
+    if (energy_wanders()) {
+      return fmt::format(
+          "in a trial run of {} steps the energy of trajectory {} departs by {:.2g} at step {}, which is "
+          "{:.2g} times the largest deviation of all trajectories in the first {} steps",
+          steps, farthest.trajectory, deviation, farthest.step, deviation / first_deviation,
+          static_cast<std::int64_t>(static_cast<double>(steps) / stretches));
+    }
+    return {};
+  }
+
+  /// What was tried and what came of it, in one line.
+  std::string report() const {
+    if (!not_run.empty()) return "not run: " + not_run;
+    const std::string length = fmt::format("{} trajectories of {} steps", trajectories, steps);
+    if (lost) return fmt::format("{}: {} diverged, the first at step {}", length, diverged, lost->step);
+    if (!energy_was_watched) return length + ": none diverged";
+    return fmt::format("{}: none diverged, |H - H_0| up to {:.2e}, up to {:.2e} in the first tenth{}", length,
+                       deviation, first_deviation, energy_wanders() ? ": the energy drifts" : "");
+  }
+};
+
+/// Runs a method from each start, in lanes and on threads, and looks at H every few steps; in a bath with its
+/// noise, and without looking at H. Trajectories are run in blocks; after a block in which one diverged it
+/// stops. Neither lanes nor threads change a bit. Throws std::invalid_argument if the method does not suit
+/// the system, there are no starts or steps, or a start is not finite. Cost: starts * steps steps.
+template <SeparableSystem S>
+trial_result trial_run(const S& system, const tabulated& method, double step,
+                       const std::vector<phase_point<double, S::dimension>>& starts,
+                       const trial_options& options = {}) {
+  using T = scalar_of_lanes<lanes_of<S>>;
+  constexpr std::int64_t block = 64;
+  // Every seventh step: no low-order resonance has this period.
+  constexpr std::int64_t every = 7;
+  trial_result result;
+  result.steps = options.steps;
+  if constexpr (HasEnergy<S>) result.energy_was_watched = true;
+  if constexpr (HasBath<S>) result.energy_was_watched &= !system.bath().acts();
+
+  const listed<S::dimension> all(starts);
+  const auto first_stretch = static_cast<double>(options.steps) / trial_result::stretches;
+  struct deviations {
+    double initial = 0.0;
+    double first = 0.0;
+    double largest = 0.0;
+    double magnitude = 0.0;
+    std::int64_t at = 0;
+  };
+  std::vector<deviations> of_trajectory(starts.size());
+  const auto read = [&](const phase_point<T, S::dimension>& x, std::span<T> numbers) {
+    if constexpr (HasEnergy<S>) {
+      if (result.energy_was_watched) numbers[0] = energy_in_lanes<T>(system, x);
+    }
+  };
+  const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
+    if (!result.energy_was_watched) return;
+    auto& known = of_trajectory[static_cast<std::size_t>(m)];
+    if (n == 0) known.initial = numbers[0];
+    const double departure = std::abs(numbers[0] - known.initial);
+    known.magnitude = std::max(known.magnitude, std::abs(numbers[0]));
+    if (static_cast<double>(n) <= first_stretch) known.first = std::max(known.first, departure);
+    if (departure <= known.largest) return;
+    known.largest = departure;
+    known.at = n;
+  };
+  const auto run = [&](const auto& stepper) {
+    for (std::int64_t first = 0; first < std::ssize(starts) && !result.lost; first += block) {
+      const std::int64_t count = std::min(block, std::ssize(starts) - first);
+      const auto diverged_at =
+          integrate_ensemble<T>(stepper, all,
+                                {.trajectories = count,
+                                 .steps = options.steps,
+                                 .every = result.energy_was_watched ? every : options.steps,
+                                 .seed = options.seed,
+                                 .threads = options.threads,
+                                 .first = first},
+                                1, read, take);
+      result.trajectories += count;
+      for (std::size_t k = 0; k < diverged_at.size(); ++k) {
+        if (!diverged_at[k]) continue;
+        ++result.diverged;
+        const std::int64_t number = first + static_cast<std::int64_t>(k);
+        if (!result.lost) result.lost = diverged_trajectory{number, *diverged_at[k]};
+      }
+    }
+  };
+  if constexpr (HasBath<S>) {
+    run(make_stepper(system, method, step, counter_noise(options.seed)));
+  } else {
+    run(make_stepper(system, method, step));
+  }
+
+  double magnitude = 0.0;
+  for (std::size_t m = 0; m < of_trajectory.size(); ++m) {
+    const auto& known = of_trajectory[m];
+    magnitude = std::max(magnitude, known.magnitude);
+    result.first_deviation = std::max(result.first_deviation, known.first);
+    if (known.largest <= result.deviation) continue;
+    result.deviation = known.largest;
+    result.farthest = {static_cast<std::int64_t>(m), known.at};
+  }
+  // Each letter rounds H once at most, in one direction at worst.
+  result.rounding = static_cast<double>(options.steps) * static_cast<double>(method.letters().length) *
+                    std::numeric_limits<double>::epsilon() * magnitude;
+  return result;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+// Errors have an expectation: more trajectories say the same, or the tail is told.
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/pendulum.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+const pendulum swing;
+const normal_around<1> swings({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
+const henon_heiles galaxy;
+const normal_around<2> stars({vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)}, 0.1, 0.1);
+
+/// Errors of Verlet at 10^2, 10^3, ... trajectories, of other starts each.
+template <System S>
+std::vector<method_error> at_numbers(const S& system, const Ensemble<S> auto& law,
+                                     const error_measure<S::dimension, lanes_of<S>>& measure) {
+  std::vector<method_error> result;
+  std::uint64_t seed = 10;
+  for (const std::int64_t count : {100, 1'000, 10'000, 40'000}) {
+    const trajectory_options options{.step = 0.2, .steps = 20, .trajectories = count, .seed = ++seed};
+    result.push_back(
+        trajectory_errors(system, fine_steps<>(0.05), law, verlet(), measure, options).methods[0]);
+  }
+  return result;
+}
+
+/// Of each pair, the difference in standard errors of both; the largest.
+double farthest(const std::vector<method_error>& all) {
+  double worst = 0.0;
+  for (const auto& a : all) {
+    for (const auto& b : all) {
+      if (&a == &b) continue;
+      const double apart = std::abs(a.error.mean - b.error.mean);
+      worst = std::max(worst, apart / std::hypot(a.error.standard_error, b.error.standard_error));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+// Beyond 3.5 of one pair in six with a probability of 0.003.
+BOOST_AUTO_TEST_CASE(errors_do_not_grow_with_the_number_of_trajectories) {
+  const auto q = [](const auto& x) { return x.q[0]; };
+  BOOST_TEST(farthest(at_numbers(swing, swings, energy_measure(swing))) < 3.5);
+  BOOST_TEST(farthest(at_numbers(swing, swings, path_measure(swing, q))) < 3.5);
+  BOOST_TEST(farthest(at_numbers(galaxy, stars, path_measure(galaxy, q))) < 3.5);
+  BOOST_TEST(farthest(at_numbers(galaxy, stars, energy_measure(galaxy))) < 3.5);
+  BOOST_TEST(farthest(at_numbers(galaxy, stars, state_measure(galaxy))) < 3.5);
+}
+
+// The energy of the pendulum at the start passes through 0: relative to each by itself, the mean square does
+// not exist. Each of these errors is larger than the one before, and all of them have a tail.
+BOOST_AUTO_TEST_CASE(an_error_relative_to_what_passes_through_zero_has_none) {
+  using measure_type = error_measure<1, lanes_of<pendulum>>;
+  using numbers = measure_type::numbers;
+  measure_type measure = energy_measure(swing);
+  measure.relative_to = {};
+  measure.error = [](numbers seen, numbers at_start) {
+    const auto relative = (seen[0] - at_start[0]) / at_start[0];
+    return relative * relative;
+  };
+  const auto all = at_numbers(swing, swings, measure);
+  for (const auto& its : all) BOOST_TEST(its.spread.largest.is_heavy());
+  BOOST_TEST(all.back().error.mean > 3.0 * all.front().error.mean);
+  // As a scale it would be refused: -1 + p^2/2 + ... is of both signs.
+  measure.scale = [](numbers at_start) { return at_start[0]; };
+  measure.no_scale = "of both signs";
+  BOOST_CHECK_THROW(at_numbers(swing, swings, measure), std::invalid_argument);
+}
+
+// The median of each size is within three standard errors of the others, whatever the tail.
+BOOST_AUTO_TEST_CASE(medians_need_no_moment) {
+  const auto all = at_numbers(swing, swings, state_measure(swing));
+  for (const auto& a : all) {
+    BOOST_TEST(a.spread.quantiles[2] == a.spread.median.mean);
+    BOOST_TEST(a.spread.quantiles[0] < a.spread.quantiles[2]);
+    BOOST_TEST(a.spread.quantiles[2] < a.spread.quantiles[4]);
+    const auto& b = all.back().spread.median;
+    const double both = std::hypot(a.spread.median.standard_error, b.standard_error);
+    BOOST_TEST(std::abs(a.spread.median.mean - b.mean) <= 3.5 * both);
+  }
+}

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSL-1.0
+// Derivatives of a black box are as good in one unit as in another, and so is the check of its force.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include "../support/black_box_in_units.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/flows/gradient_kick.hpp"
+#include "nysalt/methods/chin.hpp"
+#include "nysalt/stepper.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <int N>
+struct both {
+  boxed_wells<N> boxed;
+  open_wells<N> open;
+  std::vector<phase_point<double, N>> states;
+
+  explicit both(const units& its) {
+    boxed.its = its;
+    open.its = its;
+    const starts_in_units<N> starts(boxed);
+    for (std::uint64_t n = 0; n < 12; ++n) states.push_back(starts(1, n));
+  }
+  std::vector<vector<double, N>> points() const {
+    std::vector<vector<double, N>> result;
+    for (const auto& x : states) result.push_back(x.q);
+    return result;
+  }
+  /// The largest difference, each coordinate times `times` of it, relative to the largest entry.
+  double relative(const vector<double, N>& found, const vector<double, N>& exact, const auto& times) const {
+    double worst = 0.0;
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < N; ++i) {
+      worst = std::max(worst, std::abs(found[i] - exact[i]) * times(i));
+      size = std::max(size, std::abs(exact[i]) * times(i));
+    }
+    return worst / size;
+  }
+};
+
+/// f'(q) v by differences over the absolute length 6e-6 max(1, |q|), as a twin that must fail.
+template <int N>
+vector<double, N> by_absolute_step(const boxed_wells<N>& system, const vector<double, N>& q,
+                                   const vector<double, N>& v) {
+  const double s = std::cbrt(eps) * std::max(1.0, q.cwiseAbs().maxCoeff()) / v.cwiseAbs().maxCoeff();
+  vector<double, N> ahead;
+  vector<double, N> behind;
+  system.force(vector<double, N>(q + s * v), ahead);
+  system.force(vector<double, N>(q - s * v), behind);
+  return (ahead - behind) / (2.0 * s);
+}
+
+template <int N>
+void check_derivatives(const units& its) {
+  const both<N> wells(its);
+  const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
+  lifted_room<double, N> room(N);
+  for (std::size_t n = 0; n < wells.states.size(); ++n) {
+    const auto& x = wells.states[n];
+    vector<double, N> v;
+    for (Eigen::Index i = 0; i < N; ++i) v[i] = 0.3 * x.p[i] * wells.boxed.inverse_mass(i) * its.time;
+    vector<double, N> found;
+    vector<double, N> exact;
+    force_along<field::whole, double>(wells.boxed, x.q, v, found, room);
+    force_along<field::whole, double>(wells.open, x.q, v, exact, room);
+    BOOST_TEST(wells.relative(found, exact, length) < 1e-7);
+    if (its.length * its.mixed == 1e-6 && its.length == 1e-6 && its.offset == 0.0) {
+      BOOST_TEST(wells.relative(by_absolute_step(wells.boxed, x.q, v), exact, length) > 1e-2);
+    }
+    using D = dual<double, 1>;
+    vector<D, N> q;
+    vector<D, N> f;
+    for (Eigen::Index i = 0; i < N; ++i) q[i] = D::variable(x.q[i], 0) * 1.0;
+    for (const double times : {1.0, 1e-6, 1e8}) {  // displacements that do not fit are found out
+      for (Eigen::Index i = 0; i < N; ++i) q[i].derivative[0] = times * v[i];
+      force<D>(wells.boxed, q, f);
+      for (Eigen::Index i = 0; i < N; ++i) found[i] = f[i].derivative[0] / times;
+      BOOST_TEST_CONTEXT(times << " times, start " << n) {
+        BOOST_TEST(wells.relative(found, exact, length) < 1e-5);
+        BOOST_TEST((times != 1.0 || wells.relative(found, exact, length) < 1e-7));
+      }
+    }
+  }
+}
+
+template <int N>
+void check_kicks(const units& its) {
+  const both<N> wells(its);
+  const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
+  for (const double h : {0.1, 0.3, 0.5}) {  // wells that are bound to others have frequencies up to some 4
+    for (const auto& x : wells.states) {
+      auto found = x;
+      auto exact = x;
+      const auto kick = [&](const auto& system, auto& y) {
+        using S = std::decay_t<decltype(system)>;
+        stepper<S, word<gradient_kick>>(system, {0.0, 1.0}, h * its.time).step(y);
+      };
+      kick(wells.boxed, found);
+      kick(wells.open, exact);
+      const vector<double, N> kicked = exact.p - x.p;
+      const auto size = [&](const vector<double, N>& p) {
+        double largest = 0.0;
+        for (Eigen::Index i = 0; i < N; ++i) largest = std::max(largest, std::abs(p[i]) * length(i));
+        return largest;
+      };
+      // eps of p, of what the kick adds; and eps of q, of the displacement along which the difference goes.
+      vector<double, N> f;
+      wells.open.force(x.q, f);
+      const double reached = detail::part_of_displacement * h * h * size(f) / wells.open.energy();
+      const double rounding =
+          4.0 * eps * size(x.p) / size(kicked) + 4.0 * eps * (1.0 + std::abs(its.offset)) / reached;
+      BOOST_TEST_CONTEXT("h = " << h) {
+        BOOST_TEST(wells.relative(vector<double, N>(found.p - x.p), kicked, length) < 1e-7 + rounding);
+      }
+    }
+  }
+}
+
+template <int N>
+void check_checks(const units& its) {
+  const both<N> wells(its);
+  const auto points = wells.points();
+  const auto right = check_force(wells.boxed, points);
+  BOOST_TEST(right.passed(), right.report());
+  for (const double factor : {-1.0, 0.0, 1.001, 0.999}) {
+    auto wrong = wells.boxed;
+    wrong.first_factor = factor;
+    BOOST_TEST(!check_force(wrong, points).passed(), "first coordinate times " << factor);
+  }
+  for (const double factor : {0.0, 1.01}) {
+    auto wrong = wells.boxed;
+    wrong.bond_factor = factor;
+    BOOST_TEST((N == 1 || !check_force(wrong, points).passed()), "bonds times " << factor);
+  }
+  const auto boxed = stiffness_along(wells.boxed, wells.states);
+  const auto open = stiffness_along(wells.open, wells.states);
+  BOOST_TEST(std::abs(boxed.highest / open.highest - 1.0) < 1e-6);
+  BOOST_TEST(open.highest_frequency() * its.time > 0.5);
+}
+
+template <int N>
+void check_all(const units& its) {
+  BOOST_TEST_CONTEXT(N << " wells, length " << its.length << ", mixed " << its.mixed << ", time " << its.time
+                       << ", offset " << its.offset) {
+    check_derivatives<N>(its);
+    check_kicks<N>(its);
+    check_checks<N>(its);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(all_units_are_alike) {
+  for (const units& its : some_units()) {
+    check_all<1>(its);
+    check_all<2>(its);
+    check_all<7>(its);
+  }
+}
+
+// Differences of a part of h^2 M^-1 f depend on q alone: a step of Chin's method is as reversible as with
+// exact derivatives.
+BOOST_AUTO_TEST_CASE(gradient_kicks_of_a_black_box_are_reversible) {
+  for (const units& its : some_units()) {
+    const both<2> wells(its);
+    for (const auto& x : wells.states) {
+      auto y = x;
+      const auto stepper = make_stepper(wells.boxed, chin4a(), 0.3 * its.time);
+      stepper.step(y);
+      y.p = -y.p;
+      stepper.step(y);
+      for (Eigen::Index i = 0; i < 2; ++i) {  // some hundred operations, of q as large as it is
+        const double size = wells.boxed.length(i) * (2.0 + std::abs(its.offset));
+        BOOST_TEST(std::abs(y.q[i] - x.q[i]) < 1e3 * eps * size);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(one_point_is_looked_at_as_far_as_it_is_from_the_origin) {
+  for (const double length : {1e-10, 1e-4, 1.0, 1e10}) {
+    const both<2> wells({.length = length});
+    for (const auto& q : wells.points()) {
+      BOOST_TEST(check_force(wells.boxed, {q}).passed());
+      auto wrong = wells.boxed;
+      wrong.first_factor = 1.01;
+      BOOST_TEST(!check_force(wrong, {q}).passed());
+    }
+  }
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+// A trial run finds what linear criteria do not: trajectories that diverge, and energies that drift.
+#include "nysalt/trial_run.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
+#include "support/refusal.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+template <int N>
+std::vector<phase_point<double, N>> starts_of(const auto& law, std::uint64_t count) {
+  std::vector<phase_point<double, N>> result;
+  for (std::uint64_t n = 0; n < count; ++n) result.push_back(law(7, n));
+  return result;
+}
+
+const phi4_chain<> chain(16);
+const auto chain_starts = [] {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(16);
+  return starts_of<Eigen::Dynamic>(normal_around<Eigen::Dynamic>({rest, rest}, 0.5, 1.0), 32);
+}();
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_step_far_below_the_limit_passes_and_one_above_it_loses_trajectories) {
+  const auto sound = trial_run(chain, tabulated(mclachlan2{}), 0.2, chain_starts, {.steps = 5000});
+  BOOST_TEST_CONTEXT(sound.report()) {
+    BOOST_TEST(sound.passed());
+    BOOST_TEST(sound.objection().empty());
+    BOOST_TEST(sound.trajectories == 32);
+    BOOST_TEST(sound.steps == 5000);
+    BOOST_TEST(sound.energy_was_watched);
+    BOOST_TEST(sound.deviation >= sound.first_deviation);
+  }
+  // z = 2.4 at the frequency that a mass has at rest among others: linearly stable, limit 2.553.
+  const auto lost = trial_run(chain, tabulated(mclachlan2{}), 0.65, chain_starts, {.steps = 5000});
+  BOOST_TEST_CONTEXT(lost.report()) {
+    BOOST_TEST(!lost.passed());
+    BOOST_REQUIRE(lost.lost.has_value());
+    BOOST_TEST(lost.diverged > 5);
+    BOOST_TEST(lost.lost->step < 5000);
+    BOOST_TEST(lost.objection().find("diverge") != std::string::npos);
+  }
+}
+
+// The standard map: beyond h = sqrt(.9716) no invariant circle is left [greene_1979].
+BOOST_AUTO_TEST_CASE(an_energy_that_diffuses_is_found_where_nothing_diverges) {
+  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.5, 1.5);
+  const auto starts = starts_of<1>(law, 64);
+  const auto below = trial_run(pendulum{}, tabulated(verlet{}), 0.7, starts, {.steps = 20'000});
+  const auto beyond = trial_run(pendulum{}, tabulated(verlet{}), 1.3, starts, {.steps = 20'000});
+  BOOST_TEST(below.passed(), below.report());
+  BOOST_TEST(!beyond.passed(), beyond.report());
+}
+
+// Where a method is exact there is rounding alone, which grows with the steps and is no drift.
+BOOST_AUTO_TEST_CASE(rounding_is_no_drift) {
+  const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0));
+  const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  const std::vector<phase_point<double, Eigen::Dynamic>> starts{{number(1.0), number(0.3)}};
+  const tabulated rotation("rotation", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
+  const auto exact = trial_run(one, rotation, 0.7, starts, {.steps = 20'000});
+  BOOST_TEST(exact.passed(), exact.report());
+  BOOST_TEST(exact.deviation < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(threads_change_nothing) {
+  const auto one = trial_run(chain, tabulated(mclachlan2{}), 0.4, chain_starts, {.steps = 700});
+  const auto two = trial_run(chain, tabulated(mclachlan2{}), 0.4, chain_starts, {.steps = 700, .threads = 2});
+  BOOST_TEST(one.deviation == two.deviation);
+  BOOST_TEST(one.first_deviation == two.first_deviation);
+  BOOST_TEST(one.farthest.trajectory == two.farthest.trajectory);
+}
+
+BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
+  const in_bath warm(harmonic_oscillator(1.0), bath::of_temperature(0.1, 1.0));
+  const std::vector<phase_point<double, 1>> starts{{vector<double, 1>(1.0), vector<double, 1>(0.0)}};
+  const tabulated baoab("baoab", run_time_word("BAOAB"), {0.5, 0.5, 1.0, 0.5, 0.5}, {2, true, false});
+  const auto sound = trial_run(warm, baoab, 0.5, starts, {.steps = 5000});
+  BOOST_TEST(sound.passed(), sound.report());
+  BOOST_TEST(!sound.energy_was_watched);
+  BOOST_TEST(!trial_run(warm, baoab, 2.2, starts, {.steps = 5000}).passed());
+}
+
+BOOST_AUTO_TEST_CASE(no_steps_are_refused) {
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [] { trial_run(chain, tabulated(verlet{}), 0.1, chain_starts, {.steps = -1}); }, {"-1"}));
+}
