@@ -51,12 +51,18 @@ void refuse_empty_texts(CLI::App& command) {
     refuse("option '{}' before a command: name the command first, one of {}", extras.front(),
            listed(command_names(app)));
   }
-  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
-  const std::string& first = option == extras.end() ? extras.front() : *option;
   const CLI::App& command = *asked.front();
-  const std::string name = first.substr(0, first.find('='));
-  refuse("unknown {} '{}': {}", is_option(first) ? "option" : "argument", first,
-         did_you_mean(name, option_names(command), help_of(command)));
+  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  if (option == extras.end()) {
+    refuse("unknown argument '{}': {} has options only; {}", extras.front(), command.get_name(),
+           help_of(command));
+  }
+  const auto known = option_names(command);
+  const std::string name = option->substr(0, option->find('='));
+  if (std::ranges::count(known, name) > 0) {
+    refuse("option '{}' must stand behind the command: nysalt {} {}", name, command.get_name(), name);
+  }
+  refuse("unknown option '{}': {}", *option, did_you_mean(name, known, help_of(command)));
 }
 
 /// The help or the version, if that is asked for; else all options are read. Throws refusal.

@@ -105,8 +105,10 @@ std::optional<std::string> known_as(const std::string& family, const std::vector
   for (const auto& classical : classical_methods()) known.push_back(classical.method);
   known.insert(known.end(), further.begin(), further.end());
   for (const auto& [name, at] : its.starts) {
-    if (name == "start" || name == "further start") continue;
-    known.push_back(member(fmt::format("{} in {}", name, family), at));
+    if (name == "further start") continue;
+    const bool is_own = name == "start";
+    known.push_back(
+        member(fmt::format("{} {} {}", is_own ? "the start" : name, is_own ? "of" : "in", family), at));
   }
   if (its.refuge) known.push_back(member("the refuge of " + family, *its.refuge));
   const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));

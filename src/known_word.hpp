@@ -17,8 +17,9 @@ namespace nysalt::program {
 /// part. Coefficients are the same if they differ by less than 1e-6: that changes an error by as little.
 std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known);
 
-/// The same among the classical methods, and the refuge and the classical members of a family: "the refuge of
-/// r_aba2", "pefrl in r_aba4". theta is of that family.
+/// The same among the classical methods, and the members of a family that are written down: the classical
+/// ones, the refuge, and the start of its searches, "pefrl in r_aba4" or "the start of r_aba2". theta is of
+/// that family.
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further = {});
 

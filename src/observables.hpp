@@ -62,8 +62,11 @@ std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system
       return [&system, j](const state& x) { return system.stiff_energy(x, j - 1); };
     }
   }
+  const auto known = observable_names(system);
+  // Of a numbered one the number may be wrong: "q1..q6" says which there are.
+  const bool is_numbered = !name.empty() && name.back() >= '0' && name.back() <= '9';
   refuse("unknown observable '{}' of {}: {}", name, describe(system),
-         did_you_mean(name, observable_names(system)));
+         is_numbered ? "it is one of " + listed(known) : did_you_mean(name, known));
 }
 
 }  // namespace nysalt::program

@@ -36,7 +36,7 @@ struct ratio_estimate {
 };
 
 /// The error of a over that of b; score i of both is of the same trajectory. The interval is that of the
-/// percentile bootstrap over trajectories [efron_tibshirani_1993, section 13.3], so that what both share of
+/// percentile bootstrap over trajectories [efron_tibshirani_1993, chapter 13], so that what both share of
 /// chance cancels; below eight trajectories there is none. Equal scores give equal bits.
 ratio_estimate paired_ratio(std::span<const double> a, std::span<const double> b,
                             const error_statistic& statistic);

@@ -158,6 +158,11 @@ std::string recommendation::objection_to(const candidate& its) const {
   } else if (const auto warning = stability_warning(name, *its.method, *system_, its.step,
                                                     seed_for(role::test, common_.seed))) {
     found->second = *warning;
+  } else {
+    constexpr std::int64_t steps = 10'000;  // more than most race for: a winner is taken for longer runs
+    found->second = failed_trial(name, *its.method, *system_, its.step, steps,
+                                 seed_for(role::test, common_.seed), common_.threads)
+                        .value_or("");
   }
   return found->second;
 }
@@ -370,11 +375,9 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   for (std::size_t k = 0; k < group.size(); ++k) {
     candidate& its = *group[k];
     const method_error& its_error = found.methods[k];
-    // What each trajectory has in a root is linear in its score, whose mean is the root's square.
-    const double root = its_error.error.mean;
-    std::vector<double> scores = its_error.of_each;
+    std::vector<double> scores = its_error.own;
     if (is_root) {
-      for (double& x : scores) x = std::max(0.0, root * (2.0 * x - root));
+      for (double& x : scores) x *= x;
     }
     its.evaluations_per_time = its_error.evaluations_per_time;
     if (found.reference_error) its.reference_error = found.reference_error->mean;

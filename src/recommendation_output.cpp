@@ -19,15 +19,15 @@ const candidate* taken(const contest& among) {
 }
 
 std::string in_words(const ratio_estimate& ratio) {
+  if (std::isinf(ratio.value)) return "zero, and so smaller";
   const std::string value = fmt::format("{:.3g} times smaller", ratio.value);
   if (std::isnan(ratio.low)) return value;
   return fmt::format("{} (95 %: {:.3g} to {:.3g})", value, ratio.low, ratio.high);
 }
 
-/// "at 1.3 times its seconds"
-std::string at_cost(double ratio, double noise, const char* what) {
-  if (std::abs(std::log(ratio)) <= noise)
-    return fmt::format("the same {} within {:.2g} %", what, 100.0 * noise);
+/// "1.3 times the seconds"
+std::string multiple_of(double ratio, double tolerance, const char* what, const std::string& same) {
+  if (std::abs(std::log(ratio)) <= tolerance) return same;
   return fmt::format("{:.2g} times the {}", ratio, what);
 }
 
@@ -38,12 +38,15 @@ std::string recommendation::as_options(const candidate& its) const {
   return fmt::format("--method {} --step {:.12g}{}", its.source.typed, its.step, where);
 }
 
-/// What one costs beside the other.
+/// What one costs beside the other: "as many evaluations and 1.3 times the seconds".
 std::string recommendation::costs(const candidate& its, const candidate& other) const {
-  constexpr double start_up = 0.01;  // a run of n steps may cost one evaluation more
-  return fmt::format("{} and {}",
-                     at_cost(its.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations"),
-                     at_cost(its.seconds_per_time / other.seconds_per_time, noise_of(its, other), "seconds"));
+  constexpr double start_up = 0.05;  // a start costs one evaluation, of twenty at least
+  const double noise = noise_of(its, other);
+  return multiple_of(its.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations",
+                     "as many evaluations") +
+         " and " +
+         multiple_of(its.seconds_per_time / other.seconds_per_time, noise, "seconds",
+                     fmt::format("the same seconds within {:.2g} %", 100.0 * noise));
 }
 
 /// Of errors below the one asked for.
@@ -114,7 +117,8 @@ std::string recommendation::advice_on_seconds() const {
   }
   const ratio_estimate ratio = by_seconds_->error_ratio(*first, *fast);
   if (!ratio.is_above_one()) {
-    return fmt::format(" In the same seconds {} does no better than chance tells.", fast->source.typed);
+    return fmt::format(" In the same seconds the best, {}, is not better by more than chance.",
+                       fast->source.typed);
   }
   return fmt::format(
       " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "

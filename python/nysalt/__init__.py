@@ -4,7 +4,7 @@
     import nysalt
 
     chain = nysalt.system("fpu", omega=50)
-    scheme = nysalt.learn(chain, step=0.02)
+    scheme = nysalt.learn(chain, "nystrom", step=0.02)
     run = nysalt.run(chain, scheme, step=0.02, horizon=100, trajectories=8)
     run["stiff_energy"]          # trajectories x samples
 
@@ -220,7 +220,7 @@ def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
     return [f"{name}={float(value)!r}" for name, value in fix.items()]
 
 
-def learn(system: System, family: str = "nystrom", *, step: Optional[float] = None,
+def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
           steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
           horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
           coordinates: Optional[str] = None, placement: Optional[str] = None,

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
 }
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
-  const auto fit = document("learn --step 0.02 --trajectories 4");
+  const auto fit = document("learn --family nystrom --step 0.02 --trajectories 4");
   BOOST_TEST(
       shape(fit) ==
       of_a_fit +
@@ -122,12 +122,13 @@ BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
   BOOST_TEST(fit["seconds"].get<double>() ==
              fit["data_seconds"].get<double>() + fit["fit_seconds"].get<double>());
   const scratch folder("contract_output");
-  const auto kept = document("learn --step 0.02 --trajectories 4 --output scheme.json", folder);
+  const auto kept =
+      document("learn --family nystrom --step 0.02 --trajectories 4 --output scheme.json", folder);
   BOOST_TEST(kept["output"] == "scheme.json");
 }
 
 BOOST_AUTO_TEST_CASE(a_fixed_parameter_stays) {
-  const auto fit = document("learn --step 0.02 --trajectories 4 --fix b1=0.5");
+  const auto fit = document("learn --family nystrom --step 0.02 --trajectories 4 --fix b1=0.5");
   BOOST_TEST(fit["parameters"]["b1"] == 0.5);
   BOOST_TEST(fit["standard_errors"]["b1"] == 0.0);
   BOOST_TEST(fit["standard_errors"]["beta1"] > 0.0);
@@ -163,7 +164,8 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
 // What a bath adds: where O was placed, and what laws are compared by.
 BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const std::string in_the_bath = " --start law --friction 0.01 --sigma 0.05";
-  BOOST_TEST(document("learn --step 0.02 --trajectories 4" + in_the_bath)["placement"] == "symmetric");
+  BOOST_TEST(document("learn --family nystrom --step 0.02 --trajectories 4" + in_the_bath)["placement"] ==
+             "symmetric");
   const std::string head =
       "system:text starts:text metrics:list horizon:number trajectories:integer equal_cost:flag seed:integer "
       "references:list rows:list rankings:list fits:list warnings:list peak_memory:integer";
@@ -243,8 +245,8 @@ BOOST_AUTO_TEST_CASE(stability_of_words_that_rotate) {
 }
 
 BOOST_AUTO_TEST_CASE(without_json_it_is_for_people) {
-  for (const char* line : {"list", "learn --step 0.02 --trajectories 2", "stability --method verlet",
-                           "run --method verlet --step 0.01 --horizon 0.02",
+  for (const char* line : {"list", "learn --family nystrom --step 0.02 --trajectories 2",
+                           "stability --method verlet", "run --method verlet --step 0.01 --horizon 0.02",
                            "compare --methods verlet --steps 0.02 --trajectories 2"}) {
     const auto done = run(line);
     BOOST_TEST(done.code == 0, line);
@@ -255,14 +257,32 @@ BOOST_AUTO_TEST_CASE(without_json_it_is_for_people) {
 }
 
 BOOST_AUTO_TEST_CASE(defaults_of_learn) {
-  const std::string line = "learn --step 0.02";
-  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --family nystrom --fine-step 1e-4 "
+  const std::string line = "learn --family nystrom --step 0.02";
+  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --fine-step 1e-4 "
                                "--trajectories 100 --horizon 0.5 --coordinates qp --seed 1 --threads 1"));
   const std::string few = line + " --trajectories 8";
   for (const char* other : {"--pairs 2", "--omega 40", "--fine-step 2e-4", "--horizon 0.4",
                             "--coordinates modes", "--seed 2", "--fix b1=0.5"}) {
     BOOST_TEST(!same(few, few + ' ' + other), other);
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_default_family_is_the_best_in_the_mean) {
+  const std::string line = "learn --system henon_heiles --step 1 --trajectories 8";
+  BOOST_TEST(same(line, line + " --family bab6"));
+  BOOST_TEST(!same(line, line + " --family nystrom"));
+}
+
+// Ten steps, or 0.5 if that is longer.
+BOOST_AUTO_TEST_CASE(default_horizons_hold_ten_steps) {
+  const std::string learn = "learn --system pendulum --family nystrom --trajectories 8 --step ";
+  BOOST_TEST(same(learn + "0.4", learn + "0.4 --horizon 4"));
+  BOOST_TEST(!same(learn + "0.4", learn + "0.4 --horizon 0.5"));
+  BOOST_TEST(same(learn + "0.02", learn + "0.02 --horizon 0.5"));
+  const std::string compare =
+      "compare --system pendulum --methods learned:nystrom --steps 0.4 --horizon 4 --trajectories 3";
+  BOOST_TEST(same(compare, compare + " --learn-horizon 4"));
+  BOOST_TEST(!same(compare, compare + " --learn-horizon 0.5"));
 }
 
 BOOST_AUTO_TEST_CASE(defaults_of_compare) {
@@ -291,8 +311,8 @@ BOOST_AUTO_TEST_CASE(defaults_of_run) {
 // step/ceil(step omega/5e-3), also where omega times the step is no multiple of 5e-3.
 BOOST_AUTO_TEST_CASE(the_default_fine_step_divides_the_step) {
   for (const double omega : {50.0, 33.0, 33.3, 1.0}) {
-    const auto fit =
-        document(fmt::format("learn --step 0.01 --trajectories 20 --horizon 0.1 --omega {}", omega));
+    const auto fit = document(
+        fmt::format("learn --family nystrom --step 0.01 --trajectories 20 --horizon 0.1 --omega {}", omega));
     const double fine = 0.01 / std::ceil(0.01 * omega / 5e-3);
     BOOST_TEST(fit["reference"] == fmt::format("srkn11b with step {:.12g}", fine));
   }
@@ -300,7 +320,7 @@ BOOST_AUTO_TEST_CASE(the_default_fine_step_divides_the_step) {
 
 BOOST_AUTO_TEST_CASE(a_row_has_the_method_as_typed_and_the_nominal_step) {
   const scratch folder("contract_rows");
-  document("learn --step 0.02 --trajectories 4 --output scheme.json", folder);
+  document("learn --family nystrom --step 0.02 --trajectories 4 --output scheme.json", folder);
   const auto all = document(
       "compare --methods verlet,./scheme.json,s_aia2,learned:nystrom,scheme.json --steps 0.01,2e-2 "
       "--trajectories 3 --learn-trajectories 4",
@@ -322,7 +342,7 @@ BOOST_AUTO_TEST_CASE(a_row_has_the_method_as_typed_and_the_nominal_step) {
 
 BOOST_AUTO_TEST_CASE(equal_cost_takes_steps_of_an_evaluation) {
   const scratch folder("contract_cost");
-  document("learn --step 0.02 --trajectories 4 --output scheme.json", folder);
+  document("learn --family nystrom --step 0.02 --trajectories 4 --output scheme.json", folder);
   const auto all = document(
       "compare --methods "
       "verlet,verlet_aba,verlet_2x,mclachlan2,bcss3,s_aia2,srkn6b,learned:nystrom,scheme.json "
@@ -373,7 +393,8 @@ BOOST_AUTO_TEST_CASE(steps_are_those_within_the_horizon) {
                  boost::test_tools::tolerance(8 * eps));
     }
   }
-  const auto fit = json_of(run("learn --system pendulum --step 0.1 --horizon 0.3 --trajectories 2 --json"));
+  const auto fit = json_of(
+      run("learn --family nystrom --system pendulum --step 0.1 --horizon 0.3 --trajectories 2 --json"));
   BOOST_TEST(fit["samples"] == 2 * 3);  // usable or not
 }
 
@@ -411,9 +432,9 @@ BOOST_AUTO_TEST_CASE(it_tells_its_version) {
 // More than a pipe holds (64 kB), so that the program still writes when the reader is gone.
 BOOST_AUTO_TEST_CASE(a_reader_who_goes_away_is_no_trouble) {
   const scratch folder("contract_head");
-  for (const char* line :
-       {"list", "learn --step 0.02 --trajectories 2 --json", "run --method verlet --step 0.001 --horizon 10",
-        "run --method verlet --step 0.001 --horizon 10 --json"}) {
+  for (const char* line : {"list", "learn --family nystrom --step 0.02 --trajectories 2 --json",
+                           "run --method verlet --step 0.001 --horizon 10",
+                           "run --method verlet --step 0.001 --horizon 10 --json"}) {
     const auto done = shell(folder, std::string("\"$nysalt\" ") + line + " | head -n 1");
     BOOST_TEST(done.code == 0, line);
     BOOST_TEST(done.err == "", line);

@@ -18,9 +18,10 @@ namespace {
 
 /// What ends well on every machine, and runs of which some or all trajectories diverge.
 const std::vector<std::string> lines{
-    "learn --step 0.03 --trajectories 23",
-    "learn --system pendulum --step 0.5 --horizon 10 --trajectories 20",
-    "learn --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates modes",
+    "learn --family nystrom --step 0.03 --trajectories 23",
+    "learn --family nystrom --system pendulum --step 0.5 --horizon 10 --trajectories 20",
+    "learn --family nystrom --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates "
+    "modes",
     "run --method srkn6b --step 0.02 --horizon 2 --trajectories 23 --sample-every 7 "
     "--observables stiff_energy,energy,q1,p6",
     "run --method verlet --step 0.05 --horizon 0.15 --trajectories 40",
@@ -69,9 +70,9 @@ BOOST_AUTO_TEST_CASE(files_are_the_same_bytes_by_any_number_of_threads) {
   for (const char* threads : {"1", "5"}) {
     const std::string with = std::string(" --threads ") + threads;
     BOOST_TEST(run(folder, "run" + line + threads + ".csv" + with).code == 0);
-    BOOST_TEST(
-        run(folder, std::string("learn --step 0.03 --trajectories 20 --output ") + threads + ".json" + with)
-            .code == 0);
+    BOOST_TEST(run(folder, std::string("learn --family nystrom --step 0.03 --trajectories 20 --output ") +
+                               threads + ".json" + with)
+                   .code == 0);
   }
   BOOST_TEST(contents(folder / "1.csv").size() > 10000U);
   BOOST_TEST((contents(folder / "1.csv") == contents(folder / "5.csv")));
@@ -82,7 +83,7 @@ BOOST_AUTO_TEST_CASE(files_are_the_same_bytes_by_any_number_of_threads) {
 BOOST_AUTO_TEST_CASE(another_seed_gives_other_numbers) {
   using pointer = nlohmann::ordered_json::json_pointer;
   const std::vector<std::pair<std::string, std::vector<const char*>>> numbers{
-      {"learn --step 0.03 --trajectories 5",
+      {"learn --family nystrom --step 0.03 --trajectories 5",
        {"/parameters/b1", "/parameters/beta1", "/loss", "/held_out_loss", "/energy_range/0"}},
       {lines[3], {"/rows/0/3", "/rows/0/5", "/rows/9/6"}},
       {"compare --methods verlet,learned:nystrom --steps 0.03 --trajectories 5 --learn-trajectories 5",
@@ -107,7 +108,8 @@ BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
     return nysalt::energy<double>(chain, law(nysalt::program::seed_for(which, 1), 0));
   };
   const auto training =
-      json_of(run("learn --step 0.02 --trajectories 1 --json"))["energy_range"].get<std::vector<double>>();
+      json_of(run("learn --family nystrom --step 0.02 --trajectories 1 --json"))["energy_range"]
+          .get<std::vector<double>>();
   const auto test =
       json_of(run("run --method verlet --step 0.02 --horizon 0.02 --observables energy --json"));
   // Both hold exactly: the range has the start in it, and the first sample is the start.

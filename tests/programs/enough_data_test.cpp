@@ -26,7 +26,8 @@ json document(const std::string& arguments) {
 struct learned {
   scratch folder{"energies"};
   learned() {
-    const finished done = run(folder, "learn --trajectories 40 --output scheme.json" + coarse);
+    const finished done =
+        run(folder, "learn --family nystrom --trajectories 40 --output scheme.json" + coarse);
     BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
   }
 };
@@ -39,7 +40,7 @@ bool warns_of_energies(const std::string& text) {
 
 BOOST_AUTO_TEST_CASE(it_doubles_the_trajectories_until_they_are_enough) {
   const double share = 5e-5;
-  const auto fit = document("learn --enough 5e-5" + coarse);
+  const auto fit = document("learn --family nystrom --enough 5e-5" + coarse);
   const auto& stops = fit["enough"]["stops"];
   BOOST_TEST_CONTEXT(fit["enough"].dump()) {
     BOOST_TEST(fit["enough"]["reached"] == true);
@@ -54,7 +55,8 @@ BOOST_AUTO_TEST_CASE(it_doubles_the_trajectories_until_they_are_enough) {
     BOOST_TEST(fit["trajectories"] == stops.back()["trajectories"]);
   }
   // As many at once tell the same, to the bit.
-  const auto at_once = document("learn --trajectories " + fit["trajectories"].dump() + coarse);
+  const auto at_once =
+      document("learn --family nystrom --trajectories " + fit["trajectories"].dump() + coarse);
   BOOST_TEST(at_once["parameters"] == fit["parameters"]);
   BOOST_TEST(at_once["held_out_loss"] == fit["held_out_loss"]);
   BOOST_TEST(at_once["energy_range"] == fit["energy_range"]);
@@ -63,8 +65,9 @@ BOOST_AUTO_TEST_CASE(it_doubles_the_trajectories_until_they_are_enough) {
 
 BOOST_AUTO_TEST_CASE(a_curve_may_take_other_numbers_at_each_step) {
   const scratch folder("enough_curve");
-  const finished done = run(
-      folder, "learn --enough 1e-4 --steps 0.01,0.06 --fine-step 0.001 --horizon 0.3 --output curve.json");
+  const finished done = run(folder,
+                            "learn --family nystrom --enough 1e-4 --steps 0.01,0.06 --fine-step 0.001 "
+                            "--horizon 0.3 --output curve.json");
   BOOST_TEST(done.code == 0, done.err);
   const auto scheme = json::parse(contents(folder / "curve.json"));
   BOOST_TEST_CONTEXT(scheme["trajectories"].dump()) {
@@ -74,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_curve_may_take_other_numbers_at_each_step) {
 }
 
 BOOST_AUTO_TEST_CASE(for_people_the_course_is_told) {
-  const finished done = run("learn --enough 1" + coarse);
+  const finished done = run("learn --family nystrom --enough 1" + coarse);
   BOOST_TEST(done.code == 0);
   BOOST_TEST(done.out.find("50 trajectories are enough") != std::string::npos, done.out);
   BOOST_TEST(done.out.find("to the loss on new data") != std::string::npos, done.out);
@@ -82,7 +85,7 @@ BOOST_AUTO_TEST_CASE(for_people_the_course_is_told) {
 
 BOOST_AUTO_TEST_CASE(what_contradicts_it_is_refused) {
   const auto refused = [](const std::string& arguments, const std::string& words) {
-    const finished done = run("learn" + coarse + arguments);
+    const finished done = run("learn --family nystrom" + coarse + arguments);
     return done.code == 2 && done.err.find(words) != std::string::npos;
   };
   BOOST_TEST(refused("--enough 0.01 --trajectories 50", "leave --trajectories away"));

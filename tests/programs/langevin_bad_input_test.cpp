@@ -21,7 +21,7 @@ const std::string in_the_bath = " --friction 1 --temperature 0.5";
 const std::string run_it =
     "run --system oscillator --omega 1 --step 0.1 --horizon 1 --output out.csv --method ";
 const std::string learn =
-    "learn --system oscillator --omega 1 --step 0.1 --trajectories 3 --output scheme.json";
+    "learn --family nystrom --system oscillator --omega 1 --step 0.1 --trajectories 3 --output scheme.json";
 const std::string compare =
     "compare --system oscillator --omega 1 --horizon 2 --trajectories 20 --output folder --methods ";
 const std::string statistics = compare + "baoab --steps 0.1" + in_the_bath + " --metric ";
@@ -170,21 +170,20 @@ BOOST_AUTO_TEST_CASE(metrics_that_say_nothing_there) {
 }
 
 BOOST_AUTO_TEST_CASE(histograms_and_lags_are_in_place) {
-  all_refused(
-      after(statistics + "distribution", {{"--range 1", {"--range", "two numbers", "1"}},
-                                          {"--range 0,1,2", {"--range", "two numbers", "3"}},
-                                          {"--range 1,1", {"--range", "LOW below HIGH", "1,1"}},
-                                          {"--range 2,1", {"--range", "LOW below HIGH", "2,1"}},
-                                          {"--range=-1e308,1e308", {"--range", "LOW below HIGH"}},
-                                          {"--range 0,nan", {"--range", "'nan'", "finite"}},
-                                          {"--range 0,,1", {"--range", "empty"}},
-                                          {"--range 100,200", {"--range", "100,200", "energy"}},
-                                          {"--bins 0", {"--bins", "at least 1"}},
-                                          {"--bins 2.5", {"--bins", "whole"}},
-                                          {"--bins 100001", {"--bins", "at most 100000"}},
-                                          {"--longest-lag 1", {"--longest-lag", "acf"}},
-                                          {"--observable nosuch", {"'nosuch'"}},
-                                          {"--fine-step 0.03", {"0.1", "multiple", "0.03"}}}));
+  all_refused(after(statistics + "distribution", {{"--range 1", {"--range", "two numbers", "1"}},
+                                                  {"--range 0,1,2", {"--range", "two numbers", "3"}},
+                                                  {"--range 1,1", {"--range", "LOW below HIGH", "1,1"}},
+                                                  {"--range 2,1", {"--range", "LOW below HIGH", "2,1"}},
+                                                  {"--range=-1e308,1e308", {"--range", "LOW below HIGH"}},
+                                                  {"--range 0,nan", {"--range", "'nan'", "finite"}},
+                                                  {"--range 0,,1", {"--range", "empty"}},
+                                                  {"--range 100,200", {"--range", "100,200", "energy"}},
+                                                  {"--bins 0", {"--bins", "at least 1"}},
+                                                  {"--bins 2.5", {"--bins", "whole"}},
+                                                  {"--bins 100001", {"--bins", "at most 100000"}},
+                                                  {"--longest-lag 1", {"--longest-lag", "acf"}},
+                                                  {"--observable nosuch", {"'nosuch'"}},
+                                                  {"--fine-step 0.03", {"0.1", "multiple", "0.03"}}}));
   all_refused(after(statistics + "acf", {{"--longest-lag 0", {"--longest-lag", "positive"}},
                                          {"--longest-lag -1", {"--longest-lag", "positive"}},
                                          {"--longest-lag 0.05", {"--longest-lag", "shorter", "0.1"}},

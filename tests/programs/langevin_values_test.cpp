@@ -89,7 +89,8 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
     double beta1;
   };
   for (const auto& [step, b1, beta1] : {known{"0.019", .5248, .4155}, {"0.033", .5265, .4079}}) {
-    const auto fit = document(std::string("learn --placement end --step ") + step + in_the_bath);
+    const auto fit =
+        document(std::string("learn --family nystrom --placement end --step ") + step + in_the_bath);
     const auto must_be = [&, step = step](const char* name, double value) {
       BOOST_TEST(is_near(fit["parameters"][name], fit["standard_errors"][name], value, 1e-4),
                  name << " at " << step << ": " << fit["parameters"][name]);
@@ -107,7 +108,8 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
 BOOST_AUTO_TEST_CASE(the_reference_is_fine_enough_where_nothing_is_stiff) {
   for (const char* system : {"pendulum", "henon_heiles"}) {
     for (const char* kt : {"0.001", "0"}) {
-      const std::string line = std::string("learn --step 0.1 --horizon 1 --friction 0.1 --system ") + system;
+      const std::string line =
+          std::string("learn --family nystrom --step 0.1 --horizon 1 --friction 0.1 --system ") + system;
       const auto fit = document(line + " --temperature " + kt);
       BOOST_TEST(fit["usable"] == true, system << " at kT = " << kt);
       const auto coarse = nysalt::test::run(line + " --fine-step 0.005 --temperature " + kt);
@@ -238,8 +240,8 @@ BOOST_AUTO_TEST_CASE(a_scheme_keeps_its_bath_and_its_placement) {
   const auto in_folder = [&](const std::string& arguments) { return nysalt::test::run(folder, arguments); };
   const std::string bath = " --start law" + in_the_bath;  // no burn-in: any start will do
   const std::string how = bath + "--trajectories 20 --step 0.02 --output ";
-  BOOST_REQUIRE(in_folder("learn --placement end" + how + "end.json").code == 0);
-  BOOST_REQUIRE(in_folder("learn" + how + "symmetric.json").code == 0);
+  BOOST_REQUIRE(in_folder("learn --family nystrom --placement end" + how + "end.json").code == 0);
+  BOOST_REQUIRE(in_folder("learn --family nystrom" + how + "symmetric.json").code == 0);
   const auto scheme = json::parse(contents(folder / "end.json"));
   BOOST_TEST(scheme["version"] == 2);
   BOOST_TEST(scheme["placement"] == "end");

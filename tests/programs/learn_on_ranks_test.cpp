@@ -30,7 +30,7 @@ struct outcome {
 /// Of one process where there are no ranks.
 outcome learned(int ranks, const std::string& arguments) {
   const scratch folder("learn_on_ranks");
-  const std::string all = "learn --output scheme.json " + arguments;
+  const std::string all = "learn --family nystrom --output scheme.json " + arguments;
   const finished done = ranks == 0 ? run(folder, all) : run_on(ranks, folder, all);
   BOOST_TEST_REQUIRE(done.code == 0, done.err);
   BOOST_TEST(done.err == "");
@@ -67,7 +67,8 @@ BOOST_AUTO_TEST_CASE(data_that_grow_until_they_are_enough_are_shared_too) {
 BOOST_AUTO_TEST_CASE(bad_input_is_told_once) {
   const scratch folder("learn_on_ranks");
   for (const std::string& arguments :
-       {std::string("learn --step -1"), std::string("learn --step 0.03 --output missing/scheme.json"),
+       {std::string("learn --family nystrom --step -1"),
+        std::string("learn --family nystrom --step 0.03 --output missing/scheme.json"),
         std::string("learn --stepp 1"), std::string("learn --step 0.03 --horizon 0.01")}) {
     const finished alone = run(folder, arguments);
     const finished together = run_on(3, folder, arguments);

@@ -40,8 +40,9 @@ learned<nystrom> fitted(coordinates how) {
 BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
   for (const auto how : {coordinates::qp, coordinates::modes}) {
     const auto fit = fitted(how).summary;
-    const auto its = document("learn --seed 5 --step 0.02 --trajectories 15 --horizon 0.4 --coordinates " +
-                              std::string(to_string(how)));
+    const auto its = document(
+        "learn --family nystrom --seed 5 --step 0.02 --trajectories 15 --horizon 0.4 --coordinates " +
+        std::string(to_string(how)));
     for (const auto& parameter : fit.parameters) {
       BOOST_TEST(its["parameters"][parameter.name] == parameter.value);
       BOOST_TEST(its["standard_errors"][parameter.name] == parameter.standard_error);
@@ -74,9 +75,10 @@ BOOST_AUTO_TEST_CASE(linear_optima_are_the_known_ones) {
     double beta1;
   };
   for (const auto& [z, beta1] : {optimum{"0.5", 0.402727}, {"1", 0.400582}, {"2", 0.390164}}) {
-    const auto fit = document(std::string("learn --system oscillator --omega 1 --horizon 710 --trajectories "
-                                          "4 --coordinates energy --step ") +
-                              z);
+    const auto fit = document(
+        std::string("learn --family nystrom --system oscillator --omega 1 --horizon 710 --trajectories "
+                    "4 --coordinates energy --step ") +
+        z);
     // Six digits are known, and the data leave an error of the size that is said above.
     BOOST_TEST(std::abs(fit["parameters"]["beta1"].get<double>() - beta1) < 1e-6, "z = " << z);
     BOOST_TEST(std::abs(fit["parameters"]["b1"].get<double>() - 0.5) < 1e-6, "z = " << z);

@@ -15,7 +15,8 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-const std::string learn = "learn --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 --output ";
+const std::string learn =
+    "learn --family nystrom --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 --output ";
 const std::string errors = "compare --trajectories 3 --horizon 0.2 --fine-step 0.001 --json --methods ";
 const std::string samples = " --horizon 0.2 --observables energy,q1 ";
 
@@ -238,7 +239,8 @@ BOOST_FIXTURE_TEST_CASE(parameters_are_read_by_name, learned) {
 // With the step itself as fine step the reference errs as much as what is learned.
 BOOST_AUTO_TEST_CASE(a_fit_that_is_not_usable_says_so_wherever_it_goes) {
   const scratch folder("not_usable");
-  const std::string poor = "learn --trajectories 3 --step 0.1 --fine-step 0.1 --output poor.json";
+  const std::string poor =
+      "learn --family nystrom --trajectories 3 --step 0.1 --fine-step 0.1 --output poor.json";
   const finished withheld = run(folder, poor);
   BOOST_TEST(withheld.code == 3);
   BOOST_TEST(withheld.err.find("not written") != std::string::npos);

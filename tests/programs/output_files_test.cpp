@@ -13,7 +13,8 @@ using names = std::set<std::string>;
 
 namespace {
 
-const std::string learn = "learn --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 ";
+const std::string learn =
+    "learn --family nystrom --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 ";
 const std::string run_it = "run --method verlet --step 0.01 --horizon 0.1 --trajectories 3 ";
 const std::string compare =
     "compare --methods verlet,bcss2 --steps 0.01,0.02 --trajectories 3 --horizon 0.1 ";
@@ -116,7 +117,9 @@ BOOST_AUTO_TEST_CASE(what_is_refused_leaves_an_old_file_alone) {
     BOOST_TEST(contents(folder / "out") == "old");
   }
   // The fit is not usable: nothing is written either.
-  BOOST_TEST(run(folder, "learn --trajectories 3 --step 0.1 --fine-step 0.1 --output out").code == 3);
+  BOOST_TEST(
+      run(folder, "learn --family nystrom --trajectories 3 --step 0.1 --fine-step 0.1 --output out").code ==
+      3);
   BOOST_TEST(contents(folder / "out") == "old");
   BOOST_TEST((folder.files() == names{"out"}));
 }

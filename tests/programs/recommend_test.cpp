@@ -41,8 +41,9 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
     const double evaluations = row["evaluations_per_step"];
     BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
     if (!stands(row)) continue;
-    BOOST_TEST(row["error"].get<double>() >= last);
-    last = row["error"];
+    const double ranked = row[all["judged_by"] == "mean" ? "error" : "error_of_95_percent"];
+    BOOST_TEST(ranked >= last);
+    last = ranked;
     // The budget and at most one evaluation more, to begin with.
     BOOST_TEST(row["evaluations_per_time"].get<double>() >= 80.0 * (1.0 - 1e-12));
     BOOST_TEST(row["evaluations_per_time"].get<double>() <= 80.0 + 1.0 / (5.0 - step));
@@ -217,8 +218,9 @@ BOOST_AUTO_TEST_CASE(at_one_error_the_least_cost_is_first) {
     if (all["judged_by"] == "mean" && !row["confirmed"].is_null())
       BOOST_TEST(row["confirmed"]["upper_bound"].get<double>() <= 1e-4);
     if (row["method"] != "pefrl" && row["method"] != "verlet") continue;
-    // Two points of the grid on, a ratio of sqrt(2) in all, the error is above: of order two, by 2 or so.
-    const double beyond = row["step_size"].get<double>() * std::sqrt(2.0);
+    // At most a point of the grid on, a ratio of 1.19, its upper bound is above: a factor of two or so of the
+    // error, by what 95 of 100 stay below. At the double step the error itself is: of order two, by 4.
+    const double beyond = row["step_size"].get<double>() * 2.0;
     const auto next = document(fmt::format("compare --methods {} --steps {} --metric state {}",
                                            row["method"].get<std::string>(), beyond, line));
     BOOST_TEST(next["rows"][0]["error"].get<double>() > 1e-4);

@@ -39,15 +39,15 @@ CASES = [
     (lambda: nysalt.system("fpu", friction=0.1), "friction needs sigma or temperature, 0 for damping alone"),
     (lambda: nysalt.system(3), "name must be a text, got 3"),
     (lambda: nysalt.learn(CHAIN), "give step, or steps for a curve, and not both"),
-    (lambda: nysalt.learn(CHAIN, step=-0.1), "step must be a positive, finite number, got -0.1"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=-0.1), "step must be a positive, finite number, got -0.1"),
     (lambda: nysalt.learn(CHAIN, "nystroem", step=0.02), "unknown family 'nystroem': did you mean nystrom?"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, fix={"b2": 1}), "fix: the family nystrom has no parameter 'b2': it has b1"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, enough=0.1, trajectories=3), "leave trajectories away"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, seed=-1), "seed must not be negative, got -1"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, seed=2**51), "seed must be below 2\\^51"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, threads=0), "threads must be at least 1"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
-    (lambda: nysalt.learn(nysalt.system("kepler"), step=0.1, coordinates="modes"), "it declares no modes: take qp"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix={"b2": 1}), "fix: the family nystrom has no parameter 'b2': it has b1"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, enough=0.1, trajectories=3), "leave trajectories away"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, seed=-1), "seed must not be negative, got -1"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, seed=2**51), "seed must be below 2\\^51"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, threads=0), "threads must be at least 1"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
+    (lambda: nysalt.learn(nysalt.system("kepler"), "nystrom", step=0.1, coordinates="modes"), "it declares no modes: take qp"),
     (lambda: run(method="verlett"), "unknown method 'verlett': did you mean verlet?"),
     (lambda: run(method="learned:nystrom"), "learned:nystrom must be learned first: nysalt learn --family nystrom"),
     (lambda: run(observables=["energy", "q2"]), "unknown observable 'q2' of pendulum"),
@@ -96,7 +96,7 @@ CASES = [
     (lambda: nysalt.run(None, "verlet", 0.1, 1), "system must be one that nysalt.system or .* made, got None"),
     (lambda: nysalt.compare(PENDULUM, None, 0.1), "methods must be names, schemes or tables, got None"),
     (lambda: nysalt.compare(PENDULUM, 5, 0.1), "methods must be names, schemes or tables, got 5"),
-    (lambda: nysalt.learn(CHAIN, step=0.02, fix=["b1=1"]), "fix must be a dict of values by name"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix=["b1=1"]), "fix must be a dict of values by name"),
     (lambda: PENDULUM.starts(0), "trajectories must be at least 1, got 0"),
     (lambda: PENDULUM.starts(1, role="mine"), "unknown role 'mine': it is one of training, held_out, test"),
 ]
@@ -142,7 +142,7 @@ def test_files_that_cannot_be(tmp_path):
     (tmp_path / "half.json").write_text('{"format": "nysalt scheme", ')
     with pytest.raises(ValueError, match="half.json: this is not whole JSON"):
         nysalt.load(tmp_path / "half.json")
-    scheme = nysalt.learn(PENDULUM, step=0.2, trajectories=5, horizon=2)
+    scheme = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
     with pytest.raises(OSError):
         scheme.save(tmp_path / "nowhere" / "scheme.json", force=True)
     path = tmp_path / "edited.json"
@@ -153,7 +153,7 @@ def test_files_that_cannot_be(tmp_path):
 
 
 def test_two_methods_of_one_name_are_told_apart():
-    schemes = [nysalt.learn(PENDULUM, step=0.2, trajectories=5, horizon=2, seed=seed) for seed in (1, 2)]
+    schemes = [nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2, seed=seed) for seed in (1, 2)]
     with pytest.raises(ValueError, match="two methods are named scheme:nystrom"):
         nysalt.compare(PENDULUM, schemes, 0.2, trajectories=4)
     schemes[1].name = "the second"

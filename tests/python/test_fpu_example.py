@@ -17,7 +17,7 @@ def test_the_example_is_under_25_lines_and_learns_what_the_program_learns(progra
     monkeypatch.chdir(tmp_path)
     its = runpy.run_path(str(EXAMPLE))
     scheme = its["scheme"]
-    by_program = program("learn", "--system", "fpu", "--omega", "50", "--step", "0.02", "--output", "theirs.json")
+    by_program = program("learn", "--family", "nystrom", "--system", "fpu", "--omega", "50", "--step", "0.02", "--output", "theirs.json")
     assert bits(scheme.parameters) == bits(by_program["parameters"])
     assert bits(dict(zip(scheme.parameters, scheme.theta.tolist()))) == bits(by_program["parameters"])
     assert scheme.standard_errors == by_program["standard_errors"]
@@ -34,6 +34,6 @@ def test_the_example_is_under_25_lines_and_learns_what_the_program_learns(progra
 def test_another_seed_learns_another_theta(program):
     chain = nysalt.system("fpu", omega=50)
     asked = dict(step=0.02, trajectories=20, seed=2)
-    of_program = program("learn", "--step", "0.02", "--trajectories", "20", "--seed", "2")["parameters"]
+    of_program = program("learn", "--family", "nystrom", "--step", "0.02", "--trajectories", "20", "--seed", "2")["parameters"]
     assert bits(nysalt.learn(chain, **asked).parameters) == bits(of_program)
     assert bits(nysalt.learn(chain, **{**asked, "seed": 3}).parameters) != bits(of_program)

@@ -34,7 +34,7 @@ def long_comparison():
 
 
 def slow_path():
-    nysalt.learn(henon_heiles_by_functions(), step=0.4, horizon=40, trajectories=100)
+    nysalt.learn(henon_heiles_by_functions(), "nystrom", step=0.4, horizon=40, trajectories=100)
 
 
 @pytest.mark.parametrize("call", [long_run, long_integration, long_learning, long_comparison, slow_path])
@@ -99,7 +99,7 @@ def test_a_second_ctrl_c_is_not_lost():
         for timer in timers:
             timer.start()
         try:
-            nysalt.learn(CHAIN, step=0.02, horizon=50, trajectories=20, loss="state:5")
+            nysalt.learn(CHAIN, "nystrom", step=0.02, horizon=50, trajectories=20, loss="state:5")
             pytest.fail("the call was not interrupted")
         except KeyboardInterrupt:
             time.sleep(5)
@@ -127,7 +127,7 @@ def energies():
         nysalt.system("lennard_jones").energy(*states)
 
 calls = dict(run=lambda: nysalt.run(chain, "verlet", 1e-3, 1e8, sample_every=10**9),
-             learn=lambda: nysalt.learn(chain, step=0.02, trajectories=10**5),
+             learn=lambda: nysalt.learn(chain, "nystrom", step=0.02, trajectories=10**5),
              slow_path=lambda: nysalt.run(springs, "verlet", 1e-3, 1e8, sample_every=10**9),
              energies=energies)
 thread = threading.Thread(target=calls["CALL"], daemon=True)

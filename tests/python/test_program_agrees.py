@@ -20,8 +20,8 @@ def test_what_there_is_is_what_list_prints(program):
 
 def test_a_fit_is_that_of_the_program(program):
     chain = nysalt.system("fpu", omega=30, friction=0.01, sigma=0.05)
-    scheme = nysalt.learn(chain, step=0.02, trajectories=20, horizon=0.2, placement="end", fix={"b1": 0.5})
-    asked = ["learn", "--omega", "30", *BATH, "--step", "0.02", "--trajectories", "20", "--horizon", "0.2",
+    scheme = nysalt.learn(chain, "nystrom", step=0.02, trajectories=20, horizon=0.2, placement="end", fix={"b1": 0.5})
+    asked = ["learn", "--family", "nystrom", "--omega", "30", *BATH, "--step", "0.02", "--trajectories", "20", "--horizon", "0.2",
              "--placement", "end", "--fix", "b1=0.5"]
     of_program = program(*asked)
     of_program.pop("output")
@@ -32,8 +32,8 @@ def test_a_fit_is_that_of_the_program(program):
 
 
 def test_a_curve_is_that_of_the_program(program):
-    curve = nysalt.learn(nysalt.system("oscillator"), steps=[0.02, 0.03], trajectories=10, coordinates="energy")
-    fits = program("learn", "--system", "oscillator", "--steps", "0.02,0.03", "--trajectories", "10",
+    curve = nysalt.learn(nysalt.system("oscillator"), "nystrom", steps=[0.02, 0.03], trajectories=10, coordinates="energy")
+    fits = program("learn", "--family", "nystrom", "--system", "oscillator", "--steps", "0.02,0.03", "--trajectories", "10",
                    "--coordinates", "energy")["fits"]
     assert without_times(curve.fit["fits"]) == without_times(fits)
     assert curve.theta.shape == (2, 2) and curve.step == [0.02, 0.03]
@@ -104,10 +104,10 @@ def test_samples_are_those_of_the_program(program, tmp_path, system, options, me
 
 def test_scheme_files_go_both_ways(program, tmp_path):
     chain = nysalt.system("fpu")
-    scheme = nysalt.learn(chain, step=0.02, trajectories=10)
+    scheme = nysalt.learn(chain, "nystrom", step=0.02, trajectories=10)
     mine, theirs = tmp_path / "mine.json", tmp_path / "theirs.json"
     scheme.save(mine)
-    program("learn", "--step", "0.02", "--trajectories", "10", "--output", "theirs.json")
+    program("learn", "--family", "nystrom", "--step", "0.02", "--trajectories", "10", "--output", "theirs.json")
     assert mine.read_bytes() == theirs.read_bytes()
     loaded = nysalt.load(theirs)
     assert isinstance(loaded, nysalt.Scheme) and loaded.parameters == scheme.parameters and loaded.fit is None
@@ -138,7 +138,7 @@ def test_tables_are_read(program, tmp_path):
 
 def test_an_unusable_fit_is_said_to_be_one(program, tmp_path):
     # Both kicks in the middle of the step: Verlet again, unstable at z = 2.5, and nothing is left to learn.
-    fit = nysalt.learn(nysalt.system("fpu"), step=0.05, trajectories=3, fix={"b1": 0.5, "beta1": 0.25})
+    fit = nysalt.learn(nysalt.system("fpu"), "nystrom", step=0.05, trajectories=3, fix={"b1": 0.5, "beta1": 0.25})
     assert not fit.usable and fit.reason
     with pytest.raises(ValueError, match="the fit is not usable"):
         fit.save(tmp_path / "fit.json")

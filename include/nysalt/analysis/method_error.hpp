@@ -33,6 +33,7 @@ struct method_error {
   std::vector<diverged_trajectory> diverged_at;  ///< in their order
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
   std::vector<double> of_each{};    ///< what each trajectory has in the error; NaN if it diverged
+  std::vector<double> own{};        ///< the error of each by itself, in the unit of the whole; NaN likewise
   distribution_of_errors spread{};  ///< of the trajectories that did not diverge
 };
 
@@ -51,7 +52,8 @@ method_error error_of_runs(const std::vector<run_score>& runs, const error_measu
   result.error = measure.average(scores, sizes);
   result.of_each = measure.parts(scores, sizes);
   result.spread = {.largest = tail_of(scores), .median = {}, .quantiles = {}};
-  const auto own = sorted_numbers(measure.of_each(scores, sizes));
+  result.own = measure.of_each(scores, sizes);
+  const auto own = sorted_numbers(result.own);
   result.spread.median = median_and_error(own);
   for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
     result.spread.quantiles[i] = quantile(own, shown_quantiles[i]);
