@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
       {run_it + " --horizon 1 --observables q0", {"'q0'", "q1..q6"}},
       {run_it + " --horizon 1 --observables q-1", {"'q-1'"}},
       {run_it + " --horizon 1 --observables stiff_energy_4", {"stiff_energy_1..stiff_energy_3"}},
-      {compare + " --steps 0.01 --metric nosuch", {"'nosuch'", "path, state, exchange, energy"}},
+      {compare + " --steps 0.01 --metric nosuch", {"'nosuch'", "path, relative, state, exchange, energy"}},
       {compare + " --steps 0.01 --observable nosuch", {"'nosuch'", "stiff_energy"}},
       {compare + ",nosuch --steps 0.01", {"'nosuch'", "nysalt list"}},
       {compare + ",learned: --steps 0.01", {"family ''", "nysalt list"}},

@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
       names("families") ==
       "nystrom aba4 aba5 aba6 bab3 bab4 bab5 bab6 aba3_free aba4_free fg_chin fg4 r_aba2 r_aba4 r_aba6 "
       "r_fg4 ");
-  BOOST_TEST(names("metrics") == "path state exchange energy acceptance distribution acf ");
+  BOOST_TEST(names("metrics") == "path relative state exchange energy acceptance distribution acf ");
   BOOST_TEST(
       names("methods") ==
       "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 bcss4 predescu3 forest_ruth pefrl vefrl "
@@ -288,7 +288,7 @@ BOOST_AUTO_TEST_CASE(default_horizons_hold_ten_steps) {
 BOOST_AUTO_TEST_CASE(defaults_of_compare) {
   const std::string line = "compare --methods verlet,learned:nystrom --steps 0.02";
   BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --horizon 0.5 --trajectories 400 --seed 1 "
-                               "--metric path --observable stiff_energy --levels 0.01 "
+                               "--metric path --observable stiff_energy "
                                "--learn-trajectories 100 --learn-horizon 0.5 --coordinates qp --threads 1"));
   const std::string few = line + " --trajectories 3 --learn-trajectories 8";
   for (const char* other : {"--horizon 0.4", "--metric exchange", "--observable energy", "--seed 2",

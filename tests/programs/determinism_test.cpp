@@ -28,7 +28,7 @@ const std::vector<std::string> lines{
     "run --method verlet --step 0.05 --horizon 1 --trajectories 23",
     "compare --methods verlet,s_aia2,learned:nystrom --steps 0.02,0.03 --trajectories 23 "
     "--learn-trajectories 7",
-    "compare --methods verlet,verlet_2x --steps 0.05 --horizon 0.51 --trajectories 40 --metric state",
+    "compare --methods verlet,verlet_2x --steps 0.0405 --horizon 0.44 --trajectories 40 --metric state",
     "compare --system henon_heiles --methods verlet,pefrl --steps 0.3 --horizon 30 --trajectories 20 "
     "--metric energy",
 };

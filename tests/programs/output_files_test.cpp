@@ -17,7 +17,7 @@ const std::string learn =
     "learn --family nystrom --trajectories 20 --horizon 0.2 --fine-step 0.001 --step 0.02 ";
 const std::string run_it = "run --method verlet --step 0.01 --horizon 0.1 --trajectories 3 ";
 const std::string compare =
-    "compare --methods verlet,bcss2 --steps 0.01,0.02 --trajectories 3 --horizon 0.1 ";
+    "compare --methods verlet,bcss2 --steps 0.01,0.02 --trajectories 3 --horizon 0.2 ";
 
 bool has(const std::string& text, std::string_view word) { return text.find(word) != std::string::npos; }
 

@@ -2,7 +2,7 @@
 // Errors of the total stiff energy on short trajectories of the FPU chain, learned against Verlet.
 #include <boost/test/unit_test.hpp>
 
-#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(errors_are_the_known_ones) {
   const fpu_chain<3> system(50.0);
   const fpu_law<3> law(system);
   const fine_steps<> reference(2.5e-4);
-  const auto measure = path_measure(system, [&](const auto& x) { return system.stiff_energy(x); });
+  const auto measure = relative_measure(system, [&](const auto& x) { return system.stiff_energy(x); });
   for (const auto& expected : known) {
     const auto data = make_flow_map_data(system, law, reference, {.step = expected.step, .seed = 1});
     const auto held_out = make_flow_map_data(system, law, reference, {.step = expected.step, .seed = 2});

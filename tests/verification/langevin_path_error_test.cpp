@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/thermal_starts.hpp"
-#include "nysalt/analysis/error_measures/path.hpp"
+#include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/tabulated.hpp"
@@ -17,8 +17,8 @@ using namespace nysalt::test;
 namespace {
 
 using system_type = in_bath<fpu_chain<3>>;
-const fpu_chain<3> alone(50.0);
-const system_type chain(alone, bath::of_sigma(0.01, 0.05));
+const fpu_chain<3> without_bath(50.0);
+const system_type chain(without_bath, bath::of_sigma(0.01, 0.05));
 
 struct row {
   double step;
@@ -33,15 +33,15 @@ const std::vector<row> known{{.01, {.5146, .4131}, 2.7e-2, 1.93e-2, 9.2e-3},
 
 BOOST_AUTO_TEST_CASE(errors_are_the_known_ones) {
   constexpr std::int64_t trajectories = 2048;
-  const auto starts = thermal_starts(alone, chain.bath().temperature(), trajectories, 1);
-  const auto stiff_energy = over_lanes([](const auto& x) { return alone.stiff_energy(x); });
+  const auto starts = thermal_starts(without_bath, chain.bath().temperature(), trajectories, 1);
+  const auto stiff_energy = over_lanes([](const auto& x) { return without_bath.stiff_energy(x); });
   for (const auto& [step, theta, of_baoab, of_end, of_symmetric] : known) {
     const member<nystrom> plain(theta);
     const std::array methods{tabulated(baoab()), tabulated(thermostat<placement::end>(plain)),
                              tabulated(thermostat<placement::symmetric>(plain)), tabulated(baoab_2x())};
     const auto steps = static_cast<std::int64_t>(1.0 / step + 1e-9);
     const auto result =
-        trajectory_errors(chain, fine_paths(1e-4), starts, methods, path_measure(chain, stiff_energy),
+        trajectory_errors(chain, fine_paths(1e-4), starts, methods, relative_measure(chain, stiff_energy),
                           {.step = step, .steps = steps, .trajectories = trajectories, .seed = 3});
     BOOST_TEST_CONTEXT("step " << step) {
       for (const auto& method : result.methods) {
