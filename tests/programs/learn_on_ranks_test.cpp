@@ -40,6 +40,13 @@ outcome learned(int ranks, const std::string& arguments) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(of_errors_only_those_of_the_launcher_are_left_out) {
+  const std::string launcher =
+      "[hwloc/linux] failed to find sysfs cpu topology directory\n*****\n* hwloc has found\n*****\n";
+  BOOST_TEST(without_launcher(launcher) == "");
+  BOOST_TEST(without_launcher(launcher + "nysalt: no\n" + launcher) == "nysalt: no\n");
+}
+
 BOOST_AUTO_TEST_CASE(ranks_and_threads_change_no_bit_of_what_is_learned) {
   for (const std::string& system :
        {std::string("--system fpu --step 0.03"),

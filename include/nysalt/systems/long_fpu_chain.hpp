@@ -59,35 +59,41 @@ class long_fpu_chain {
 
   template <class T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
-    for_each_spring<T>(
-        pulls<T>{q, stiffness()}, [&](Eigen::Index i, const T& stiff, const T& left, const T& right)
-                                      __attribute__((always_inline)) {
-                                        f[i] = stiff - left;
-                                        f[pairs() + i] = right - stiff;
-                                      });
+    for_each_spring(
+        q, [&](Eigen::Index i, const T& stiff, const T& left, const T& right) __attribute__((always_inline)) {
+          f[i] = stiff - left;
+          f[pairs() + i] = right - stiff;
+        });
   }
 
-  /// g = f'(q) v
+  /// g = f'(q) v: stiff springs first, then the soft ones between them, so that both loops vectorise.
   template <class T>
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
-    for_each_spring<T>(
-        slopes<T>{q, v, stiffness()}, [&](Eigen::Index i, const T& stiff, const T& left, const T& right)
-                                          __attribute__((always_inline)) {
-                                            g[i] = stiff - left;
-                                            g[pairs() + i] = right - stiff;
-                                          });
+    const Eigen::Index m = pairs();
+    const double k = 0.5 * omega() * omega();
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const T stiff = (v[m + i] - v[i]) * k;
+      g[i] = stiff;
+      g[m + i] = -stiff;
+    }
+    g[0] -= fpu_chain<>::slope_of_pull(q[0], v[0]);
+    g[2 * m - 1] -= fpu_chain<>::slope_of_pull(q[2 * m - 1], v[2 * m - 1]);
+    for (Eigen::Index i = 0; i + 1 < m; ++i) {
+      const T soft = fpu_chain<>::slope_of_pull(T(q[i + 1] - q[m + i]), T(v[i + 1] - v[m + i]));
+      g[i + 1] -= soft;
+      g[m + i] += soft;
+    }
   }
 
   /// p += c force(q)
   template <class T, class C>
   void kick(const vector<T, dimension>& q, vector<T, dimension>& p, const C& c) const {
-    for_each_spring<T>(
-        pulls<T>{q, stiffness()}, [&](Eigen::Index i, const T& stiff, const T& left, const T& right)
-                                      __attribute__((always_inline)) {
-                                        p[i] += (stiff - left) * c;
-                                        p[pairs() + i] += (right - stiff) * c;
-                                      });
+    for_each_spring(
+        q, [&](Eigen::Index i, const T& stiff, const T& left, const T& right) __attribute__((always_inline)) {
+          p[i] += (stiff - left) * c;
+          p[pairs() + i] += (right - stiff) * c;
+        });
   }
 
   /// As of fpu_chain: the energy of stiff spring j = 0..m-1, and their sum.
@@ -114,49 +120,26 @@ class long_fpu_chain {
   std::string description() const { return sentence("long_fpu_chain(pairs={}, omega={})", pairs(), omega()); }
 
  private:
-  double stiffness() const { return 0.5 * omega() * omega(); }
-
-  /// Pulls of springs, where `across` gives the stretch of one from coordinates.
-  template <class T>
-  struct pulls {
-    const vector<T, dimension>& q;
-    double k;
-    [[gnu::always_inline]] T stiff(const auto& across) const { return across(q) * k; }
-    [[gnu::always_inline]] T soft(const auto& across) const { return fpu_chain<>::quartic_pull(across(q)); }
-  };
-  /// By how much they change along v.
-  template <class T>
-  struct slopes {
-    const vector<T, dimension>& q;
-    const vector<T, dimension>& v;
-    double k;
-    [[gnu::always_inline]] T stiff(const auto& across) const { return across(v) * k; }
-    [[gnu::always_inline]] T soft(const auto& across) const {
-      return fpu_chain<>::slope_of_pull(across(q), across(v));
-    }
-  };
-
-  /// use(i, stiff, left, right) for stiff springs i = 0..m-1: what `of` says of it and of the soft ones on
-  /// either side. Blocks of soft ones go first: no turn of a loop waits for the one before, and no cube is
+  /// use(i, stiff, left, right) for stiff springs i = 0..m-1: its own pull and those of the soft ones on
+  /// either side. Blocks of soft pulls go first: no turn of a loop waits for the one before, and no cube is
   /// taken twice.
   template <class T>
-  void for_each_spring(const auto& of, const auto& use) const {
-    using column = vector<T, dimension>;
+  void for_each_spring(const vector<T, dimension>& q, const auto& use) const {
     constexpr Eigen::Index block = 64;
     const Eigen::Index m = pairs();
+    const double k = 0.5 * omega() * omega();
     T soft[block + 1];
     for (Eigen::Index first = 0; first < m; first += block) {
       const Eigen::Index end = std::min(first + block, m);
       const Eigen::Index inner_end = std::min(end, m - 1);
-      soft[0] = first == 0 ? of.soft([](const column& x) { return x[0]; })
-                           : of.soft([&](const column& x) { return T(x[first] - x[m + first - 1]); });
+      soft[0] = first == 0 ? fpu_chain<>::quartic_pull(q[0])
+                           : fpu_chain<>::quartic_pull(T(q[first] - q[m + first - 1]));
       for (Eigen::Index i = first; i < inner_end; ++i) {
-        soft[i - first + 1] = of.soft([&](const column& x) { return T(x[i + 1] - x[m + i]); });
+        soft[i - first + 1] = fpu_chain<>::quartic_pull(T(q[i + 1] - q[m + i]));
       }
-      if (end == m) soft[m - first] = of.soft([&](const column& x) { return T(-x[2 * m - 1]); });
+      if (end == m) soft[m - first] = fpu_chain<>::quartic_pull(T(-q[2 * m - 1]));
       for (Eigen::Index i = first; i < end; ++i) {
-        use(i, of.stiff([&](const column& x) { return T(x[m + i] - x[i]); }), soft[i - first],
-            soft[i - first + 1]);
+        use(i, T((q[m + i] - q[i]) * k), soft[i - first], soft[i - first + 1]);
       }
     }
   }
