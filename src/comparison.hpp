@@ -28,6 +28,7 @@ struct row {
   double nominal;      // the step as typed: of a whole step, or (equal cost) of an evaluation
   double step;         // that is taken
   bool is_learned = false;
+  bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
   std::optional<tabulated> coefficients{};
   std::string reason{};  // why it could not be used
   double evaluations_per_time = 0.0;

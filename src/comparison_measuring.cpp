@@ -127,6 +127,7 @@ void comparison::learn(row& its, journal& kept) {
   its.coefficients.emplace(
       family.name, family.letters, family.coefficients(its_theta),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
+  its.gains_nothing = found.at("fit").at("verdict") == std::string(to_string(verdict::nothing_gained));
   if (found.at("fit").at("usable").get<bool>()) return;
   its.reason = "the fit is not usable: ";
   its.reason += found.at("fit").at("reason").get<std::string>();

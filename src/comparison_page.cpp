@@ -150,11 +150,18 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
   }
 }
 
+/// "usable", "not usable", or "nothing gained over chin4a".
+std::string verdict_of(const json& fit) {
+  const auto verdict = fit["verdict"].get<std::string>();
+  const bool has_rival = verdict == to_string(nysalt::verdict::nothing_gained) && fit["rival"].is_string();
+  return has_rival ? verdict + " over " + fit["rival"].get<std::string>() : verdict;
+}
+
 void add_fits(page& report, const comparison& all) {
   if (all.fits().empty()) return;
   report.heading("What was learned");
   table fits(
-      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "usable"});
+      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict"});
   for (const auto& fit : all.fits()) {
     std::string parameters;
     for (const auto& [name, value] : fit["parameters"].items()) {
@@ -165,7 +172,7 @@ void add_fits(page& report, const comparison& all) {
     };
     fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters,
               number(fit["one_step_error"]), number(fit["learning_evaluations"]), number(fit["seconds"]),
-              fit["usable"].get<bool>() ? "yes" : "no"});
+              verdict_of(fit)});
   }
   report.table(std::move(fits));
 }

@@ -22,6 +22,8 @@ std::string to_string(mark which) {
       return "horizon";
     case mark::tail:
       return "tail";
+    case mark::formula:
+      return "formula";
     case mark::diverged:
       return "diverged";
   }
@@ -44,6 +46,10 @@ std::string meaning(mark which) {
       return "few trajectories decide the mean: it and its standard error say little; ranked by the median, "
              "as "
              "are all rows here";
+    case mark::formula:
+      return "learned, but nothing was gained: by the loss a classical method of the same cost, named with "
+             "the "
+             "fit, is as good";
     case mark::diverged:
       return "some trajectories diverged; of the others alone, and not ranked";
   }
@@ -100,6 +106,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
     result.push_back(mark::horizon);
   }
   if (has_tail(one)) result.push_back(mark::tail);
+  if (its.gains_nothing) result.push_back(mark::formula);
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }

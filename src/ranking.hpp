@@ -18,6 +18,7 @@ enum class mark {
   floor,      // no more than sampling makes
   horizon,    // beyond the time for which a path can be followed
   tail,       // few trajectories decide the mean
+  formula,    // learned, but a classical method of its cost is as good by the loss
   diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);
