@@ -7,6 +7,7 @@
 #include "catalogue.hpp"
 #include "comparison.hpp"
 #include "learning.hpp"
+#include "nysalt/learning/fit_summary.hpp"
 #include "ranking.hpp"
 #include "refusal.hpp"
 #include "seconds.hpp"

@@ -10,6 +10,7 @@
 #include "comparison_output.hpp"
 #include "comparison_pictures.hpp"
 #include "machine.hpp"
+#include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/report/page.hpp"
 #include "output.hpp"
 
