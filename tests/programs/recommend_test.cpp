@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
                      {"--budget 60", {"--horizon"}},
                      {"--budget 0.1 --horizon 1", {"--horizon", "shorter than one step"}},
                      {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
-                     {sound + "--metric nosuch", {"nosuch", "path, state, exchange, energy"}},
+                     {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
                      {sound + "--observable energy", {"--observable", "path", "not to state"}},
                      {sound + "--families nosuch", {"family 'nosuch'", "nystrom"}},
                      {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
