@@ -7,9 +7,16 @@ nysalt=$1
 folder=$2
 mkdir -p "$folder"
 
-two_stage=learned:nystrom,verlet,mclachlan2
+two_stage=learned:nystrom,verlet,mclachlan2,s_aia2
 larger=learned:fg4,learned:fg_chin,learned:aba4,learned:aba3_free
-fourth=pefrl,srkn6b,mclachlan_atela4,chin4a
+fourth=pefrl,srkn6b,mclachlan_atela4,chin4a,omelyan_fg4,omelyan5v
+# Their coefficients follow from the highest frequency, without data.
+fitted=phase_fitted_chin4a,phase_fitted_omelyan_fg4,phase_fitted_pefrl,phase_fitted_srkn6b
+all_learned=$larger,learned:nystrom,learned:aba5,learned:aba6,learned:bab3,learned:bab4,learned:bab5,learned:bab6
+all_learned=$all_learned,learned:aba4_free
+all_classical=verlet,mclachlan2,bcss2,bcss3,bcss4,predescu3,forest_ruth,pefrl,vefrl,omelyan5v,omelyan5p
+all_classical=$all_classical,mclachlan_atela4,mclachlan5,blanes_moan_s6,srkn6b,srkn11b,srkn14a,takahashi_imada,chin4a
+all_classical=$all_classical,omelyan_fg4
 equal_cost="--equal-cost --trajectories 96"
 
 say() { echo "== $*"; }
@@ -96,7 +103,7 @@ gains() { # COLUMNS TABLE...
         BEGIN { n = split(columns, column, " ") }
         $2 != step { end(); step = $2; least = "" }
         { error[$1] = $6 }
-        $1 ~ /^(verlet|mclachlan2|pefrl|srkn6b|mclachlan_atela4|chin4a)$/ && $6 != "" {
+        $1 !~ /^(learned|old):/ && $6 != "" {
           if (least == "" || $6 < least) { least = $6; best = $1 }
         }
         END { end() }'
@@ -109,32 +116,33 @@ stiff() { # NAME METRIC HORIZON METHODS STEPS
 learned_steps=0.0073,0.0087,0.0104,0.0124,0.0148,0.0177,0.0212,0.0254
 
 say "The stiff chain, omega = 50: the state on [0, 10]"
-stiff state_larger state 10 $larger $learned_steps
+stiff state_larger state 10 $larger,$fitted $learned_steps
 stiff state_fourth state 10 $fourth,mclachlan5 0.0018,0.0021,0.0025,0.003,0.0036,0.0043,0.0051,0.0061
 stiff state_two_stage state 10 $two_stage 0.00025,0.0003,0.00036
 draw stiff_state 'state error on [0, 10]' state_larger state_fourth state_two_stage
 
 say "The energy of its stiff springs on [0, 100]"
-stiff energy_larger path 100 $larger $learned_steps
-stiff energy_fourth path 100 $fourth,mclachlan5 0.0043,0.0051,0.0061,0.0073,0.0087
-stiff energy_two_stage path 100 $two_stage 0.0012,0.0014,0.0017
-stiff energy_near_pi path 100 learned:fg4,learned:aba4 0.0151,0.0154,0.0157,0.016,0.0164
-stiff energy_near_pi_3 path 100 learned:fg_chin,learned:aba3_free 0.0199,0.0204,0.0209,0.0214,0.0223
+stiff energy_larger relative 100 $larger,$fitted $learned_steps
+stiff exchange exchange 100 $larger,$fitted 0.0087,0.0124,0.0148,0.0163
+stiff energy_fourth relative 100 $fourth,mclachlan5 0.0043,0.0051,0.0061,0.0073,0.0087
+stiff energy_two_stage relative 100 $two_stage 0.0012,0.0014,0.0017
+stiff energy_near_pi relative 100 learned:fg4,learned:aba4 0.0151,0.0154,0.0157,0.016,0.0164
+stiff energy_near_pi_3 relative 100 learned:fg_chin,learned:aba3_free 0.0199,0.0204,0.0209,0.0214,0.0223
 draw stiff_energy 'error of I on [0, 100]' energy_larger energy_fourth energy_two_stage
 
 say "The same with exact rotations; soft evaluations are charged"
-compare rotation --system fpu $equal_cost --learn-horizon 2 --horizon 100 \
+compare rotation --system fpu $equal_cost --metric relative --learn-horizon 2 --horizon 100 \
   --methods learned:r_aba4,learned:r_aba6,learned:r_fg4,impulse,learned:fg4 \
   --steps 0.0148,0.0177,0.0212,0.0254,0.03,0.035,0.041,0.048,0.055
 resonances=0.0628318530718,0.125663706144,0.188495559215  # pi, 2 pi and 3 pi over omega
-compare resonances --system fpu --trajectories 96 --learn-horizon 2 --horizon 100 --steps $resonances \
+compare resonances --system fpu --metric relative --trajectories 96 --learn-horizon 2 --horizon 100 --steps $resonances \
   --methods impulse,learned:r_aba4,learned:r_aba6
 
 say "A stiffer chain, omega = 200"
 stiffer() { # NAME METHODS STEPS
-  compare "$1" --system fpu --omega 200 $equal_cost --fine-step 1e-4 --horizon 100 --methods "$2" --steps "$3"
+  compare "$1" --system fpu --omega 200 $equal_cost --metric relative --fine-step 1e-4 --horizon 100 --methods "$2" --steps "$3"
 }
-stiffer stiffer_larger learned:fg4,learned:fg_chin 0.0031,0.0036,0.0042,0.0048,0.0056,0.0064,0.0072,0.0082
+stiffer stiffer_larger learned:fg4,learned:fg_chin,phase_fitted_chin4a 0.0031,0.0036,0.0042,0.0048,0.0056,0.0064,0.0072,0.0082
 stiffer stiffer_fourth pefrl,mclachlan_atela4,chin4a,mclachlan5 0.0012,0.0014,0.0016
 
 say "Systems that are not stiff"
@@ -142,7 +150,7 @@ soft() { # SYSTEM LEARN_HORIZON STEPS OPTION...
   system=$1 learn_horizon=$2 steps=$3
   shift 3
   compare "$system" --system "$system" $equal_cost --metric state --horizon 10 --steps "$steps" \
-    --learn-horizon "$learn_horizon" --methods $larger,$two_stage,$fourth,mclachlan5,takahashi_imada "$@"
+    --learn-horizon "$learn_horizon" --methods $all_learned,$all_classical "$@"
 }
 soft henon_heiles 20 0.25,0.5
 soft pendulum 40 0.5,1
@@ -190,6 +198,8 @@ say "Tables"
   echo "The largest step per evaluation before the error of the state on [0, 10] comes to 1 %:"
   printf '\n| method | step |\n|---|---|\n'
   first_crossing 0.01 state_larger state_fourth state_two_stage
+  printf '\nExchange of the stiff energies on [0, 100]:\n\n| method | step | error |\n|---|---|---|\n'
+  rows exchange | sort -t , -s -k 1,1 | awk -F , '{ printf "| `%s` | %s | %s |\n", $1, $2, $6 == "" ? "-" : sprintf("%.2e", $6) }'
   printf '\nThe same for I on [0, 100]; with rotations soft evaluations count:\n\n| method | step |\n|---|---|\n'
   first_crossing 0.01 energy_larger energy_fourth energy_two_stage
   first_crossing 0.01 rotation | grep 'r_\|impulse'
@@ -203,12 +213,8 @@ say "Tables"
   rows resonances | awk -F , '{ printf "| `%s` | %.4f | %.1e |\n", $1, $2, $6 }'
 } >"$folder/thresholds.md"
 
-others="learned:fg_chin learned:aba3_free learned:aba4 learned:nystrom mclachlan5 takahashi_imada"
-gains "learned:fg4 $others" henon_heiles pendulum kepler lennard_jones phi4 >"$folder/gains.md"
+python3 "$(dirname "$0")/families_tables.py" "$folder" henon_heiles pendulum kepler lennard_jones phi4 >"$folder/gains.md"
 gains "old:fg4 old:fg_chin old:aba3_free learned:fg4" "phi4, spread 0.5" "phi4, spread 1.5" "phi4, spread 2" \
   "henon_heiles, spread 0.5" "henon_heiles, spread 1.5" "kepler, eccentricity 0.4" "kepler, eccentricity 0.75" \
   >"$folder/other_laws.md"
-awk -F '|' 'NR > 2 { print $6 + 0 }' "$folder/gains.md" | sort -g |
-  awk '{ gain[NR] = $1 } END { printf "\nMedian gain of learned:fg4: %.2g\n", (gain[NR/2] + gain[NR/2 + 1])/2 }' \
-  >>"$folder/gains.md"
 cat "$folder/thresholds.md" "$folder/gains.md" "$folder/other_laws.md"

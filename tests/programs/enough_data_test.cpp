@@ -104,7 +104,7 @@ BOOST_FIXTURE_TEST_CASE(starts_like_those_that_were_learned_from_give_no_warning
   }
   const auto compared = json_of(run(folder,
                                     "compare --methods scheme.json,verlet --steps 0.03 --fine-step 0.001 "
-                                    "--horizon 0.03 --trajectories 400 --json"));
+                                    "--horizon 0.3 --trajectories 400 --json"));
   BOOST_TEST(!warns_of_energies(compared["warnings"].dump()));
 }
 
@@ -122,7 +122,7 @@ BOOST_FIXTURE_TEST_CASE(starts_of_other_energies_give_one, learned) {
   BOOST_TEST(warns_of_energies(json_of(quiet)["warnings"].dump()));
   const auto compared = json_of(run(folder,
                                     "compare --methods scheme.json,verlet --steps 0.03 --fine-step 0.001 "
-                                    "--horizon 0.03 --trajectories 20 --spread 3 --json"));
+                                    "--horizon 0.3 --trajectories 20 --spread 3 --json"));
   BOOST_TEST(warns_of_energies(compared["warnings"].dump()));
 }
 
