@@ -287,7 +287,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   all_refused(scratch("recommend_one"),
               {{"recommend --horizon 1 --error 0.1 --trajectories 1", {"--trajectories", "at least 2"}}});
   const std::string sound = "--budget 60 --horizon 1 ";
-<<<<<<< HEAD
   all_refused(
       scratch("recommend_refused"),
       after("recommend --trajectories 3",
@@ -302,7 +301,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
              {"--budget 60", {"--horizon"}},
              {"--budget 0.1 --horizon 1", {"--horizon", "shorter than one step"}},
              {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
-             {sound + "--metric nosuch", {"nosuch", "path, state, exchange, energy"}},
+             {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
              {sound + "--observable energy", {"--observable", "path", "not to state"}},
              {sound + "--families nosuch", {"family 'nosuch'", "nysalt list"}},
              {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
@@ -312,26 +311,4 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
              {sound + "--learn-trajectories 0", {"--learn-trajectories", "at least 1"}},
              {sound + "--metric acceptance --friction 1 --temperature 1", {"acceptance", "bath"}},
              {sound + "--output nowhere/scheme.json", {"no folder nowhere"}}}));
-=======
-  all_refused(scratch("recommend_refused"),
-              after("recommend --trajectories 3",
-                    {{"--horizon 1", {"--budget", "--error"}},
-                     {"--horizon 1 --budget 60 --error 0.1", {"one of --budget", "--error"}},
-                     {"--horizon 1 --budget 0", {"--budget", "positive"}},
-                     {"--horizon 1 --error -1", {"--error", "positive"}},
-                     {"--budget 60 --horizon 0", {"--horizon", "positive"}},
-                     {"--budget 60", {"--horizon"}},
-                     {"--budget 0.1 --horizon 1", {"--horizon", "shorter than one step"}},
-                     {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
-                     {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
-                     {sound + "--observable energy", {"--observable", "path", "not to state"}},
-                     {sound + "--families nosuch", {"family 'nosuch'", "nystrom"}},
-                     {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
-                     {sound + "--families aba3_free --reversible", {"aba3_free", "not reversible"}},
-                     {sound + "--fix nosuch=1", {"--fix", "nosuch"}},
-                     {sound + "--fix b1", {"--fix", "name=number"}},
-                     {sound + "--learn-trajectories 0", {"--learn-trajectories", "at least 1"}},
-                     {sound + "--metric acceptance --friction 1 --temperature 1", {"acceptance", "bath"}},
-                     {sound + "--output nowhere/scheme.json", {"no folder nowhere"}}}));
->>>>>>> errors
 }
