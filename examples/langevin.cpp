@@ -84,6 +84,6 @@ int main() {
 // learned:nystrom_symmetric: b1 = 0.523, beta1 = 0.408, usable: yes
 //
 //                    path error of H   energy of the bond / kT
-// baoab                        0.579          0.713 +- 0.008
-// baoab_2x                     0.227          0.921 +- 0.010
-// nystrom_symmetric            0.292          1.001 +- 0.011
+// baoab                        0.295          0.713 +- 0.008
+// baoab_2x                     0.111          0.921 +- 0.010
+// nystrom_symmetric            0.126          1.001 +- 0.011
