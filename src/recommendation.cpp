@@ -285,11 +285,24 @@ void recommendation::consider(candidate its) {
 }
 
 trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::uint64_t seed) const {
-  return {step, steps_within("--horizon", command_.horizon, step), count, seed, common_.threads};
+  trajectories_plan plan{step, steps_within("--horizon", command_.horizon, step), count, seed,
+                         common_.threads};
+  if (!metric().is_along_paths()) return plan;
+  plan.steps = steps_beyond("--horizon", command_.horizon, step);  // errors are means over all of it
+  plan.horizon = command_.horizon;
+  return plan;
 }
 
 void recommendation::prepare(candidate& its, const std::vector<double>& from, bool from_there_alone) {
   its.reason.clear();
+  const double samples = command_.horizon / its.step;
+  if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
+    its.reason = fmt::format(
+        "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean "
+        "over time takes",
+        command_.horizon, samples, its.step, fewest_samples);
+    return;
+  }
   try {
     if (!its.is_learned()) {
       std::vector<std::string> ignored;
