@@ -11,7 +11,7 @@ two_stage=learned:nystrom,verlet,mclachlan2,s_aia2
 larger=learned:fg4,learned:fg_chin,learned:aba4,learned:aba3_free
 fourth=pefrl,srkn6b,mclachlan_atela4,chin4a,omelyan_fg4,omelyan5v
 # Their coefficients follow from the highest frequency, without data.
-fitted=phase_fitted_chin4a,phase_fitted_omelyan_fg4,phase_fitted_pefrl,phase_fitted_srkn6b
+fitted=phase_fitted_mclachlan5,phase_fitted_chin4a,phase_fitted_omelyan_fg4,phase_fitted_pefrl,phase_fitted_srkn6b
 all_learned=$larger,learned:nystrom,learned:aba5,learned:aba6,learned:bab3,learned:bab4,learned:bab5,learned:bab6
 all_learned=$all_learned,learned:aba4_free
 all_classical=verlet,mclachlan2,bcss2,bcss3,bcss4,predescu3,forest_ruth,pefrl,vefrl,omelyan5v,omelyan5p
