@@ -20,6 +20,7 @@
 #include "nysalt/losses/energy_error.hpp"
 #include "nysalt/losses/own_loss.hpp"
 #include "nysalt/losses/state_error.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 
 namespace nysalt {
 
@@ -194,6 +195,7 @@ learning_problem make_problem(const run_time_family& family, const S& system,
   auto starts = std::make_shared<std::vector<phase_point<double, S::dimension>>>(
       starts_of_trial(system, data, held_out));
   problem.trial_starts = std::ssize(*starts);
+  if constexpr (HasModes<S>) problem.frequency_to_fit = frequency_to_fit(system);
   const auto run = [&system, starts, step = data.step, seed = held_out.seed, threads = options.threads](
                        const run_time_word& letters, const std::vector<double>& coefficients,
                        std::int64_t trajectories, std::int64_t steps) {

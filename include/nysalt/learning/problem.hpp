@@ -73,8 +73,9 @@ struct learning_problem {
   /// What each held-out trajectory of this rank adds to the loss of another method, with the letters O of the
   /// family's word; nothing if the system does not serve its letters.
   std::function<std::optional<rival_method>(const tabulated&)> rival;
-  stability_guard guard;  ///< knows the frequencies of the system
-  fit_summary facts;      ///< what is known before a search
+  stability_guard guard;          ///< knows the frequencies of the system
+  double frequency_to_fit = 0.0;  ///< the highest of the modes; 0: none are declared
+  fit_summary facts;              ///< what is known before a search
 };
 
 }  // namespace nysalt

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -91,13 +90,12 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
   require_in_range(family, first);
 }
 
-/// The member of the family whose step is exact on an oscillator of the highest frequency that is met often;
-/// nothing if there is none.
+/// The member of the family whose step is exact on an oscillator of the highest mode's frequency, or, where
+/// no modes are declared, of the highest frequency that is met often; nothing if there is none.
 inline std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
-  double highest = 0.0;
-  for (const auto& band : problem.guard.frequencies(met::often)) {
-    // Of a band from zero the end; of a narrow one the middle, where the modes are.
-    highest = std::max(highest, band.low > 0.0 ? std::midpoint(band.low, band.high) : band.high);
+  double highest = problem.frequency_to_fit;
+  if (highest == 0.0) {
+    for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
   }
   const double z = problem.step * highest;
   if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
