@@ -148,7 +148,7 @@ void recommendation::confirm(contest& among, candidate& its) {
   }
 }
 
-/// As `run` would warn.
+/// As `run` would warn, and `stability` call it not stable.
 std::string recommendation::objection_to(const candidate& its) const {
   const auto [found, is_new] = objections_.try_emplace({its.source.typed, its.step});
   if (!is_new) return found->second;
@@ -159,10 +159,10 @@ std::string recommendation::objection_to(const candidate& its) const {
                                                     seed_for(role::test, common_.seed))) {
     found->second = *warning;
   } else {
-    constexpr std::int64_t steps = 10'000;  // more than most race for: a winner is taken for longer runs
-    found->second = failed_trial(name, *its.method, *system_, its.step, steps,
-                                 seed_for(role::test, common_.seed), common_.threads)
-                        .value_or("");
+    const auto trial =
+        try_step(*its.method, *system_, its.step, seed_for(role::test, common_.seed), common_.threads);
+    const std::string why = trial.objection();
+    if (!why.empty()) found->second = fmt::format("at step {:g}: {}", its.step, why);
   }
   return found->second;
 }
