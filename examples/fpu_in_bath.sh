@@ -6,7 +6,7 @@ set -eu
 
 # [bath]
 bath="--system fpu --friction 0.01 --sigma 0.05"
-nysalt learn $bath --placement symmetric --step 0.033 --horizon 1 --output scheme.json | head -n 3
+nysalt learn $bath --family nystrom --placement symmetric --step 0.033 --horizon 1 --output scheme.json | head -n 3
 nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 --horizon 1 --trajectories 400
 nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 --horizon 20 --trajectories 200 \
   --metric acf

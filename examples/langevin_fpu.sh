@@ -9,7 +9,7 @@ system="--system fpu --friction 0.01 --sigma 0.05"
 learning="--learn-trajectories 512 --learn-horizon 1"
 
 echo "== Learn a scheme for the step 0.019, with half of the bath before it and half behind"
-"$nysalt" learn $system --trajectories 512 --horizon 1 --step 0.019 --output "$folder/scheme.json"
+"$nysalt" learn $system --family nystrom --trajectories 512 --horizon 1 --step 0.019 --output "$folder/scheme.json"
 
 echo
 echo "== Errors along paths; all see the same noise"
