@@ -79,8 +79,8 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
                   .random_starts = options.random_starts,
                   .fixed = {options.fixed.begin(), options.fixed.end()},
                   .guarded = options.guarded,
-                  .check_force = options.check_force,
                   .planned_steps = options.planned_steps,
+                  .check_force = options.check_force,
                   .seed = options.seed,
                   .max_iterations = options.max_iterations,
                   .threads = options.threads};
