@@ -2,7 +2,6 @@
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -40,7 +39,7 @@ Eigen::MatrixXd potential_hessian(force_jacobian<F, S>& jacobian, const vector<d
   return 0.5 * (hessian + hessian.transpose());
 }
 
-/// A factor L of K''(p) = L L^T; empty where K''(p) is not positive definite.
+/// A factor L of K''(p) = L L^T; empty where K''(p) is not positive semidefinite.
 template <System S>
 Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimension>& p) {
   const Eigen::Index n = size(system);
@@ -62,15 +61,18 @@ Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimensio
       lifted[j] = D(p[j]);
       for (Eigen::Index i = 0; i < n; ++i) hessian(i, j) = v[i].derivative[0];
     }
-    const Eigen::LLT<Eigen::MatrixXd> factors(hessian);
-    if (factors.info() != Eigen::Success || !hessian.allFinite()) return {};
-    return factors.matrixL();
+    if (!hessian.allFinite()) return {};
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (hessian + hessian.transpose()));
+    const Eigen::VectorXd& squares = solver.eigenvalues();
+    constexpr double rounding = 1e-12;  // a coordinate that runs at constant speed has none
+    if (squares.minCoeff() < -rounding * std::abs(squares.maxCoeff())) return {};
+    return solver.eigenvectors() * squares.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   }
 }
 }  // namespace detail
 
 /// Frequencies of the linearised motion at (q, p), from low to high: square roots of the eigenvalues of
-/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive definite. Throws std::invalid_argument
+/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws std::invalid_argument
 /// if a derivative is not finite. Cost: as many directional derivatives as there are degrees of freedom, and
 /// the eigenvalues of a matrix of that size.
 template <SeparableSystem S>

@@ -61,6 +61,8 @@ void extend_data(const S& system, const E& ensemble, const R& reference, data_op
     data.energies->include(further.energies->low);
     data.energies->include(further.energies->high);
   }
+  data.further_starts = typical_and_energetic_starts(
+      system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   data.evaluations += further.evaluations;
   data.shared.reset();
   if (!all.ranks().is_alone()) {
