@@ -11,7 +11,7 @@ nysalt stability --method scheme.json --system fpu --step 0.045
 # [/stability]
 # [compare]
 nysalt compare --equal-cost --system fpu --steps 0.005,0.015 --metric state --horizon 10 --trajectories 48 \
-  --methods learned:fg_chin,srkn6b,chin4a,pefrl,verlet --output report
+  --methods learned:fg_chin,phase_fitted_mclachlan5,srkn6b,chin4a,pefrl,verlet --output report
 # [/compare]
 # [run]
 nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observables stiff_energy,energy \
