@@ -53,6 +53,7 @@ struct trial_result {
     return energy_was_watched && steps >= fewest_steps_for_drift &&
            deviation > std::sqrt(stretches) * first_deviation + rounding;
   }
+  /// Whether the trial was run, no trajectory diverged and the energy did not drift.
   bool passed() const { return not_run.empty() && !lost && !energy_wanders(); }
 
   /// One sentence on why it failed; empty if it passed or was not run.

@@ -105,11 +105,12 @@ struct frequencies_along {
   std::vector<std::vector<double>> of_state;  ///< of each state, from low to high
   bool are_complete = false;                  ///< false: of each state the highest alone, or none at all
 
-  /// The highest of all, and the number of its state; 0 and 0 if none is known.
+  /// A frequency and where it is met.
   struct maximum {
-    double frequency = 0.0;
-    std::size_t state = 0;
+    double frequency = 0.0;  ///< of the linearised motion
+    std::size_t state = 0;   ///< number of the state
   };
+  /// The highest of all, and where it is met; 0 and 0 if none is known.
   maximum highest() const {
     maximum result;
     for (std::size_t k = 0; k < of_state.size(); ++k) {
