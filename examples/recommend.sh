@@ -18,33 +18,49 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # henon_heiles(), 100 fresh trajectories over 20, state error, 5 evaluations per unit time
 # starts: normal_around(0.1, 0.1)
 #
-# method            order  step  evaluations/time  ns/time     error  standard error  diverged
-# ----------------  -----  ----  ----------------  -------  --------  --------------  --------
-# learned:bab6          2   1.2               5.1~1.24e-05         1.8e-06     0/100
-# learned:fg_chin       2   0.6               5.1~5.73e-05         1.6e-06     0/100
-# chin4a                4   0.6               5.1~9.87e-05         6.2e-06     0/100
-# blanes_moan_s6        4   1.2               5.1~1.14e-04         1.0e-05     0/100
-# srkn6b                4   1.2               5.1~1.20e-04         6.7e-06     0/100
-# srkn11b               6   2.2               5.1~1.48e-04         2.0e-05     0/100
-# mclachlan_atela4      4   0.8               5.0~1.49e-04         8.8e-06     0/100
-# mclachlan5            4     1               5.0~1.51e-04         2.0e-05     0/100
-# pefrl                 4   0.8               5.0~1.66e-04         1.5e-05     0/100
-# srkn14a               6   2.8               5.0~2.87e-04         3.2e-05     0/100
-# impulse               2   0.2               5.0~6.57e-04         1.1e-04     0/100
-# takahashi_imada       2   0.4               5.0~2.27e-03         1.8e-04     0/100
-# verlet_aba            2   0.2               5.0~3.98e-03         1.4e-04     0/100
-# verlet                2   0.2               5.0~4.08e-03         1.5e-04     0/100
-# bcss2                 2   0.4               5.0~4.25e-03         1.4e-04     0/100
-# bcss3                 2   0.6               5.1~4.51e-03         1.5e-04     0/100
-# mclachlan2            2   0.4               5.0~4.60e-03         1.6e-04     0/100
-# s_aia2                2   0.4               5.0~4.61e-03         1.6e-04     0/100
-# forest_ruth           4   0.6               5.0~2.75e-02         1.5e-03     0/100
+# method                    order  step  evaluations/time  ns/time     error  standard error  95 % err below  diverged
+# ------------------------  -----  ----  ----------------  -------  --------  --------------  --------------  --------
+# learned:bab6                  2   1.2               5.0~1.23e-05            tail        2.35e-05     0/100
+# phase_fitted_chin4a           4   0.6               5.0~3.18e-05            tail        6.65e-05     0/100
+# phase_fitted_srkn6b           4   1.2               5.0~3.89e-05            tail        7.65e-05     0/100
+# learned:fg_chin               2   0.6               5.0~5.67e-05         1.6e-06        8.06e-05     0/100
+# phase_fitted_mclachlan5       4     1               5.0~6.53e-05            tail        1.27e-04     0/100
+# phase_fitted_pefrl            4   0.8               5.0~6.88e-05            tail        1.30e-04     0/100
+# chin4a                        4   0.6               5.0~9.75e-05            tail        1.82e-04     0/100
+# omelyan5v                     4     1               5.0~1.13e-04            tail        1.90e-04     0/100
+# blanes_moan_s6                4   1.2               5.0~1.13e-04            tail        1.91e-04     0/100
+# omelyan_fg4                   4   0.8               5.0~1.14e-04            tail        1.98e-04     0/100
+# srkn6b                        4   1.2               5.0~1.19e-04            tail        2.10e-04     0/100
+# mclachlan5                    4     1               5.0~1.48e-04            tail        2.37e-04     0/100
+# srkn11b                       6   2.2               5.0~1.38e-04            tail        2.58e-04     0/100
+# mclachlan_atela4              4   0.8               5.0~1.45e-04            tail        2.59e-04     0/100
+# pefrl                         4   0.8               5.0~1.63e-04            tail        2.67e-04     0/100
+# omelyan5p                     4     1               5.0~2.53e-04            tail        4.48e-04     0/100
+# srkn14a                       6   2.8               5.0~2.75e-04            tail        4.86e-04     0/100
+# phase_fitted_vefrl            4   0.8               5.0~2.47e-04            tail        5.11e-04     0/100
+# impulse                       2   0.2               5.0~6.52e-04            tail        1.23e-03     0/100
+# vefrl                         4   0.8               5.0~1.10e-03            tail        1.87e-03     0/100
+# takahashi_imada               2   0.4               5.0~2.25e-03            tail        3.59e-03     0/100
+# verlet                        2   0.2               5.0~4.05e-03            tail        6.12e-03     0/100
+# verlet_aba                    2   0.2               5.0~3.95e-03         1.4e-04        6.22e-03     0/100
+# bcss2                         2   0.4               5.0~4.19e-03         1.4e-04        6.35e-03     0/100
+# bcss3                         2   0.6               5.0~4.45e-03         1.5e-04        6.74e-03     0/100
+# mclachlan2                    2   0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
+# s_aia2                        2   0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
+# predescu3                     2   0.6               5.0~4.66e-03         1.6e-04        6.91e-03     0/100
+# bcss4                         2   0.8               5.0~4.76e-03         1.6e-04        7.10e-03     0/100
+# forest_ruth                   4   0.6               5.0~2.72e-02            tail        4.61e-02     0/100
+# phase_fitted_omelyan_fg4      4   0.8               5.0~3.15e-05            tail               -     0/100
+# phase_fitted_omelyan5v        4     1               5.0~2.71e-05            tail               -     0/100
+# tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than
+# phase_fitted_omelyan_fg4: at step 0.8: in a trial run of 20000 steps, 1 of 192 trajectories diverge, trajectory 128 at step 1137
+# phase_fitted_omelyan5v: at step 1: in a trial run of 20000 steps, 1 of 192 trajectories diverge, trajectory 128 at step 285
 #
-# Take learned:bab6 at step 1.2: its error is 8 times smaller than that of chin4a, the best classical method (by 8.63e-05 +- 4.7e-06).
+# Take learned:bab6 at step 1.2: its error is 3.34 times smaller (95 %: 2.59 to 4.08) than that of phase_fitted_chin4a, the best classical method, at as many evaluations~
 # Written: best.json
 # 1 trajectories of 1000 steps, 6001 force evaluations each, ~ s
 # Written: energy.csv
 # t =    0  H = 0.0088
 # t =  600  H = 0.0088
 # t = 1200  H = 0.0088
-# A tie: learned:fg_chin and chin4a differ by 8.5e-05 +- 8.1e-05 only. The latter needs no learning: --method chin4a --step 0.75.
+# A tie: learned:fg_chin and chin4a cannot be told apart (the ratio of their errors is 1.23, 95 %: 0.592 to 2.52). The latter needs no learning: --method chin4a --step 0.75. In the same seconds ~
