@@ -61,7 +61,7 @@ do for [cost = 1:2] {
   set xlabel cost == 1 ? 'force evaluations per unit time' : 'nanoseconds per unit time'
   plot for [k = 0:blocks-1] '$picture.dat' index k using cost:3:4 with yerrorlines title columnheader(1) \\
     lc rgb (k < learned ? '#D55E00' : '#444444') lw (k < learned ? 2 : 1) \\
-    pt int(k < learned ? word(filled, k + 1) : word(hollow, k + 1 - learned))
+    pt int(k < learned ? word(filled, k % 5 + 1) : word(hollow, (k - learned) % 8 + 1))
 }
 END
   (cd "$folder" && gnuplot "$picture.gp") || echo "   $picture is not drawn: that takes gnuplot"
