@@ -17,7 +17,7 @@ BOOST_AUTO_TEST_CASE(a_repeated_method_is_its_steps_one_after_the_other) {
   draws random;
   const henon_heiles galaxy;
   constexpr double h = 0.3;
-  for (const auto& method : classical_methods()) {
+  for (const auto& method : nysalt::classical_methods()) {
     if (method.letters().letters().find('R') != std::string::npos) continue;
     for (const int times : {1, 2, 3}) {
       const auto whole = repeated(method, times);
@@ -44,5 +44,5 @@ BOOST_AUTO_TEST_CASE(methods_of_a_cost_take_as_many_evaluations) {
 
 BOOST_AUTO_TEST_CASE(letters_of_a_bath_and_no_step_are_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([] { repeated(tabulated(baoab{}), 2); }, {"BAOAB"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { repeated(classical_methods().front(), 0); }, {"0 steps"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { repeated(nysalt::classical_methods().front(), 0); }, {"0 steps"}));
 }
