@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -97,7 +98,7 @@ struct trial_result {
 /// noise, and without looking at H. Trajectories are run in blocks; after a block in which one diverged it
 /// stops. Neither lanes nor threads change a bit. Throws std::invalid_argument if the method does not suit
 /// the system, there are no starts or steps, or a start is not finite. Cost: starts * steps steps.
-/// Trajectories that diverge under an accurate method too, S6 [blanes_moan_2002] in sixteenths of a step, are
+/// Trajectories that diverge under an accurate method too, S6 [blanes_moan_2002] in parts of a step, are
 /// left out: their motion is not confined.
 template <SeparableSystem S>
 trial_result trial_run(const S& system, const tabulated& method, double step,
@@ -107,7 +108,6 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
   constexpr std::int64_t block = 64;
   // Every seventh step: no low-order resonance has this period.
   constexpr std::int64_t every = 7;
-  constexpr int finer = 16;
   trial_result result;
   result.steps = options.steps;
   if constexpr (HasEnergy<S>) result.energy_was_watched = true;
@@ -155,29 +155,43 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
       return make_stepper(system, one, h);
     }
   };
-  // Whether the motion from these starts leaves any bound up to twice the steps at which they were lost.
+  // Whether an accurate method loses a trajectory too: at a fine step and, so that it is not its own
+  // instability, at a finer one.
+  const auto is_unconfined = [&](const std::vector<diverged_trajectory>& some) {
+    std::vector<phase_point<double, S::dimension>> at;
+    for (const auto& one : some) at.push_back(starts[static_cast<std::size_t>(one.trajectory)]);
+    std::vector<bool> result(some.size(), true);
+    for (const int finer : {8, 32}) {
+      const auto accurate = stepper_of(tabulated(blanes_moan_s6{}), step / finer);
+      const auto diverged_at = integrate_ensemble<T>(
+          accurate, listed<S::dimension>(at),
+          {.trajectories = std::ssize(at),
+           .steps = finer * options.steps,
+           .every = finer * options.steps,
+           .threads = options.threads},
+          2, [](const auto&, std::span<T>) {}, [](auto&&...) {});
+      for (std::size_t k = 0; k < some.size(); ++k) result[k] = result[k] && diverged_at[k].has_value();
+      if (std::ranges::none_of(result, std::identity{})) break;
+    }
+    return result;
+  };
+  // A few at a time: the first that the motion does not lose decides.
   const auto leave_out_unconfined = [&](const std::vector<diverged_trajectory>& lost) {
     if constexpr (HasBath<S>) {
       if (system.bath().acts()) return;
     }
-    std::vector<phase_point<double, S::dimension>> at;
-    std::int64_t steps = 0;
-    for (const auto& one : lost) {
-      at.push_back(starts[static_cast<std::size_t>(one.trajectory)]);
-      steps = std::max(steps, std::min(2 * one.step + 100, options.steps));
-    }
-    const auto accurate = stepper_of(tabulated(blanes_moan_s6{}), step / finer);
-    const auto diverged_at = integrate_ensemble<T>(
-        accurate, listed<S::dimension>(at),
-        {.trajectories = std::ssize(at),
-         .steps = finer * steps,
-         .every = finer * steps,
-         .threads = options.threads},
-        2, [](const auto&, std::span<T>) {}, [](auto&&...) {});
-    for (std::size_t k = 0; k < lost.size(); ++k) {
-      if (!diverged_at[k]) continue;
-      of_trajectory[static_cast<std::size_t>(lost[k].trajectory)].is_left_out = true;
-      ++result.unconfined;
+    constexpr std::size_t few = 8;
+    for (std::size_t begin = 0; begin < lost.size(); begin += few) {
+      const std::size_t end = std::min(begin + few, lost.size());
+      const std::vector<diverged_trajectory> some(lost.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                  lost.begin() + static_cast<std::ptrdiff_t>(end));
+      const auto unconfined = is_unconfined(some);
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        if (!unconfined[k]) continue;
+        of_trajectory[static_cast<std::size_t>(some[k].trajectory)].is_left_out = true;
+        ++result.unconfined;
+      }
+      if (!std::ranges::all_of(unconfined, std::identity{})) return;
     }
   };
   const auto stepper = stepper_of(method, step);

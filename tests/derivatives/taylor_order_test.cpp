@@ -57,6 +57,8 @@ taylor_orders order_in_other_coordinates(double c) {
 BOOST_AUTO_TEST_CASE(methods_have_the_order_that_they_declare) {
   draws random;
   for (const auto& method : methods_as_data(random)) {
+    // At a fixed z these have the order 2; their own is that of h -> 0 at a fixed frequency (order_test.cpp).
+    if (method.name().starts_with("phase_fitted")) continue;
     const auto found = taylor_order(method);
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
       BOOST_TEST(found.quadratic_kinetic == method.order);

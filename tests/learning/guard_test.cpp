@@ -78,19 +78,19 @@ BOOST_AUTO_TEST_CASE(an_unstable_optimum_is_not_handed_out) {
     BOOST_TEST(says(guarded.summary.full(), "held by the guard"));
     BOOST_TEST(largest_half_trace(guarded, step) <= 1.0 + rounding);
     BOOST_TEST((guarded.theta - unguarded.theta).norm() > 1e-3);
-    BOOST_TEST(guarded.summary.loss > unguarded.summary.loss);
+    // From equal steps the search ends in a poor minimum: a member that was known is handed out instead.
+    BOOST_TEST(guarded.summary.held_out_loss < unguarded.summary.held_out_loss);
     BOOST_TEST(guarded.summary.held_out_loss <= guarded.summary.held_out_start_loss);
   }
 }
 
-BOOST_AUTO_TEST_CASE(where_the_optimum_is_stable_the_guard_changes_nothing) {
+BOOST_AUTO_TEST_CASE(where_the_optimum_is_stable_what_is_handed_out_is_not_worse) {
   for (const double step : {0.04, 0.08}) {
     const auto [guarded, unguarded] = fits_at(step);
     BOOST_TEST_CONTEXT(guarded.summary.full()) {
-      BOOST_TEST((guarded.theta == unguarded.theta));
+      BOOST_TEST(unguarded.summary.usable);
       BOOST_TEST(guarded.summary.usable);
-      BOOST_TEST(!guarded.summary.is_held_by_guard);
-      BOOST_TEST(guarded.summary.unguarded.empty());
+      BOOST_TEST(guarded.summary.held_out_loss <= unguarded.summary.held_out_loss);
       BOOST_TEST(largest_half_trace(guarded, step) <= 1.0 + rounding);
     }
   }

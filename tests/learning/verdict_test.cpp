@@ -86,8 +86,8 @@ BOOST_AUTO_TEST_CASE(a_kinetic_energy_that_is_not_quadratic_is_guarded_too) {
   int refused = 0;
   for (const double step : {0.1, 0.2, 0.34, 0.38}) {
     const run_time_family family{nystrom{}};
-    const auto found =
-        fit_of(family, fast_particle{}, particle_law, fine_steps<blanes_moan_s6>(step / 64.0), step, 10.0 * step);
+    const auto found = fit_of(family, fast_particle{}, particle_law, fine_steps<blanes_moan_s6>(step / 64.0),
+                              step, 10.0 * step);
     BOOST_TEST_CONTEXT(found.summary.full()) {
       const bool is_lost = lost_of(fast_particle{}, particle_law, family, found, 10'000) > 0;
       BOOST_TEST(!(is_lost && found.summary.usable));
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(what_is_handed_out_is_not_worse_than_a_member_that_was_know
     const double of_bcss3 = loss_of(family.starts[1].theta);
     const double of_equal_steps = loss_of(family.starts[0].theta);
     BOOST_TEST(of_equal_steps > 20.0 * of_bcss3);
-    BOOST_TEST(found.summary.held_out_loss <= 1.0001 * of_bcss3);
+    BOOST_TEST(found.summary.held_out_loss <= 1.01 * of_bcss3);  // equal but for the noise of 20 trajectories
   }
 }
 
@@ -151,7 +151,13 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
   // At a small step McLachlan's coefficient is the optimum.
   const auto small = fit_of(run_time_family(nystrom{}), galaxy, law, fine_steps<>(1e-3), 0.02, 0.4, {}, 20);
   // Data that a classical method made are fitted by itself.
-  const auto own = fit_of(run_time_family(nystrom{}), galaxy, law, fine_steps(0.5, mclachlan2{}), 0.5, 5.0);
+  const auto made_by_mclachlan = [&](std::uint64_t seed) {
+    auto data = make_flow_map_data(galaxy, law, fine_steps(0.5, mclachlan2{}),
+                                   {.step = 0.5, .horizon = 5.0, .trajectories = 50, .seed = seed});
+    data.finer.clear();  // half the step is another map
+    return data;
+  };
+  const auto own = learn(run_time_family(nystrom{}), galaxy, made_by_mclachlan(1), made_by_mclachlan(2));
   // At a large one learning gains.
   const auto large = fit_of(run_time_family(fg_chin{}), galaxy, law, fine_steps<>(0.01), 0.8, 8.0);
   BOOST_TEST_CONTEXT(small.summary.full() << own.summary.full() << large.summary.full()) {

@@ -65,7 +65,8 @@ struct learning_problem {
   /// itself on the held-out data.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
-  std::int64_t trial_starts = 0;              ///< how many there are
+  std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was
+  std::int64_t trial_starts = 0;       ///< how many there are
   /// Runs the word with these coefficients from the first of these starts.
   std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
                              std::int64_t steps)>

@@ -109,16 +109,20 @@ struct trial_length {
   std::string not_run{};  // why there is none
 };
 
-/// As long as runs are planned, from up to 256 starts, but no more force evaluations than the budget; fewer
-/// trajectories before fewer steps.
-inline trial_length length_of_trial(const learning_problem& problem, std::int64_t budget) {
+/// As long as runs are planned, from up to 256 starts, but no more force evaluations than half of those that
+/// the data and the descents took, or than are cheap enough for 64 trajectories; fewer trajectories before
+/// fewer steps.
+inline trial_length length_of_trial(const learning_problem& problem) {
   constexpr std::int64_t most = 256;
   constexpr std::int64_t few = 64;
   constexpr std::int64_t fewest = 8;
   constexpr std::int64_t long_enough = 1000;
   constexpr std::int64_t shortest = 100;
+  const std::int64_t each = std::max(1, problem.family.letters.evaluations_per_step);
+  const std::int64_t cheap = std::min(problem.trial_evaluations, few * problem.options.planned_steps * each);
+  const std::int64_t budget = std::max(problem.evaluations() / 2, cheap);
   trial_length result{std::min(most, problem.trial_starts), problem.options.planned_steps};
-  const std::int64_t steps_in_all = budget / std::max(1, problem.family.letters.evaluations_per_step);
+  const std::int64_t steps_in_all = budget / each;
   const auto fewer_trajectories = [&](std::int64_t least) {
     result.trajectories = std::min(result.trajectories, std::max(least, steps_in_all / result.steps));
   };
@@ -182,10 +186,10 @@ fit solve(const learning_problem& problem) {
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
   };
-  // Half of what the data and the descents took at most, and the same for all that are tried.
+  // The same for all that are tried.
   std::optional<detail::trial_length> length;
   const auto run_for_trial = [&](const auto& run) {
-    if (!length) length = detail::length_of_trial(problem, problem.evaluations() / 2);
+    if (!length) length = detail::length_of_trial(problem);
     if (length->not_run.empty()) return trial_result(run(length->trajectories, length->steps));
     trial_result result;
     result.not_run = length->not_run;
