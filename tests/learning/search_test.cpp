@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(a_member_that_made_the_data_is_recovered) {
 BOOST_AUTO_TEST_CASE(verlet_lies_on_the_bound_and_is_recovered) {
   for (std::uint64_t seed = 1; seed < 40; seed += 2) {
     const auto sets = made_by(fine_steps<verlet>(h), seed);
-    const auto fit = fit_to(sets);
+    const auto fit = fit_to(sets, {.guarded = false});  // at this step Verlet loses some starts
     BOOST_TEST_CONTEXT(fit.summary.full()) {
       const auto found = fit.method.parameters();
       BOOST_TEST(distance_of(found, {0.5, 0.5}) <= recovery_error(sets, {0.5, 0.5}));
