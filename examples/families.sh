@@ -150,13 +150,15 @@ soft() { # SYSTEM LEARN_HORIZON STEPS OPTION...
   system=$1 learn_horizon=$2 steps=$3
   shift 3
   compare "$system" --system "$system" $equal_cost --metric state --horizon 10 --steps "$steps" \
-    --learn-horizon "$learn_horizon" --methods $all_learned,$all_classical "$@"
+    --learn-horizon "$learn_horizon" --methods "$all_learned,$all_classical$with_frequency" "$@"
 }
+with_frequency=,$fitted
 soft henon_heiles 20 0.25,0.5
 soft pendulum 40 0.5,1
+soft phi4 8 0.1,0.15
+with_frequency=
 soft kepler 2 0.02,0.05
 soft lennard_jones 1 0.01,0.02 --fine-step 0.001
-soft phi4 8 0.1,0.15
 
 say "The chain of wells over a range of costs"
 compare phi4_range --system phi4 $equal_cost --metric state --horizon 10 --learn-horizon 8 \
