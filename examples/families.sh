@@ -146,19 +146,19 @@ stiffer stiffer_larger learned:fg4,learned:fg_chin,phase_fitted_chin4a 0.0031,0.
 stiffer stiffer_fourth pefrl,mclachlan_atela4,chin4a,mclachlan5 0.0012,0.0014,0.0016
 
 say "Systems that are not stiff"
-soft() { # SYSTEM LEARN_HORIZON STEPS OPTION...
-  system=$1 learn_horizon=$2 steps=$3
-  shift 3
-  compare "$system" --system "$system" $equal_cost --metric state --horizon 10 --steps "$steps" \
+soft() { # SYSTEM LEARN_HORIZON HORIZON STEPS OPTION...; ten steps of six evaluations at least
+  system=$1 learn_horizon=$2 horizon=$3 steps=$4
+  shift 4
+  compare "$system" --system "$system" $equal_cost --metric state --horizon "$horizon" --steps "$steps" \
     --learn-horizon "$learn_horizon" --methods "$all_learned,$all_classical$with_frequency" "$@"
 }
 with_frequency=,$fitted
-soft henon_heiles 20 0.25,0.5
-soft pendulum 40 0.5,1
-soft phi4 8 0.1,0.15
+soft henon_heiles 20 30 0.25,0.5
+soft pendulum 40 60 0.5,1
+soft phi4 8 10 0.1,0.15
 with_frequency=
-soft kepler 2 0.02,0.05
-soft lennard_jones 1 0.01,0.02 --fine-step 0.001
+soft kepler 2 10 0.02,0.05
+soft lennard_jones 1 10 0.01,0.02 --fine-step 0.001
 
 say "The chain of wells over a range of costs"
 compare phi4_range --system phi4 $equal_cost --metric state --horizon 10 --learn-horizon 8 \
