@@ -269,6 +269,21 @@ class stability_guard {
             std::max(over.size(), down.size()), states, k + 1, bands_[k].low, bands_[k].high);
       }
     }
+    // A band from zero is a bound: how much of it is met often is known where all frequencies of the states
+    // are.
+    for (std::size_t k = 0; k < declared.size() && along.are_complete; ++k) {
+      if (declared[k].low > 0.0 || often_[k].high > declared[k].high) continue;
+      of_states inside;
+      for (std::size_t state = 0; state < typical; ++state) {
+        double highest = 0.0;
+        for (const double omega : along.of_state[state]) {
+          if (omega <= declared[k].high) highest = std::max(highest, omega);
+        }
+        if (highest > 0.0) inside.push_back(highest);
+      }
+      const double often = exceeded_often(inside, typical) * (1.0 + margin);
+      if (often > 0.0) often_[k].high = std::min(often_[k].high, often);
+    }
     if (all.under_all.empty()) return;
     bands_.push_back({0.0, std::ranges::max(all.under_all) * (1.0 + margin)});
     description_ += fmt::format("; along {} of {} states there are frequencies in 0..{:.4g}",
