@@ -21,6 +21,8 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # method                    order  step  evaluations/time  ns/time     error  standard error  95 % err below  diverged
 # ------------------------  -----  ----  ----------------  -------  --------  --------------  --------------  --------
 # learned:bab6                  2   1.2               5.0~1.23e-05            tail        2.35e-05     0/100
+# phase_fitted_omelyan5v        4     1               5.0~2.71e-05            tail        5.30e-05     0/100
+# phase_fitted_omelyan_fg4      4   0.8               5.0~3.15e-05            tail        5.84e-05     0/100
 # phase_fitted_chin4a           4   0.6               5.0~3.18e-05            tail        6.65e-05     0/100
 # phase_fitted_srkn6b           4   1.2               5.0~3.89e-05            tail        7.65e-05     0/100
 # learned:fg_chin               2   0.6               5.0~5.67e-05         1.6e-06        8.06e-05     0/100
@@ -50,13 +52,9 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # predescu3                     2   0.6               5.0~4.66e-03         1.6e-04        6.91e-03     0/100
 # bcss4                         2   0.8               5.0~4.76e-03         1.6e-04        7.10e-03     0/100
 # forest_ruth                   4   0.6               5.0~2.72e-02            tail        4.61e-02     0/100
-# phase_fitted_omelyan_fg4      4   0.8               5.0~3.15e-05            tail               -     0/100
-# phase_fitted_omelyan5v        4     1               5.0~2.71e-05            tail               -     0/100
 # tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than
-# phase_fitted_omelyan_fg4: at step 0.8: in a trial run of 20000 steps, 1 of 192 trajectories diverge, trajectory 128 at step 1137
-# phase_fitted_omelyan5v: at step 1: in a trial run of 20000 steps, 1 of 192 trajectories diverge, trajectory 128 at step 285
 #
-# Take learned:bab6 at step 1.2: its error is 3.34 times smaller (95 %: 2.59 to 4.08) than that of phase_fitted_chin4a, the best classical method, at as many evaluations~
+# Take learned:bab6 at step 1.2: its error is 2.68 times smaller (95 %: 2.16 to 3.36) than that of phase_fitted_omelyan5v, the best classical method, at ~
 # Written: best.json
 # 1 trajectories of 1000 steps, 6001 force evaluations each, ~ s
 # Written: energy.csv
