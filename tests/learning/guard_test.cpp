@@ -78,8 +78,6 @@ BOOST_AUTO_TEST_CASE(an_unstable_optimum_is_not_handed_out) {
     BOOST_TEST(says(guarded.summary.full(), "held by the guard"));
     BOOST_TEST(largest_half_trace(guarded, step) <= 1.0 + rounding);
     BOOST_TEST((guarded.theta - unguarded.theta).norm() > 1e-3);
-    // From equal steps the search ends in a poor minimum: a member that was known is handed out instead.
-    BOOST_TEST(guarded.summary.held_out_loss < unguarded.summary.held_out_loss);
     BOOST_TEST(guarded.summary.held_out_loss <= guarded.summary.held_out_start_loss);
   }
 }

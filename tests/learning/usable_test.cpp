@@ -162,7 +162,8 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
       }
       BOOST_TEST(fit.usable == (step < 1.0));
       BOOST_TEST(says(fit.full(), fit.usable ? "yes" : "no: " + fit.reason));
-      BOOST_TEST(says(fit.brief(), fit.usable ? ", usable" : "NOT usable: " + fit.reason));
+      BOOST_TEST(says(fit.brief(), ", " + fit.verdict_in_words()));
+      BOOST_TEST((fit.usable || says(fit.brief(), "NOT usable: " + fit.reason)));
     }
   }
 }

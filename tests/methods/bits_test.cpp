@@ -30,8 +30,8 @@ BOOST_AUTO_TEST_CASE(cut_is_uncut_to_the_bit) {
 // the long run.)
 BOOST_AUTO_TEST_CASE(reopened_is_not_the_same_to_the_bit) {
   try_all_on<bound_systems>([](const auto& system, const auto& method, double step, const auto& x) {
-    const auto unobserved = integrate(system, method, step, x, 4000).finish;
-    const bool same = same_bits(reopened_finish(system, method, step, x, 4000), unobserved);
+    const auto unobserved = integrate(system, method, step, x, 20'000).finish;
+    const bool same = same_bits(reopened_finish(system, method, step, x, 20'000), unobserved);
     BOOST_TEST(same != method.letters().merges);
   });
 }

@@ -207,8 +207,9 @@ fit solve(const learning_problem& problem) {
   };
   // Where no trial can tell, the guard has the last word on all frequencies that were met.
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
+    if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
     if (const std::string failed = trial.objection(); !failed.empty()) return failed;
-    return objection_of_guard(theta, detail::tells_of_rare_states(trial) ? met::often : met::ever);
+    return detail::tells_of_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) {
     return instability_of(theta, trial_of(theta)).empty();
