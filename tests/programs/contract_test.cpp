@@ -43,7 +43,8 @@ std::string shape(const json& object) {
 const std::string of_a_fit =
     "family:text parameters:object standard_errors:object step:number objective:text loss:number "
     "held_out_loss:number one_step_error:number trajectory_error:number samples:integer usable:flag "
-    "reason:null seconds:number data_seconds:number fit_seconds:number "
+    "verdict:text rival:text rival_loss:number rival_loss_noise:number trial:object reason:null "
+    "seconds:number data_seconds:number fit_seconds:number "
     "learning_evaluations:integer expected_excess:number excess_share:number "
     "deciding_trajectories:number";
 
@@ -238,7 +239,7 @@ BOOST_AUTO_TEST_CASE(stability_of_words_that_rotate) {
       shape(all) ==
       "method:text letters:text coefficients:list order:integer evaluations_per_step:integer limit:null "
       "limit_per_evaluation:null windows:list touching:list system:text step:number stable:flag "
-      "magnification:object resonant_pair:null resonance:object trial:object linearly_stable:flag "
+      "magnification:object resonant_pair:object resonance:object trial:object linearly_stable:flag "
       "safe_step:null warnings:list");
   BOOST_TEST(shape(all["magnification"]) == "mode:number factor:number steps:integer");
   BOOST_TEST(shape(all["resonance"]) == "mode:number multiple:number step:number");

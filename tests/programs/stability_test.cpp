@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(margins_are_the_analytic_ones) {
         BOOST_TEST(all["bands"][0]["margin"] == all["margin"]);
         BOOST_TEST(all["highest_z"] == z, tolerance(4 * eps));
         BOOST_TEST(std::abs(all["stable_steps"][0][1].get<double>() - limit / 50.0) < 1e-8);
-        BOOST_TEST(std::abs(all["safe_step"].get<double>() - 0.95 * quarter / 50.0) < 1e-8);
+        BOOST_TEST(std::abs(all["linear_step"].get<double>() - 0.95 * quarter / 50.0) < 1e-8);
       }
     }
   }
@@ -144,8 +144,8 @@ BOOST_AUTO_TEST_CASE(runs_just_below_the_limit_are_bounded_and_above_diverge) {
   }
 }
 
-// phi^4 declares its band for the usual law of starts; with twice the spread a start has more energy. Above the
-// safe step they diverge that the declared band still calls stable.
+// phi^4 declares its band for the usual law of starts; with twice the spread a start has more energy. Above
+// the safe step they diverge that the declared band still calls stable.
 BOOST_AUTO_TEST_CASE(rare_starts_count) {
   const std::string what = " --system phi4 --spread 2 --method verlet";
   const auto all = document("stability" + what + " --step 0.3");
@@ -183,8 +183,8 @@ BOOST_AUTO_TEST_CASE(a_run_is_warned_of_a_small_margin) {
   BOOST_TEST(warnings_of(what + " --step 0.03").empty());
   const auto told = warnings_of(what + " --step 0.036");
   BOOST_REQUIRE(told.size() == 1U);
-  for (const char* words : {"verlet at step 0.036", "% from the end of a stability window", "50 to 50.3",
-                            "steps up to 0.0266"})
+  for (const char* words :
+       {"verlet at step 0.036", "% from the end of a stability window", "50 to 50.3", "steps up to 0.0266"})
     BOOST_TEST(has(told[0], words), told[0] << " lacks " << words);
   // What is named is not warned of.
   BOOST_TEST(warnings_of(what + " --step 0.0266").empty());
