@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,12 @@ std::vector<phase_point<double, S::dimension>> typical_and_energetic_starts(
   std::vector<std::pair<double, state>> by_energy;
   for (std::int64_t n = 0; n < most; n += lanes_of<S>) {
     const auto count = static_cast<int>(std::min<std::int64_t>(lanes_of<S>, most - n));
-    const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
+    phase_point<T, S::dimension> block;
+    try {
+      block = sound_starts<T>(system, ensemble, seed, first + n, count);
+    } catch (const std::exception&) {  // it has no more
+      break;
+    }
     for (int k = 0; k < count; ++k) {
       state start = lane(block, k);
       if (n + k < plain) {
