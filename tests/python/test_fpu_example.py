@@ -33,7 +33,7 @@ def test_the_example_is_under_25_lines_and_learns_what_the_program_learns(progra
 
 def test_another_seed_learns_another_theta(program):
     chain = nysalt.system("fpu", omega=50)
-    asked = dict(step=0.02, trajectories=20, seed=2)
+    asked = dict(family="nystrom", step=0.02, trajectories=20, seed=2)
     of_program = program("learn", "--family", "nystrom", "--step", "0.02", "--trajectories", "20", "--seed", "2")["parameters"]
     assert bits(nysalt.learn(chain, **asked).parameters) == bits(of_program)
     assert bits(nysalt.learn(chain, **{**asked, "seed": 3}).parameters) != bits(of_program)
