@@ -34,6 +34,8 @@ struct row {
   double evaluations_per_time = 0.0;
   timed_job seconds_per_time{};
   std::vector<finding> findings{};  // by each metric
+  std::optional<double> margin{};   // linear, of the step; nothing for words that rotate
+  std::optional<energy_course> energies{};
 };
 
 /// Throws refusal for an option of a metric that is not asked for, where it is given: by `--observable` and
@@ -57,6 +59,7 @@ class comparison {
   const std::vector<asked_metric>& metrics() const { return metrics_; }
   const std::vector<row>& rows() const { return rows_; }
   const json& fits() const { return fits_; }
+  const std::vector<method_source>& schemes() const { return schemes_; }
   const backdrops& behind() const { return behind_; }
   const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -104,6 +107,8 @@ class comparison {
   finding law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all);
   void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
   void measure_seconds();
+  void judge_steps();
+  void follow_energies(journal& kept);
 
   compare_command command_;
   common_settings common_;

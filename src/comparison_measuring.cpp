@@ -54,6 +54,8 @@ void comparison::learn_and_measure(journal& kept) {
       if (metrics_[m].is_of_law()) measure_law(m, step, usable(all), kept);
     }
   }
+  judge_steps();
+  if (!command_.output.empty() && !system_->its_bath().acts()) follow_energies(kept);
   measure_seconds();
   shown_.clear();
   for (const auto& text : warnings_of_reference(*this)) warnings_.push_back(text);

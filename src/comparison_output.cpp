@@ -51,6 +51,11 @@ std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
   return text;
 }
 
+std::string margin_of(const row& its) {
+  if (!its.margin) return "-";
+  return *its.margin < 0.0 ? "unstable" : fmt::format("{:.0f} %", 100.0 * *its.margin);
+}
+
 }  // namespace
 
 table rows_of(const comparison& all, std::size_t m) {
@@ -59,7 +64,7 @@ table rows_of(const comparison& all, std::size_t m) {
                                  "median +", metric.value(), "standard error"};
   const bool has_spread = metric.is_along_paths();
   if (has_spread) names.insert(names.end(), {"median error", "5 % to 95 %"});
-  names.insert(names.end(), {"diverged", "marks"});
+  names.insert(names.end(), {"diverged", "margin", "marks"});
   table result(names);
   const auto shown = [&](double x) {
     return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
@@ -77,18 +82,20 @@ table rows_of(const comparison& all, std::size_t m) {
     if (has_spread) {
       const distribution_of_errors spread = one.spread.value_or(no_spread());
       cells.push_back(in_short(spread.median.mean));
-      cells.push_back(one.spread ? fmt::format("{} to {}", in_short(spread.quantiles.front()),
-                                               in_short(spread.quantiles.back()))
-                                 : "-");
+      const bool is_known = one.spread && std::isfinite(spread.quantiles.front());
+      cells.push_back(is_known ? fmt::format("{} to {}", in_short(spread.quantiles.front()),
+                                             in_short(spread.quantiles.back()))
+                               : "-");
     }
     cells.push_back(fmt::format("{}/{}", one.diverged, all.command().trajectories));
+    cells.push_back(margin_of(its));
     cells.push_back(joined_marks(all, m, its));
     result.add(cells);
   }
   for (const auto& [name, value] : free_of_cost(all, m)) {
     std::vector<std::string> cells{name, "-", "0.0", "0", "-", in_short(value), "-"};
     if (has_spread) cells.insert(cells.end(), {"-", "-"});
-    cells.insert(cells.end(), {"-", ""});
+    cells.insert(cells.end(), {"-", "-", ""});
     result.add(cells);
   }
   return result;
@@ -226,6 +233,7 @@ json row_json(const comparison& all, std::size_t m, const row& its) {
               {"survivors", all.command().trajectories - one.diverged},
               {"diverged", one.diverged},
               {"diverged_at", to_json(one.diverged_at)},
+              {"stability_margin", number(its.margin)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
   if (!one.reason.empty()) result["reason"] = one.reason;
@@ -364,7 +372,8 @@ std::string csv_of(const comparison& all) {
                 "quantile_95",
                 "median_standard_error",
                 "deciding",
-                "enough_trajectories"});
+                "enough_trajectories",
+                "stability_margin"});
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const row& its : all.rows()) {
       const finding& one = its.findings[m];
@@ -395,7 +404,8 @@ std::string csv_of(const comparison& all) {
                   in_full(quantiles[4]),
                   in_full(spread.median.standard_error),
                   in_full(spread.largest.deciding),
-                  one.spread ? in_full(spread.largest.enough()) : std::string()});
+                  one.spread ? in_full(spread.largest.enough()) : std::string(),
+                  in_full(its.margin)});
     }
   }
   return result.csv();

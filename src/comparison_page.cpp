@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "build_info.hpp"
+#include "catalogue.hpp"
 #include "comparison_output.hpp"
 #include "comparison_pictures.hpp"
 #include "machine.hpp"
@@ -151,6 +152,17 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
   }
 }
 
+void add_energies(page& report, const comparison& all) {
+  auto pictures = pictures_of_energies(all);
+  if (pictures.empty()) return;
+  report.heading("Energy and survivors along time");
+  for (auto& picture : pictures) {
+    const std::string caption =
+        picture.panels.front().title + ": root mean square of H(t) - H(0) over the trajectories that survive";
+    report.picture(std::move(picture), caption);
+  }
+}
+
 /// "usable", "not usable", or "nothing gained over chin4a".
 std::string verdict_of(const json& fit) {
   const auto verdict = fit["verdict"].get<std::string>();
@@ -178,9 +190,22 @@ void add_fits(page& report, const comparison& all) {
   report.table(std::move(fits));
 }
 
-/// Coefficients of the learned rows that were not learned here.
+/// "b1 = 0.41, a = 0.2"; beyond the steps of the scheme that of the nearer end.
+std::string theta_of(const scheme& learned, double step) {
+  const auto& names = family_named(learned.family).parameter_names;
+  const auto& steps = learned.curve.steps();
+  const Eigen::VectorXd theta = learned.curve.at(std::clamp(step, steps.front(), steps.back()));
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    text +=
+        fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", names[k], theta[static_cast<Eigen::Index>(k)]);
+  }
+  return text;
+}
+
+/// Parameters and coefficients of the learned rows that were not learned here.
 void add_files(page& report, const comparison& all) {
-  table files({"method from a file", "step size", "letters", "coefficients"});
+  table files({"method from a file", "step size", "parameters", "letters", "coefficients"});
   for (const row& its : all.rows()) {
     const bool is_fitted =
         std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == its.method; });
@@ -189,7 +214,10 @@ void add_files(page& report, const comparison& all) {
     for (const double c : its.coefficients->coefficients()) {
       numbers += fmt::format("{}{:.6g}", numbers.empty() ? "" : ", ", c);
     }
-    files.add({its.method, fmt::format("{:.3g}", its.step), its.coefficients->letters().letters(), numbers});
+    const auto source = std::ranges::find_if(
+        all.schemes(), [&](const method_source& one) { return one.typed == its.method; });
+    files.add({its.method, fmt::format("{:.3g}", its.step), theta_of(*source->learned, its.step),
+               its.coefficients->letters().letters(), numbers});
   }
   if (files.empty()) return;
   report.heading("What came from files");
@@ -200,6 +228,7 @@ page report_of(const comparison& all) {
   page report("Speed against error: " + all.system().description());
   add_question(report, all);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) add_metric(report, all, m);
+  add_energies(report, all);
   add_fits(report, all);
   add_files(report, all);
   report.heading("How it was measured");
@@ -219,6 +248,9 @@ page report_of(const comparison& all) {
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
       "dearest "
       "fit of the method took, against the cheapest of the others at the same error",
+      "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
+      "that "
+      "the starts are known to meet, as a share of the window; `-` for words with rotations",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};

@@ -126,4 +126,45 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
   return result;
 }
 
+std::vector<figure> pictures_of_energies(const comparison& all) {
+  std::vector<figure> result;
+  const auto methods = drawn_methods(all, 0);
+  const std::set<std::string> drawn(methods.begin(), methods.end());
+  for (const double nominal : all.command().steps) {
+    panel errors{.title = fmt::format("step {:g}", nominal),
+                 .x_label = "time",
+                 .y_label = "energy error",
+                 .log_log = true,
+                 .curves = {},
+                 .linear_x = true};
+    panel survivors{.title = "",
+                    .x_label = "time",
+                    .y_label = "share of trajectories that survive",
+                    .curves = {},
+                    .y_range = "[0:1.05]"};
+    bool all_survive = true;
+    for (const row& one : all.rows()) {
+      if (one.nominal != nominal || !one.energies || !drawn.contains(one.method)) continue;
+      const energy_course& its = *one.energies;
+      if (its.t.size() < 2) continue;
+      // At the start there is no error, which a logarithmic axis cannot show.
+      errors.curves.push_back({.label = one.method,
+                               .x = {its.t.begin() + 1, its.t.end()},
+                               .y = {its.deviation.begin() + 1, its.deviation.end()},
+                               .emphasised = one.is_learned});
+      survivors.curves.push_back(
+          {.label = one.method, .x = its.t, .y = its.surviving, .emphasised = one.is_learned});
+      all_survive = all_survive && its.surviving.back() == 1.0;
+    }
+    if (errors.curves.empty()) continue;
+    figure picture{.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}};
+    if (!all_survive) {
+      picture.panels.push_back(survivors);
+      picture.width *= 2;
+    }
+    result.push_back(std::move(picture));
+  }
+  return result;
+}
+
 }  // namespace nysalt::program

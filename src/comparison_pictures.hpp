@@ -16,5 +16,8 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t metric
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t metric);
 /// One for each step; none if the metric is of no law.
 std::vector<figure> pictures_of_laws(const comparison& all, std::size_t metric);
+/// One for each step: the energy's error and the trajectories that survive, against time; none if energies
+/// were not followed.
+std::vector<figure> pictures_of_energies(const comparison& all);
 
 }  // namespace nysalt::program

@@ -149,6 +149,14 @@ finding finding_from(const json& text) {
   return its;
 }
 
+json to_json(const energy_course& its) {
+  return {
+      {"t", numbers(its.t)}, {"deviation", numbers(its.deviation)}, {"surviving", numbers(its.surviving)}};
+}
+energy_course energies_from(const json& text) {
+  return {numbers_from(text.at("t")), numbers_from(text.at("deviation")), numbers_from(text.at("surviving"))};
+}
+
 json to_json(const backdrop& its) {
   json result{{"reference", its.reference}};
   put(result, "reference_error", its.reference_error);

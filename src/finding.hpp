@@ -47,6 +47,13 @@ struct finding {
 /// well as by all trajectories, and a journal has room for so many numbers.
 std::vector<double> means_of_groups(const std::vector<double>& of_each);
 
+/// Along the horizon.
+struct energy_course {
+  std::vector<double> t;
+  std::vector<double> deviation;  // root mean square of H(t) - H(0), over the trajectories that survive
+  std::vector<double> surviving;  // share of the trajectories
+};
+
 /// What the findings at one step are seen against, by one metric. What a metric has not is left out.
 struct backdrop {
   std::string reference = {};                 // what it is
@@ -62,8 +69,10 @@ using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
 
 json to_json(const std::vector<diverged_trajectory>& lost);
 json to_json(const finding& its);
+json to_json(const energy_course& its);
 json to_json(const backdrop& its);
 finding finding_from(const json& text);
+energy_course energies_from(const json& text);
 backdrop backdrop_from(const json& text);
 
 }  // namespace nysalt::program

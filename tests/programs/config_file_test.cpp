@@ -32,7 +32,8 @@ std::string typed(const std::string& line) {
   return without_times(done.out);
 }
 
-const std::string learned = "learn --step 0.02 --trajectories 3 --seed 4 --fix b1=0.5 --json";
+const std::string learned =
+    "learn --family nystrom --step 0.02 --trajectories 3 --seed 4 --fix b1=0.5 --json";
 const std::string compared =
     "compare --methods verlet,bcss2 --steps 0.005,0.01 --equal-cost --trajectories 3 --seed 4 --json";
 const std::string sections =
@@ -44,10 +45,10 @@ const std::string sections =
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(options_outside_sections_are_of_the_command_that_runs) {
-  BOOST_TEST(with("step = 0.02\ntrajectories = 3\nseed = 4\nfix = [\"b1=0.5\"]\njson = true", "learn") ==
-             typed(learned));
-  BOOST_TEST(with("step = 0.02\ntrajectories = 4\nseed = 4\nfix = [\"b1=0.5\"]\njson = true", "learn") !=
-             typed(learned));
+  BOOST_TEST(with("step = 0.02\ntrajectories = 3\nseed = 4\nfix = [\"b1=0.5\"]\njson = true",
+                  "learn --family nystrom") == typed(learned));
+  BOOST_TEST(with("step = 0.02\ntrajectories = 4\nseed = 4\nfix = [\"b1=0.5\"]\njson = true",
+                  "learn --family nystrom") != typed(learned));
   BOOST_TEST(with("family = \"nystrom\"\nparameters = [0.5, 0.4]", "stability") ==
              typed("stability --family nystrom --parameters 0.5,0.4"));
   BOOST_TEST(with("method = \"verlet\"\nstep = 0.01\nhorizon = 0.03\nobservables = [\"energy\", \"q1\"]",
@@ -55,7 +56,7 @@ BOOST_AUTO_TEST_CASE(options_outside_sections_are_of_the_command_that_runs) {
 }
 
 BOOST_AUTO_TEST_CASE(a_section_is_of_its_command) {
-  BOOST_TEST(with(sections, "learn --json") == typed(learned));
+  BOOST_TEST(with(sections, "learn --family nystrom --json") == typed(learned));
   BOOST_TEST(with(sections, "compare --json") == typed(compared));
   BOOST_TEST(with("seed = 5\n[learn]\nseed = 4\n",
                   learned.substr(0, learned.find(" --seed 4")) + " --fix b1=0.5 --json") == typed(learned));
@@ -83,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_list_may_also_be_one_text) {
 
 BOOST_AUTO_TEST_CASE(the_file_may_be_named_before_the_command) {
   const folder_with folder(sections);
-  const auto done = run(folder, "--config options.toml learn --json");
+  const auto done = run(folder, "--config options.toml learn --family nystrom --json");
   BOOST_TEST(done.code == 0);
   BOOST_TEST(without_times(done.out) == typed(learned));
 }

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(of_errors_only_those_of_the_launcher_are_left_out) {
 BOOST_AUTO_TEST_CASE(ranks_and_threads_change_no_bit_of_what_is_learned) {
   for (const std::string& system :
        {std::string("--system fpu --step 0.03"),
-        std::string("--system fpu --step 0.03 --family nystrom --friction 1 --temperature 1 --start law")}) {
+        std::string("--system fpu --step 0.03 --friction 1 --temperature 1 --start law")}) {
     const std::string arguments = system + common;
     const outcome expected = learned(0, arguments + "--threads 1");
     BOOST_TEST(learned(0, arguments + "--seed 2").scheme != expected.scheme);  // so the test can tell

@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
       "metric,method,step,step_size,evaluations_per_time,seconds_per_time,"
       "seconds_per_time_median,value,standard_error,diverged,reference_error,null_model,floor,"
       "predictable_until,marks,reason,survivors,quantile_5,quantile_25,median,quantile_75,quantile_95,"
-      "median_standard_error,deciding,enough_trajectories\n"));
+      "median_standard_error,deciding,enough_trajectories,stability_margin\n"));
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 5);
   for (const auto& row : rows) {
     BOOST_TEST(has(csv, row["method"].get<std::string>() + ","));

@@ -43,6 +43,7 @@ struct panel {
   std::vector<curve> curves;         ///< in the order of the key
   std::string y_range = "[*:*]";     ///< as gnuplot reads it; unless told, what the points need
   bool linear_y = false;             ///< where log_log would be, of what does not go to 0
+  bool linear_x = false;             ///< where log_log would be, of a time
   bool points = false;               ///< where axes are plain: points with bars as well as lines
   std::vector<level> levels{};       ///< lines to compare with
   std::vector<stretch> stretches{};  ///< shaded parts, behind all else

@@ -96,9 +96,10 @@ inline std::string axes(const panel& its) {
                                  quoted(its.x_label), quoted(its.y_label));
   const bool log_y = its.log_log && !its.linear_y;
   text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
-  if (its.log_log) text += log_y ? "set logscale xy\n" : "set logscale x\n";
+  const bool log_x = its.log_log && !its.linear_x;
+  if (log_x || log_y) text += fmt::format("set logscale {}{}\n", log_x ? "x" : "", log_y ? "y" : "");
   // Whole decades would leave much of a logarithmic axis empty.
-  const log_range costs = its.log_log ? range_of_costs(its) : log_range();
+  const log_range costs = log_x ? range_of_costs(its) : log_range();
   if (costs.is_empty()) {
     text += "set autoscale x\nset xtics autofreq\n";
   } else {
