@@ -25,13 +25,13 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 # ----------  ----------------------  ----------------------  --------------------  -----------------
 # 0.033       baoab with step 0.0001                5.79e-05              4.16e-02            the end
 #
-# method        step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  marks
-# -----------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -----
-# scheme.json  0.033              60.6~%  3.52e-02        1.08e-03      3.15e-02  1.37e-02 to 6.92e-02     0/400
-# baoab        0.033              31.3~%  5.09e-01        1.66e-02      3.77e-01  8.84e-02 to 1.37e+00     0/400   null
-# baoab_2x     0.033              61.6~%  6.15e-02        1.65e-03      5.20e-02  1.61e-02 to 1.34e-01     0/400   null
-# s_aia2       0.033              60.6~%  3.44e-02        1.10e-03      3.06e-02  1.26e-02 to 7.36e-02     0/400
-# null model       -               0.0        0         -  4.16e-02               -             -                     -         -
+# method        step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
+# -----------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
+# scheme.json  0.033              60.6~%  3.52e-02        1.08e-03      3.15e-02  1.37e-02 to 6.92e-02     0/400    37 %
+# baoab        0.033              31.3~%  5.09e-01        1.66e-02      3.77e-01  8.84e-02 to 1.37e+00     0/400    17 %   null
+# baoab_2x     0.033              61.6~%  6.15e-02        1.65e-03      5.20e-02  1.61e-02 to 1.34e-01     0/400    58 %   null
+# s_aia2       0.033              60.6~%  3.44e-02        1.10e-03      3.06e-02  1.26e-02 to 7.36e-02     0/400    36 %
+# null model       -               0.0        0         -  4.16e-02               -             -                     -         -       -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 #
 # at equal cost   step     error  best of the others  its error  its error / learned  its ns / learned
@@ -48,14 +48,14 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 # ----------  ---------------------  -----------------------  --------------------  -----------------
 # 0.033       baoab with step 0.001                 9.31e-04              5.93e-03           7.37e-04
 #
-# method              step  evaluations/time  ns/time  median +     error  standard error  diverged  marks
-# -----------------  -----  ----------------  -------  --------  --------  --------------  --------  -----
-# scheme.json        0.033              60.6~%  9.50e-04        1.74e-03     0/200  floor
-# baoab              0.033              30.4~%  2.69e-01        1.92e-02     0/200   null
-# baoab_2x           0.033              60.7~%  6.55e-03        2.67e-03     0/200   null
-# s_aia2             0.033              60.6~%  7.45e-04        1.82e-03     0/200  floor
-# null model             -               0.0        0         -  5.93e-03               -         -
-# floor of sampling      -               0.0        0         -  7.37e-04               -         -
+# method              step  evaluations/time  ns/time  median +     error  standard error  diverged  margin  marks
+# -----------------  -----  ----------------  -------  --------  --------  --------------  --------  ------  -----
+# scheme.json        0.033              60.6~%  9.50e-04        1.74e-03     0/200    37 %  floor
+# baoab              0.033              30.4~%  2.69e-01        1.92e-02     0/200    17 %   null
+# baoab_2x           0.033              60.7~%  6.55e-03        2.67e-03     0/200    58 %   null
+# s_aia2             0.033              60.6~%  7.45e-04        1.82e-03     0/200    36 %  floor
+# null model             -               0.0        0         -  5.93e-03               -         -       -
+# floor of sampling      -               0.0        0         -  7.37e-04               -         -       -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 # `floor`: not above the floor of sampling by two standard errors: nothing is seen of the method
 #

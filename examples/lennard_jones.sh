@@ -35,13 +35,13 @@ awk -F , '$2 != "step" { printf "trajectory %d  t = %5.1f  H = %.2f\n", $1, $3, 
 # 0.045       srkn11b with step 0.005625                2.82e-13              1.30e+00            the end
 # 0.09        srkn11b with step 0.006                   4.09e-13              1.30e+00            the end
 #
-# method         step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  marks
-# ------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -----
-# cluster.json  0.015              67.2~%  5.97e-04        1.33e-05      5.93e-04  4.13e-04 to 7.28e-04      0/48
-# chin4a        0.015              67.2~%  6.85e-04        4.29e-05      5.80e-04  2.33e-04 to 1.23e-03      0/48   tail
-# srkn6b        0.015              67.2~%  1.01e-03        7.10e-05      8.11e-04  2.64e-04 to 1.77e-03      0/48   tail
-# verlet        0.015              67.2~%  1.32e-02        3.91e-04      1.33e-02  7.41e-03 to 1.63e-02      0/48
-# null model        -               0.0        0         -  1.30e+00               -             -                     -         -
+# method         step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
+# ------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
+# cluster.json  0.015              67.2~%  5.97e-04        1.33e-05      5.93e-04  4.13e-04 to 7.28e-04      0/48    54 %
+# chin4a        0.015              67.2~%  6.85e-04        4.29e-05      5.80e-04  2.33e-04 to 1.23e-03      0/48    58 %   tail
+# srkn6b        0.015              67.2~%  1.01e-03        7.10e-05      8.11e-04  2.64e-04 to 1.77e-03      0/48     7 %   tail
+# verlet        0.015              67.2~%  1.32e-02        3.91e-04      1.33e-02  7.41e-03 to 1.63e-02      0/48    76 %
+# null model        -               0.0        0         -  1.30e+00               -             -                     -         -       -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 #
 # at equal cost   step  median error  best of the others  its median error  its error / learned  its ns / learned
@@ -50,12 +50,12 @@ awk -F , '$2 != "step" { printf "trajectory %d  t = %5.1f  H = %.2f\n", $1, $3, 
 #
 # energy error
 #
-# method         step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  marks
-# ------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -----
-# cluster.json  0.015              67.2~%  1.18e-05        9.74e-07      9.36e-06  2.52e-06 to 2.08e-05      0/48   tail
-# chin4a        0.015              67.2~%  6.17e-06        5.80e-07      4.76e-06  1.55e-06 to 1.17e-05      0/48   tail
-# srkn6b        0.015              67.2~%  3.41e-05        3.56e-06      2.40e-05  2.56e-06 to 6.65e-05      0/48   tail
-# verlet        0.015              67.2~%  2.11e-04        1.23e-05      1.81e-04  6.38e-05 to 3.26e-04      0/48
+# method         step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
+# ------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
+# cluster.json  0.015              67.2~%  1.18e-05        9.74e-07      9.36e-06  2.52e-06 to 2.08e-05      0/48    54 %   tail
+# chin4a        0.015              67.2~%  6.17e-06        5.80e-07      4.76e-06  1.55e-06 to 1.17e-05      0/48    58 %   tail
+# srkn6b        0.015              67.2~%  3.41e-05        3.56e-06      2.40e-05  2.56e-06 to 6.65e-05      0/48     7 %   tail
+# verlet        0.015              67.2~%  2.11e-04        1.23e-05      1.81e-04  6.38e-05 to 3.26e-04      0/48    76 %
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 #
 # at equal cost   step  median error  best of the others  its median error  its error / learned  its ns / learned

@@ -77,6 +77,15 @@ void comparison::require_sound_command() const {
   }
 }
 
+double comparison::usual_horizon(const std::vector<method_source>& sources) const {
+  double largest = 0.0;
+  for (const auto& source : sources) {
+    const double evaluations = command_.equal_cost ? source.evaluations_per_step : 1.0;
+    largest = std::max(largest, evaluations * std::ranges::max(command_.steps));
+  }
+  return std::max(0.5, fewest_samples * largest);
+}
+
 void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : command_.methods) {
@@ -85,6 +94,7 @@ void comparison::plan_rows() {
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
   }
+  horizon_ = command_.horizon.value_or(usual_horizon(sources));
   for (const double nominal : command_.steps) {
     for (const auto& source : sources) add_row(source, nominal);
   }
@@ -137,26 +147,26 @@ void comparison::add_row(const method_source& source, double nominal) {
 }
 
 trajectories_plan comparison::plan_at(double step) const {
-  return {step, steps_within("--horizon", command_.horizon, step), command_.trajectories,
+  return {step, steps_within("--horizon", horizon_, step), command_.trajectories,
           seed_for(role::test, common_.seed), common_.threads};
 }
 
 /// To the horizon, over which errors are means.
 trajectories_plan comparison::paths_at(double step) const {
   trajectories_plan plan = plan_at(step);
-  plan.steps = steps_beyond("--horizon", command_.horizon, step);
-  plan.horizon = command_.horizon;
+  plan.steps = steps_beyond("--horizon", horizon_, step);
+  plan.horizon = horizon_;
   return plan;
 }
 
 std::string comparison::too_few_samples(const asked_metric& metric, double step) const {
-  const double samples = command_.horizon / step;
+  const double samples = horizon_ / step;
   if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
   return fmt::format(
       "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes: "
       "take "
       "{:g} at least",
-      command_.horizon, samples, step, fewest_samples, fewest_samples * step);
+      horizon_, samples, step, fewest_samples, fewest_samples * step);
 }
 
 void comparison::require_enough_samples() const {
@@ -199,7 +209,7 @@ json comparison::asked() const {
           {"metric", metrics},
           {"rows", rows},
           {"placement", command_.placement},
-          {"horizon", command_.horizon},
+          {"horizon", horizon_},
           {"trajectories", command_.trajectories},
           {"equal_cost", command_.equal_cost},
           {"levels", command_.levels},

@@ -55,6 +55,8 @@ class comparison {
 
   const compare_command& command() const { return command_; }
   const common_settings& common() const { return common_; }
+  /// Of each trajectory.
+  double horizon() const { return horizon_; }
   const bundled_system& system() const { return *system_; }
   const std::vector<asked_metric>& metrics() const { return metrics_; }
   const std::vector<row>& rows() const { return rows_; }
@@ -74,6 +76,8 @@ class comparison {
   void name_metrics();
   void require_sound_command() const;
   void require_sound_statistics() const;
+  /// 0.5, or as long as the largest step needs it to be.
+  double usual_horizon(const std::vector<method_source>& sources) const;
   void plan_rows();
   void add_row(const method_source& source, double nominal);
   trajectories_plan plan_at(double step) const;
@@ -112,6 +116,7 @@ class comparison {
 
   compare_command command_;
   common_settings common_;
+  double horizon_ = 0.0;
   std::unique_ptr<bundled_system> system_;
   std::vector<asked_metric> metrics_;
   std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed

@@ -100,11 +100,11 @@ double comparison::work_of_learning(const row& its) const {
 double comparison::work_of_paths(const group& all) const {
   double each = 2.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
   for (const row* its : all) each += evaluations_expected(*its);
-  return each * command_.horizon * static_cast<double>(command_.trajectories);
+  return each * horizon_ * static_cast<double>(command_.trajectories);
 }
 
 double comparison::work_of_law(double evaluations_per_time) const {
-  return evaluations_per_time * command_.horizon * static_cast<double>(command_.trajectories);
+  return evaluations_per_time * horizon_ * static_cast<double>(command_.trajectories);
 }
 
 double comparison::work_of_reference() const {

@@ -328,7 +328,7 @@ json document_of(const comparison& all) {
   json result{{"system", all.system().description()},
               {"starts", all.system().starts()},
               {"metrics", metrics},
-              {"horizon", command.horizon},
+              {"horizon", all.horizon()},
               {"trajectories", command.trajectories},
               {"equal_cost", command.equal_cost},
               {"seed", all.common().seed},
@@ -414,7 +414,7 @@ std::string csv_of(const comparison& all) {
 std::string readable(const comparison& all) {
   const compare_command& command = all.command();
   std::string text = fmt::format("{}, {} trajectories over {:g}", all.system().description(),
-                                 command.trajectories, command.horizon);
+                                 command.trajectories, all.horizon());
   text += fmt::format("\nstarts: {}\n", all.system().starts());
   if (command.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {

@@ -22,7 +22,7 @@ namespace {
 void add_question(page& report, const comparison& all) {
   const compare_command& command = all.command();
   report.text(fmt::format("{} trajectories of {}, each over {:g}; starts: {}; seed {}.", command.trajectories,
-                          all.system().description(), command.horizon, all.system().starts(),
+                          all.system().description(), all.horizon(), all.system().starts(),
                           all.common().seed));
   if (command.equal_cost) {
     report.text(
@@ -244,7 +244,7 @@ page report_of(const comparison& all) {
       fmt::format(
           "errors along paths are means over [0, {:g}], the same for all rows; of paths, exchange and "
           "energies relative to a mean over all trajectories",
-          all.command().horizon),
+          all.horizon()),
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
       "dearest "
       "fit of the method took, against the cheapest of the others at the same error",

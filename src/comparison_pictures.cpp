@@ -93,6 +93,8 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
 }
 
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t m) {
+  const auto is_there = [&](const row& its) { return std::isfinite(ranked_value(all, m, its).mean); };
+  if (std::ranges::none_of(all.rows(), is_there)) return {};
   return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time",
                        &work_precision_row::evaluations_per_time, evaluations_of),
           against_cost(all, m, "_against_seconds", "seconds per unit time",

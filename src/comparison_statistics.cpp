@@ -116,7 +116,7 @@ statistics_plan comparison::statistics_at(std::size_t metric, double step) const
   plan.lags = static_cast<int>(longest / plan.every);
   if (*plan.lags < plan.trajectories.steps / plan.every) return plan;
   refuse("--longest-lag {} is not shorter than --horizon {}: take a longer horizon", command_.longest_lag,
-         command_.horizon);
+         horizon_);
 }
 
 /// The same for all steps.

@@ -102,7 +102,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
     const double scatter = std::isnan(one.value.standard_error) ? 0.0 : one.value.standard_error;
     if (error <= *against.floor + 2.0 * scatter) result.push_back(mark::floor);
   }
-  if (against.predictable_until.value_or(std::numeric_limits<double>::infinity()) < all.command().horizon) {
+  if (against.predictable_until.value_or(std::numeric_limits<double>::infinity()) < all.horizon()) {
     result.push_back(mark::horizon);
   }
   if (has_tail(one)) result.push_back(mark::tail);

@@ -105,7 +105,7 @@ struct compare_command {
   std::string placement;
   std::vector<double> steps;
   bool equal_cost = false;
-  double horizon = 0.5;
+  std::optional<double> horizon;  // none: 0.5, or ten of the largest steps if that is longer
   std::int64_t trajectories = 400;
   std::vector<std::string> metrics{"path"};
   std::string observable;

@@ -71,21 +71,21 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 # 0.075       srkn11b with step 0.00394736842105                4.22e-09              5.17e+00            the end
 # 0.09        srkn11b with step 0.00391304347826                4.01e-09              5.17e+00            the end
 #
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -----
-# learned:fg_chin          0.005             200.1~%  5.92e-05        2.32e-06      5.57e-05  3.84e-05 to 8.25e-05      0/48
-# phase_fitted_mclachlan5  0.005             200.0~%  6.57e-05        2.89e-06      5.82e-05  4.49e-05 to 9.44e-05      0/48   tail
-# srkn6b                   0.005             200.1~%  1.04e-01        3.67e-03      9.99e-02  6.74e-02 to 1.41e-01      0/48
-# chin4a                   0.005             200.1~%  6.46e-02        2.28e-03      6.22e-02  4.20e-02 to 8.81e-02      0/48
-# pefrl                    0.005             200.0~%  5.22e-02        1.86e-03      5.02e-02  3.40e-02 to 7.12e-02      0/48
-# verlet                   0.005             200.1~%  2.14e+00        7.54e-02      2.06e+00  1.39e+00 to 2.92e+00      0/48
-# learned:fg_chin          0.015              66.8~%  6.53e-03        2.72e-04      5.92e-03  4.25e-03 to 9.23e-03      0/48   tail
-# phase_fitted_mclachlan5  0.015              66.7~%  2.66e-03        9.98e-05      2.40e-03  1.90e-03 to 3.67e-03      0/48   tail
-# srkn6b                   0.015              66.8~%  4.24e+00        1.28e-01      4.11e+00  3.02e+00 to 5.59e+00      0/48
-# chin4a                   0.015              66.8~%  4.59e+00        1.65e-01      4.42e+00  2.95e+00 to 6.29e+00      0/48
-# pefrl                    0.015              66.7~%         -               -             -                - to -     48/48
-# verlet                   0.015              66.8~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48
-# null model                   -               0.0        0         -  5.17e+00               -             -                     -         -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged    margin  marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  --------  -----
+# learned:fg_chin          0.005             200.1~%  5.92e-05        2.32e-06      5.57e-05  3.84e-05 to 8.25e-05      0/48      77 %
+# phase_fitted_mclachlan5  0.005             200.0~%  6.57e-05        2.89e-06      5.82e-05  4.49e-05 to 9.44e-05      0/48      59 %   tail
+# srkn6b                   0.005             200.1~%  1.04e-01        3.67e-03      9.99e-02  6.74e-02 to 1.41e-01      0/48      52 %
+# chin4a                   0.005             200.1~%  6.46e-02        2.28e-03      6.22e-02  4.20e-02 to 8.81e-02      0/48      78 %
+# pefrl                    0.005             200.0~%  5.22e-02        1.86e-03      5.02e-02  3.40e-02 to 7.12e-02      0/48      66 %
+# verlet                   0.005             200.1~%  2.14e+00        7.54e-02      2.06e+00  1.39e+00 to 2.92e+00      0/48      87 %
+# learned:fg_chin          0.015              66.8~%  6.53e-03        2.72e-04      5.92e-03  4.25e-03 to 9.23e-03      0/48      28 %   tail
+# phase_fitted_mclachlan5  0.015              66.7~%  2.66e-03        9.98e-05      2.40e-03  1.90e-03 to 3.67e-03      0/48      14 %   tail
+# srkn6b                   0.015              66.8~%  4.24e+00        1.28e-01      4.11e+00  3.02e+00 to 5.59e+00      0/48      10 %
+# chin4a                   0.015              66.8~%  4.59e+00        1.65e-01      4.42e+00  2.95e+00 to 6.29e+00      0/48      35 %
+# pefrl                    0.015              66.7~%         -               -             -                     -     48/48  unstable
+# verlet                   0.015              66.8~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48      62 %
+# null model                   -               0.0        0         -  5.17e+00               -             -                     -         -         -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 # pefrl at step 0.015: every trajectory diverged, the first of them at step 41
 #

@@ -27,7 +27,8 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       ->required();
   command.add_option("--steps", typed->steps, "joined by commas")->required();
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
-  add_number(command, "--horizon", asked.horizon, "length of each trajectory");
+  add_number(command, "--horizon", asked.horizon,
+             "length of each trajectory [0.5, or ten of the largest steps if that is longer]");
   add_number(command, "--trajectories", asked.trajectories, "to compare on");
   command.add_option(
       "--metric", typed->metrics,

@@ -171,8 +171,9 @@ BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
       {run_it + " --horizon 1e300", {"--horizon", "1e+300"}},
       {run_it + " --horizon inf", {"--horizon", "finite"}},
       {"run --method verlet --output out.csv --step 1e-300 --horizon 1", {"1e-300", "--horizon"}},
-      {compare + " --steps 0.6", {"--horizon", "shorter", "0.6"}},
-      {compare + " --steps 0.06", {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
+      {compare + " --steps 0.6 --horizon 0.5", {"--horizon", "shorter", "0.6"}},
+      {compare + " --steps 0.06 --horizon 0.5",
+       {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
       // Six evaluations a step: 0.6 again.
       {"compare --methods srkn6b --equal-cost --steps 0.1 --output folder", {"--horizon", "shorter", "0.6"}},
       {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},

@@ -147,7 +147,8 @@ BOOST_AUTO_TEST_CASE(compare_gives_rows) {
     BOOST_TEST(shape(row) ==
                "metric:text method:text step:number step_size:number evaluations_per_time:number "
                "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-               "survivors:integer diverged:integer diverged_at:list reference_error:number marks:list "
+               "survivors:integer diverged:integer diverged_at:list stability_margin:number "
+               "reference_error:number marks:list "
                "median:number median_standard_error:number quantiles:object deciding:number "
                "enough_trajectories:number");
     BOOST_TEST(shape(row["quantiles"]) == "5 %:number 25 %:number 50 %:number 75 %:number 95 %:number");
@@ -173,7 +174,8 @@ BOOST_AUTO_TEST_CASE(a_bath_adds_placements_and_statistics) {
   const auto row_with = [](const std::string& rest) {
     return "metric:text method:text step:number step_size:number evaluations_per_time:number "
            "seconds_per_time:number seconds_per_time_median:number error:number standard_error:number "
-           "survivors:integer diverged:integer diverged_at:list reference_error:null marks:list floor:number "
+           "survivors:integer diverged:integer diverged_at:list stability_margin:number reference_error:null "
+           "marks:list floor:number "
            "mean:number mean_standard_error:number "
            "effective_sample_size:number" +
            rest;
