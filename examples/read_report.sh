@@ -5,7 +5,7 @@ set -eu
 
 # [report]
 nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectories 48 --metric path,state \
-  --learn-horizon 1 --methods learned:fg_chin,learned:nystrom,srkn6b,s_aia2,verlet --output report
+  --learn-horizon 1 --methods learned:fg_chin,learned:nystrom,phase_fitted_mclachlan5,srkn6b,s_aia2,verlet --output report
 # [/report]
 
 # Expected output:
@@ -19,18 +19,24 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # -------------  ----------------------------------  ----------------------  --------------------  -----------------
 # 0.015 to 0.03  srkn11b with step 0.00375                         1.60e-11              8.06e-03            the end
 # 0.045          srkn11b with step 0.00409090909091                2.70e-11              8.06e-03            the end
+# 0.075          srkn11b with step 0.00394736842105                2.19e-11              8.05e-03            the end
 # 0.09           srkn11b with step 0.00391304347826                2.07e-11              8.05e-03            the end
 #
-# method            step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin      marks
-# ---------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  ---------
-# learned:fg_chin  0.015              66.7~%  8.10e-05        3.62e-06      6.34e-05  3.08e-05 to 1.87e-04      0/48    28 %       tail
-# learned:nystrom  0.015              66.7~%  9.64e-03        5.20e-04      8.52e-03  3.45e-03 to 2.02e-02      0/48    42 %       null
-# srkn6b           0.015              66.7~%  2.20e-01        9.02e-03      2.03e-01  9.74e-02 to 3.81e-01      0/48    10 %  null tail
-# s_aia2           0.015              66.7~%  8.07e-03        5.65e-04      7.29e-03  1.41e-03 to 1.84e-02      0/48    42 %       null
-# verlet           0.015              66.7~%  5.01e-02        1.14e-03      3.87e-02  1.88e-02 to 1.07e-01      0/48    62 %  null tail
-# null model           -               0.0        0         -  8.05e-03               -             -                     -         -       -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin      marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  ---------
+# learned:fg_chin          0.015              66.7~%  8.10e-05        3.62e-06      6.34e-05  3.08e-05 to 1.87e-04      0/48    28 %       tail
+# learned:nystrom          0.015              66.7~%  9.64e-03        5.20e-04      8.52e-03  3.45e-03 to 2.02e-02      0/48    42 %       null
+# phase_fitted_mclachlan5  0.015              66.7~%  9.36e-04        3.19e-05      7.95e-04  3.19e-04 to 1.96e-03      0/48    14 %
+# srkn6b                   0.015              66.7~%  2.20e-01        9.02e-03      2.03e-01  9.74e-02 to 3.81e-01      0/48    10 %  null tail
+# s_aia2                   0.015              66.7~%  8.07e-03        5.65e-04      7.29e-03  1.41e-03 to 1.84e-02      0/48    42 %       null
+# verlet                   0.015              66.7~%  5.01e-02        1.14e-03      3.87e-02  1.88e-02 to 1.07e-01      0/48    62 %  null tail
+# null model                   -               0.0        0         -  8.05e-03               -             -                     -         -       -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
+#
+# at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
+# ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
+# learned:fg_chin  0.015      6.34e-05  phase_fitted_mclachlan5          7.95e-04               13 ± 2~
 #
 # state error
 #
@@ -38,21 +44,24 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # -------------  ----------------------------------  ----------------------  --------------------  -----------------
 # 0.015 to 0.03  srkn11b with step 0.00375                         6.21e-09              5.40e+00            the end
 # 0.045          srkn11b with step 0.00409090909091                1.05e-08              5.40e+00            the end
+# 0.075          srkn11b with step 0.00394736842105                8.45e-09              5.40e+00            the end
 # 0.09           srkn11b with step 0.00391304347826                8.02e-09              5.40e+00            the end
 #
-# method            step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
-# ---------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
-# learned:fg_chin  0.015              66.7~%  8.47e-03        4.22e-04      7.50e-03  4.51e-03 to 1.20e-02      0/48    28 %
-# learned:nystrom  0.015              66.7~%  4.18e+00        1.48e-01      4.03e+00  2.72e+00 to 5.71e+00      0/48    42 %
-# srkn6b           0.015              66.7~%  4.19e+00        1.27e-01      4.06e+00  2.99e+00 to 5.53e+00      0/48    10 %
-# s_aia2           0.015              66.7~%  4.23e+00        1.49e-01      4.07e+00  2.75e+00 to 5.76e+00      0/48    42 %
-# verlet           0.015              66.7~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48    62 %
-# null model           -               0.0        0         -  5.40e+00               -             -                     -         -       -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
+# learned:fg_chin          0.015              66.7~%  8.47e-03        4.22e-04      7.50e-03  4.51e-03 to 1.20e-02      0/48    28 %
+# learned:nystrom          0.015              66.7~%  4.18e+00        1.48e-01      4.03e+00  2.72e+00 to 5.71e+00      0/48    42 %
+# phase_fitted_mclachlan5  0.015              66.7~%  2.84e-03        1.05e-04      2.63e-03  2.13e-03 to 3.76e-03      0/48    14 %   tail
+# srkn6b                   0.015              66.7~%  4.19e+00        1.27e-01      4.06e+00  2.99e+00 to 5.53e+00      0/48    10 %
+# s_aia2                   0.015              66.7~%  4.23e+00        1.49e-01      4.07e+00  2.75e+00 to 5.76e+00      0/48    42 %
+# verlet                   0.015              66.7~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48    62 %
+# null model                   -               0.0        0         -  5.40e+00               -             -                     -         -       -
+# `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 #
-# at equal cost     step     error  best of the others  its error  its error / learned  its ns / learned
-# ---------------  -----  --------  ------------------  ---------  -------------------  ----------------
-# learned:fg_chin  0.015  8.47e-03              verlet   4.16e+00             491 ± 12~
-# learned:nystrom  0.015  4.18e+00              verlet   4.16e+00      0.9932 ± 0.0010~
+# at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
+# ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
+# learned:fg_chin  0.015      7.50e-03  phase_fitted_mclachlan5          2.63e-03          0.35 ± 0.02~
+# learned:nystrom  0.015      4.03e+00  phase_fitted_mclachlan5          2.63e-03    0.00065 ± 0.00004~
 #
 # peak memory: ~ MB
 # Written: report

@@ -75,14 +75,20 @@ int main() {
     };
     return rival{tabulated(its), evaluations, run};
   };
-  const std::vector<rival> rivals{rival_of(method.anywhere(), 3), rival_of(chin4a{}, 3),
-                                  rival_of(srkn6b{}, 6),          rival_of(pefrl{}, 4),
-                                  rival_of(mclachlan2{}, 2),      rival_of(verlet{}, 1)};
+  const double z = std::sqrt(system.stiffness) * step / 3;  // of the spring, an evaluation
+  const std::vector<rival> rivals{rival_of(method.anywhere(), 3),
+                                  rival_of(phase_fitted<fg_chin, chin4a>(3 * z), 3),
+                                  rival_of(phase_fitted<aba<4>, pefrl>(4 * z), 4),
+                                  rival_of(phase_fitted<aba<5>, mclachlan5>(5 * z), 5),
+                                  rival_of(chin4a{}, 3),
+                                  rival_of(srkn6b{}, 6),
+                                  rival_of(pefrl{}, 4),
+                                  rival_of(verlet{}, 1)};
   std::vector<std::function<void()>> runs;
   for (const auto& one : rivals) runs.push_back(one.run);
   const auto seconds = interleaved_seconds(runs, 21);  // in turns, the least and the median of 21
 
-  fmt::print("            error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", 40 * step);
+  fmt::print("                         error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", 40 * step);
   std::optional<estimate> null_model;  // of what stays where it starts
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const auto& [its, evaluations, run] = rivals[i];
@@ -94,12 +100,12 @@ int main() {
                                            .seed = 3,
                                            .null_model = true});
     const auto [error, standard_error] = result.methods[0].error;
-    fmt::print("{:<10}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", its.name(), error, standard_error,
+    fmt::print("{:<23}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", its.name(), error, standard_error,
                seconds[i].least / 120'000 * 1e9, seconds[i].median / 120'000 * 1e9,
                result.methods[0].diverged_at.empty() ? "" : "   some diverged");
     null_model = result.null_model;
   }
-  fmt::print("null model  {:.1e} +- {:.0e}\n", null_model->mean, null_model->standard_error);
+  fmt::print("null model               {:.1e} +- {:.0e}\n", null_model->mean, null_model->standard_error);
   // [/compare]
 
   // [run]

@@ -62,8 +62,8 @@ class run_time_family {
   }
 
   /// A method as a family of one member, without parameters.
-  run_time_family(std::string its_name, run_time_word word, std::vector<double> coefficients)
-      : name(std::move(its_name)),
+  run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients)
+      : name(std::move(method_name)),
         starts({{name, Eigen::VectorXd()}}),
         order(0),
         symmetric(false),

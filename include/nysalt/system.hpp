@@ -77,7 +77,7 @@ struct written_in<R (X::*)(A...) const> : std::type_identity<X> {};
 template <class R, class X, class... A>
 struct written_in<R (X::*)(A...) const noexcept> : std::type_identity<X> {};
 
-/// That of the force, or of the potential that it comes from; void if nobody can tell.
+/// That of the force, or of the potential that it comes from; void where that is not known.
 template <class S, class T>
 consteval auto origin_of_force() {
   using V = vector<T, S::dimension>;
@@ -100,7 +100,7 @@ template <class S, class T, class C>
 concept KickOfTheForce = std::is_base_of_v<typename decltype(origin_of_force<S, T>())::type,
                                            typename written_in<decltype(&S::template kick<T, C>)>::type>;
 
-/// Nor is a derivative that is inherited beside another force that force's; where nobody can tell it counts.
+/// Nor is a derivative that is inherited beside another force that force's; where that is not known it counts.
 template <class S, class T>
 consteval bool derivative_is_of_the_force() {
   using force = typename decltype(origin_of_force<S, T>())::type;

@@ -32,22 +32,6 @@ BOOST_AUTO_TEST_CASE(all_frequencies_of_a_state_are_those_of_the_hessian) {
   }
 }
 
-namespace {
-/// K = sqrt(1 + p^2) - 1, V = 50 q^2 + 20 q^4.
-struct fast_particle {
-  static constexpr int dimension = 1;
-  template <class T>
-  T potential(const vector<T, 1>& q) const {
-    return q[0] * q[0] * 50.0 + q[0] * q[0] * q[0] * q[0] * 20.0;
-  }
-  template <class T>
-  T kinetic_energy(const vector<T, 1>& p) const {
-    using std::sqrt;
-    return sqrt(p[0] * p[0] + 1.0) - 1.0;
-  }
-};
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(a_kinetic_energy_of_any_kind_counts) {
   for (const double p : {0.0, 0.5, 2.0}) {
     for (const double q : {0.0, 0.3, 1.0}) {

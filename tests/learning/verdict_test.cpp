@@ -2,6 +2,7 @@
 // Three verdicts: usable, nothing gained, not usable; each tried on what it promises.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg_chin.hpp"
@@ -16,6 +17,7 @@
 #include "nysalt/systems/phi4_chain.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 
@@ -46,19 +48,6 @@ const phi4_chain<> chain(16);
 const normal_around<Eigen::Dynamic> chain_law({Eigen::VectorXd::Zero(16), Eigen::VectorXd::Zero(16)}, 0.5,
                                               1.0);
 
-/// K = sqrt(1 + p^2) - 1, V = 50 q^2 + 20 q^4.
-struct fast_particle {
-  static constexpr int dimension = 1;
-  template <class T>
-  T potential(const vector<T, 1>& q) const {
-    return q[0] * q[0] * 50.0 + q[0] * q[0] * q[0] * q[0] * 20.0;
-  }
-  template <class T>
-  T kinetic_energy(const vector<T, 1>& p) const {
-    using std::sqrt;
-    return sqrt(p[0] * p[0] + 1.0) - 1.0;
-  }
-};
 const normal_around<1> particle_law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 1.0);
 
 }  // namespace

@@ -119,9 +119,11 @@ def main():
             print(f"\r{system} {family} {part}    ", end="", file=sys.stderr)
         return row
 
+    rows = []
     with ThreadPoolExecutor(asked.jobs) as pool:
-        rows = list(pool.map(row_of, cases))
-    write(asked, rows)
+        for row in pool.map(row_of, cases):
+            rows.append(row)
+            write(asked, rows)  # what is known so far stays if the rest is stopped
     bad = [row for row in rows if row.get("lost")]
     print(f"{len(rows)} fits, {sum(row['verdict'] in ('usable', 'nothing gained') for row in rows)} may be used, "
           f"{len(bad)} of them lose a trajectory")

@@ -80,6 +80,20 @@ struct relativistic_with_velocity : relativistic {
   }
 };
 
+/// Relativistic, and stiff: V = 50 q^2 + 20 q^4.
+struct fast_particle {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0] * 50.0 + q[0] * q[0] * q[0] * q[0] * 20.0;
+  }
+  template <class T>
+  T kinetic_energy(const vector<T, 1>& p) const {
+    using std::sqrt;
+    return sqrt(p[0] * p[0] + 1.0) - 1.0;
+  }
+};
+
 /// A mistake: the force is 1 % too strong. The laws of systems must find it.
 struct wrong_force : potential_only {
   template <class T>

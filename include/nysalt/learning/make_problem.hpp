@@ -227,10 +227,10 @@ learning_problem make_problem(const run_time_family& family, const S& system,
       return std::nullopt;
     }
     const auto coefficients = alone.coefficients({});
-    const loss_type its_loss(*held, alone);
+    const loss_type rival_loss(*held, alone);
     rival_method result;
     result.name = method.name();
-    result.held_out_losses = trajectory_losses(its_loss, Eigen::VectorXd());
+    result.held_out_losses = trajectory_losses(rival_loss, Eigen::VectorXd());
     result.trial = [run, letters = alone.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
       return run(letters, coefficients, trajectories, n);
     };

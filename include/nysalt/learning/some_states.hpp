@@ -15,15 +15,18 @@
 
 namespace nysalt {
 
-/// The starts of some pairs of all, by their numbers, which rise: at all ranks, for what is asked along them.
+namespace detail {
+
+/// Of this rank's states, those of some pairs of all, by their numbers, which rise: at all ranks.
 template <int N>
-std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eigen::Index dimension,
+std::vector<phase_point<double, N>> states_of(const std::vector<phase_point<double, N>>& mine,
+                                              const flow_map_data<N>& data, Eigen::Index dimension,
                                               const std::vector<std::size_t>& pairs) {
   const auto size = static_cast<std::size_t>(dimension);
   std::vector<double> numbers;  // q and p of one after the other
   for (const std::size_t pair : pairs) {
     if (pair < data.first_pair() || pair >= data.first_pair() + data.pairs()) continue;
-    const auto& x = data.start[pair - data.first_pair()];
+    const auto& x = mine[pair - data.first_pair()];
     numbers.insert(numbers.end(), x.q.begin(), x.q.end());
     numbers.insert(numbers.end(), x.p.begin(), x.p.end());
   }
@@ -35,6 +38,21 @@ std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eige
                       Eigen::Map<const vector<double, N>>(q + size, dimension)});
   }
   return result;
+}
+
+}  // namespace detail
+
+/// Where some pairs of all start, by their numbers, which rise: at all ranks, for what is asked along them.
+template <int N>
+std::vector<phase_point<double, N>> starts_of(const flow_map_data<N>& data, Eigen::Index dimension,
+                                              const std::vector<std::size_t>& pairs) {
+  return detail::states_of(data.start, data, dimension, pairs);
+}
+/// Where they finish.
+template <int N>
+std::vector<phase_point<double, N>> finishes_of(const flow_map_data<N>& data, Eigen::Index dimension,
+                                                const std::vector<std::size_t>& pairs) {
+  return detail::states_of(data.finish, data, dimension, pairs);
 }
 
 namespace detail {

@@ -13,32 +13,6 @@
 
 namespace nysalt {
 
-namespace detail {
-
-/// Where some pairs of all end, by their numbers, which rise: at all ranks.
-template <int N>
-std::vector<phase_point<double, N>> finishes_of(const flow_map_data<N>& data, Eigen::Index dimension,
-                                                const std::vector<std::size_t>& pairs) {
-  const auto size = static_cast<std::size_t>(dimension);
-  std::vector<double> numbers;  // q and p of one after the other
-  for (const std::size_t pair : pairs) {
-    if (pair < data.first_pair() || pair >= data.first_pair() + data.pairs()) continue;
-    const auto& x = data.finish[pair - data.first_pair()];
-    numbers.insert(numbers.end(), x.q.begin(), x.q.end());
-    numbers.insert(numbers.end(), x.p.begin(), x.p.end());
-  }
-  numbers = one_after_the_other(data.share().ranks(), numbers);
-  std::vector<phase_point<double, N>> result;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const double* q = numbers.data() + 2 * size * k;
-    result.push_back({Eigen::Map<const vector<double, N>>(q, dimension),
-                      Eigen::Map<const vector<double, N>>(q + size, dimension)});
-  }
-  return result;
-}
-
-}  // namespace detail
-
 /// check_force() at four states of the data, from the middle of each quarter of them. A system that is a
 /// potential alone has nothing to check, and costs nothing, to compile either. How far these and their
 /// finishes lie apart tells the lengths of coordinates. Throws std::invalid_argument with its report. The
@@ -57,7 +31,7 @@ void require_sound_force(const S& system, const flow_map_data<S::dimension>& dat
       points.push_back(state.q);
       momenta.push_back(state.p);
     }
-    const auto finishes = detail::finishes_of(data, size(system), pairs);
+    const auto finishes = finishes_of(data, size(system), pairs);
     const force_check found = check_force(system, points, momenta, finishes);
     if (found.passed()) return;
     throw std::invalid_argument(
