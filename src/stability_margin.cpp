@@ -154,15 +154,28 @@ trial_result try_step(const tabulated& method, const bundled_system& system, dou
 }
 
 std::optional<double> safe_step(const tabulated& method, const bundled_system& system,
-                                const judged_step& judged, std::uint64_t seed, int threads) {
+                                const judged_step& judged, std::optional<double> failed, std::uint64_t seed,
+                                int threads) {
   if (has_rotation(method.letters()) || judged.linear_step == 0.0 || system.frequency_bands().empty()) {
     return std::nullopt;
   }
+  constexpr double ratio = 1.0 - tried_margin;
   constexpr int most_tries = 12;
-  double step = rounded_down(judged.linear_step);
-  for (int n = 0; n < most_tries; ++n) {
-    if (try_step(method, system, step / (1.0 - tried_margin), seed, threads).passed()) return step;
-    step = rounded_down(0.8 * step);
+  constexpr int below = 3;  // rungs that must pass, too
+  std::vector<double> steps;
+  for (int n = -1; n < most_tries + below; ++n) {
+    steps.push_back(rounded_down(judged.linear_step * std::pow(ratio, n)));
+  }
+  std::vector<std::optional<trial_result>> tried(steps.size());
+  const auto at = [&](std::size_t n) -> const trial_result& {
+    if (!tried[n]) tried[n] = try_step(method, system, steps[n], seed, threads);
+    return *tried[n];
+  };
+  for (std::size_t n = 1; n + below < steps.size(); ++n) {
+    if (failed && steps[n - 1] >= *failed) continue;
+    bool passes = at(n - 1).passed() && at(n).relative_deviation < 1.0;
+    for (std::size_t k = n; passes && k <= n + below; ++k) passes = at(k).passed();
+    if (passes) return steps[n];
   }
   return std::nullopt;
 }
@@ -175,6 +188,7 @@ json to_json(const trial_result& trial) {
               {"first_diverged", nullptr},
               {"largest_deviation", nullptr},
               {"largest_deviation_in_first_tenth", nullptr},
+              {"largest_relative_deviation", nullptr},
               {"report", trial.report()}};
   if (trial.lost) {
     result["first_diverged"] = {{"trajectory", trial.lost->trajectory}, {"step", trial.lost->step}};
@@ -182,6 +196,7 @@ json to_json(const trial_result& trial) {
   if (trial.energy_was_watched) {
     result["largest_deviation"] = trial.deviation;
     result["largest_deviation_in_first_tenth"] = trial.first_deviation;
+    result["largest_relative_deviation"] = trial.relative_deviation;
   }
   return result;
 }

@@ -72,11 +72,14 @@ std::string advice(const judged_step& judged);
 /// A trial run at a step, as long as is affordable for the size of the system.
 trial_result try_step(const tabulated& method, const bundled_system& system, double step, std::uint64_t seed,
                       int threads);
-/// The largest step of linear_step, 4/5 of it and so on such that a trial run passes at the step over
-/// 1 - tried_margin; nothing if there is none, if the word rotates, or if the system's frequencies have no
-/// bound. Cost: a trial run for each step that is tried.
+/// A step at which nothing is lost, nor at shorter ones: the largest of linear_step, 4/5 of it and so on such
+/// that trial runs pass at 5/4 of it, at it and at 4/5, 16/25 and 64/125 of it, and at it no trajectory's
+/// energy errs by as much as the trajectory's largest kinetic energy. Nothing if there is none, if the word
+/// rotates, or if the system's frequencies have no bound. A step that failed bounds it from above. Cost: a
+/// trial run for each step that is tried.
 std::optional<double> safe_step(const tabulated& method, const bundled_system& system,
-                                const judged_step& judged, std::uint64_t seed, int threads);
+                                const judged_step& judged, std::optional<double> failed, std::uint64_t seed,
+                                int threads);
 json to_json(const trial_result& trial);
 
 /// One sentence where linear windows say nothing, of a word that rotates or where frequencies have no bound,

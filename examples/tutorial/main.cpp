@@ -88,7 +88,7 @@ int main() {
   for (const auto& one : rivals) runs.push_back(one.run);
   const auto seconds = interleaved_seconds(runs, 21);  // in turns, the least and the median of 21
 
-  fmt::print("                         error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", 40 * step);
+  fmt::print("{:25}error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", "", 40 * step);
   std::optional<estimate> null_model;  // of what stays where it starts
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const auto& [its, evaluations, run] = rivals[i];
@@ -124,14 +124,16 @@ int main() {
 // c = 0.01242 +- 1e-06
 // usable: yes
 //
-//             error of q, p on [0, 3.6]   ns an evaluation (median)
-// fg_chin     3.6e-04 +- 3e-05          ~ (~)
-// chin4a      6.0e-02 +- 3e-03          ~ (~)
-// srkn6b      3.6e-01 +- 2e-02          ~ (~)
-// pefrl       3.9e-02 +- 3e-03          ~ (~)
-// mclachlan2  3.6e-01 +- 2e-02          ~ (~)
-// verlet      3.0e-01 +- 2e-02          ~ (~)
-// null model  9.8e-01 +- 4e-02
+//                          error of q, p on [0, 3.6]   ns an evaluation (median)
+// fg_chin                  3.6e-04 +- 3e-05          ~ (~)
+// phase_fitted_chin4a      2.6e-04 +- 3e-05          ~ (~)
+// phase_fitted_pefrl       4.6e-04 +- 6e-05          ~ (~)
+// phase_fitted_mclachlan5  6.0e-04 +- 7e-05          ~ (~)
+// chin4a                   6.0e-02 +- 3e-03          ~ (~)
+// srkn6b                   3.6e-01 +- 2e-02          ~ (~)
+// pefrl                    3.9e-02 +- 3e-03          ~ (~)
+// verlet                   3.0e-01 +- 2e-02          ~ (~)
+// null model               9.8e-01 +- 4e-02
 //
 // t =   0.0  x = -0.016  H = -0.9370
 // t = 225.0  x = +0.150  H = -0.9370

@@ -38,11 +38,13 @@ struct trial_result {
   std::int64_t diverged = 0;                ///< number of trajectories that diverged
   std::optional<diverged_trajectory> lost;  ///< the one of the lowest number that diverged
   bool energy_was_watched = false;          ///< false: in a bath, or H is not known
-  double first_deviation = 0.0;    ///< largest |H - H_0| of all trajectories in the first stretch, steps/10
-  double deviation = 0.0;          ///< the same over all steps
-  double rounding = 0.0;           ///< bound of what rounding adds to |H - H_0|
-  double kinetic_energy = 0.0;     ///< mean over trajectories and time
-  std::int64_t unconfined = 0;     ///< trajectories left out, as an accurate method loses them as well
+  double first_deviation = 0.0;  ///< largest |H - H_0| of all trajectories in the first stretch, steps/10
+  double deviation = 0.0;        ///< the same over all steps
+  double rounding = 0.0;         ///< bound of what rounding adds to |H - H_0|
+  double kinetic_energy = 0.0;   ///< mean over trajectories and time
+  double relative_deviation =
+      0.0;                      ///< largest over trajectories of |H - H_0|/(the largest K of the trajectory)
+  std::int64_t unconfined = 0;  ///< trajectories left out, as an accurate method loses them as well
   diverged_trajectory farthest{};  ///< where `deviation` was met
   std::string not_run{};           ///< why no trial was run; else empty
 
@@ -122,6 +124,7 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
     double magnitude = 0.0;
     std::int64_t at = 0;
     double kinetic = 0.0;  // sum over looks
+    double peak = 0.0;     // of the kinetic energy
     double looks = 0.0;
     bool is_left_out = false;
   };
@@ -142,6 +145,7 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
     const double departure = std::abs(numbers[0] - known.initial);
     known.magnitude = std::max(known.magnitude, std::abs(numbers[0]));
     known.kinetic += numbers[1];
+    known.peak = std::max(known.peak, numbers[1]);
     known.looks += 1.0;
     if (static_cast<double>(n) <= first_stretch) known.first = std::max(known.first, departure);
     if (departure <= known.largest) return;
@@ -230,6 +234,9 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
     looks += known.looks;
     magnitude = std::max(magnitude, known.magnitude);
     result.first_deviation = std::max(result.first_deviation, known.first);
+    if (known.largest > 0.0) {
+      result.relative_deviation = std::max(result.relative_deviation, known.largest / known.peak);
+    }
     if (known.largest <= result.deviation) continue;
     result.deviation = known.largest;
     result.farthest = {static_cast<std::int64_t>(m), known.at};

@@ -161,11 +161,13 @@ void add_trial(answer& result, const tabulated& method, const bundled_system& sy
   result.text += fmt::format("  trial run at step {:g}: {}\n", step, trial.report());
   document["safe_step"] = nullptr;
   if (judged == nullptr) return;
-  const auto safe = safe_step(method, system, *judged, seed, threads);
+  const auto failed = trial.passed() ? std::nullopt : std::optional(step);
+  const auto safe = safe_step(method, system, *judged, failed, seed, threads);
   if (safe) {
     document["safe_step"] = *safe;
-    result.text += fmt::format("  safe step {:g}: a trial run at {:g}, {:g} % more, passed\n", *safe,
-                               *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+    result.text +=
+        fmt::format("  safe step {:g}: trial runs passed there, at {:g}, {:g} % more, and at shorter steps\n",
+                    *safe, *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
     result.text += "  no step is called safe: the frequencies of the system have no bound\n";
   } else {
