@@ -52,7 +52,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   stable steps 0.0661736 .. 0.0828777
 #   by the linear criterion steps up to 0.0295 have a margin of 30 % to the first end, and turn by less than a quarter
 #   trial run at step 0.045: 192 trajectories of 20000 steps: none diverged, |H - H_0| up to 7.18e-03, up to 7.18e-03 in the first tenth
-#   safe step 0.0295: a trial run at 0.036875, 25 % more, passed
+#   safe step 0.0295: trial runs passed there, at 0.036875, 25 % more, and at shorter steps
 # fpu_chain(pairs=3, omega=50), 48 trajectories over 10
 # starts: fpu_law(omega=50)
 # steps are per force evaluation: equal steps, equal cost

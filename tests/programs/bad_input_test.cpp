@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
       {compare + " --steps 0.06 --horizon 0.5",
        {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
       // Six evaluations a step: 0.6 again.
-      {"compare --methods srkn6b --equal-cost --steps 0.1 --output folder", {"--horizon", "shorter", "0.6"}},
+      {"compare --methods srkn6b --equal-cost --steps 0.1 --horizon 0.5 --output folder",
+       {"--horizon", "shorter", "0.6"}},
       {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},
       {compare + " --steps 1e-300", {"--horizon", "1e-300"}},
   });
