@@ -13,7 +13,7 @@ rm -f "$folder/journal.jsonl"  # of a demonstration that was stopped
 echo
 echo "== Compare with classical methods at equal cost; steps are per force evaluation"
 "$nysalt" compare --system fpu --equal-cost --steps 0.00125,0.0025,0.005,0.0075,0.01,0.015,0.02 \
-  --methods learned:nystrom,verlet,verlet_2x,mclachlan2,bcss2,s_aia2,bcss3,pefrl,blanes_moan_s6,srkn6b,phase_fitted_mclachlan5,phase_fitted_chin4a \
+  --methods learned:nystrom,learned:bab6,learned:fg4,verlet,mclachlan2,s_aia2,bcss3,pefrl,blanes_moan_s6,srkn6b,phase_fitted_mclachlan5,phase_fitted_chin4a \
   --output "$folder"
 
 echo

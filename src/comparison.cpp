@@ -9,6 +9,7 @@
 #include "checks.hpp"
 #include "learning.hpp"
 #include "nysalt/served_letters.hpp"
+#include "refusal.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {
@@ -101,6 +102,7 @@ void comparison::plan_rows() {
   for (const auto& source : sources) {
     const auto is_its = [&](const row& its) { return its.method == source.typed; };
     if (std::ranges::any_of(rows_, is_its)) continue;
+    if (!source.learned) refuse("{}", warnings_.back());
     const double evaluations = command_.equal_cost ? source.evaluations_per_step : 1.0;
     refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
            source.learned->steps(), command_.equal_cost ? " (of an evaluation)" : "",
@@ -128,7 +130,15 @@ void comparison::add_row(const method_source& source, double nominal) {
     system_->require_learnable(*source.family, where, command_.learning, step);
     if (where == placement::symmetric) parts = 2;
   } else {
-    its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    try {
+      its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    } catch (const refusal& problem) {
+      // Coefficients that follow from the step may end; other steps have their rows.
+      const bool is_alone = command_.steps.size() == 1;
+      if (source.adaptive == nullptr || is_alone) throw;
+      warnings_.push_back(fmt::format("{} (no row at step {:g})", problem.what(), nominal));
+      return;
+    }
     symmetric = its.coefficients->symmetric;
     if (is_noisy) parts = noise_parts(*its.coefficients, *system_);
   }

@@ -53,6 +53,23 @@ BOOST_AUTO_TEST_CASE(a_reference_is_as_fine_as_its_rows_need) {
   BOOST_TEST(poor["rankings"][0]["front_by_evaluations"].empty());
 }
 
+// A method whose coefficients follow from the step has rows where it has coefficients.
+BOOST_AUTO_TEST_CASE(where_coefficients_end_there_is_no_row) {
+  const std::string line =
+      "compare --methods verlet,phase_fitted_pefrl --trajectories 3 --steps ";  // z <= 5.4
+  const auto all = document(line + "0.01,0.2");
+  int rows = 0;
+  for (const auto& row : all["rows"]) rows += row["method"] == "phase_fitted_pefrl" ? 1 : 0;
+  BOOST_TEST(all["rows"].size() == 3U);
+  BOOST_TEST(rows == 1);
+  BOOST_TEST(all["warnings"].dump().find("(no row at step 0.2)") != std::string::npos);
+  for (const char* steps : {"0.2", "0.2,0.3"}) {
+    const auto done = run(line + steps);
+    BOOST_TEST(done.code == 2);
+    BOOST_TEST(done.err.find("z = step * frequency must be at most") != std::string::npos, done.err);
+  }
+}
+
 // Metrics beside each other have the numbers that each has alone.
 BOOST_AUTO_TEST_CASE(several_metrics_are_those_of_each) {
   const std::string line =
