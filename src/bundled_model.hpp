@@ -160,10 +160,11 @@ class bundled_model final : public bundled_system {
   }
 
   trial_result trial(const tabulated& method, const trajectories_plan& plan) const override {
-    states_in_double states =
-        starts_ ? typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
-                : typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
+    states_in_double states = starts_
+                                  ? typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
+                                  : typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
     if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
+    states = repeated_in_bath(system_, std::move(states));
     return trial_run(system_, method, plan.step, states,
                      {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
   }

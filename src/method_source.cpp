@@ -173,6 +173,10 @@ tabulated coefficients_at(const method_source& source, const bundled_system& sys
   const tabulated method =
       in_its_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
+  // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
+  const bool was_judged =
+      source.learned && source.learned->usable && out_of_place(*source.learned, system, step).empty();
+  if (was_judged) return method;
   if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;
 }

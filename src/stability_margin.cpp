@@ -185,6 +185,7 @@ json to_json(const trial_result& trial) {
               {"steps", trial.steps},
               {"passed", trial.passed()},
               {"diverged", trial.diverged},
+              {"unconfined", trial.unconfined},
               {"first_diverged", nullptr},
               {"largest_deviation", nullptr},
               {"largest_deviation_in_first_tenth", nullptr},

@@ -94,6 +94,28 @@ BOOST_AUTO_TEST_CASE(motion_that_is_not_confined_is_left_out) {
   BOOST_TEST(!lost.passed());
 }
 
+// An accurate method in parts of such a step is unstable itself: that tells nothing of the motion.
+BOOST_AUTO_TEST_CASE(what_an_accurate_method_cannot_follow_is_not_left_out) {
+  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
+  for (const double omega : {300.0, 1e5}) {  // in 30 parts, and in too many
+    const auto trial =
+        trial_run(harmonic_oscillator(omega), tabulated(verlet{}), 0.1, starts_of<1>(law, 8), {.steps = 400});
+    BOOST_TEST(!trial.passed());
+    BOOST_TEST(trial.unconfined == 0);
+    BOOST_TEST(trial.diverged == 8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_trial_of_which_nothing_is_left_is_not_passed) {
+  const phase_point<double, 2> outside{{0.0, 3.0}, {0.0, 0.0}};
+  const auto trial =
+      trial_run(henon_heiles{}, tabulated(verlet{}), 0.1, std::vector{outside, outside}, {.steps = 5000});
+  BOOST_TEST(trial.unconfined == 2);
+  BOOST_TEST(trial.kept() == 0);
+  BOOST_TEST(!trial.passed());
+  BOOST_TEST(trial.report().find("not confined") != std::string::npos, trial.report());
+}
+
 BOOST_AUTO_TEST_CASE(threads_change_nothing) {
   const auto one = trial_run(chain, tabulated(mclachlan2{}), 0.4, chain_starts, {.steps = 700});
   const auto two = trial_run(chain, tabulated(mclachlan2{}), 0.4, chain_starts, {.steps = 700, .threads = 2});

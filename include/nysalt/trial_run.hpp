@@ -19,6 +19,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
@@ -62,6 +63,8 @@ struct trial_result {
     return energy_was_watched && deviation > smallest_drift * kinetic_energy &&
            steps >= fewest_steps_for_drift && deviation > std::sqrt(stretches) * first_deviation + rounding;
   }
+  /// Trajectories that count.
+  std::int64_t kept() const { return trajectories - unconfined; }
   /// Whether the trial was run, no trajectory diverged and the energy did not drift.
   bool passed() const { return not_run.empty() && !lost && !energy_wanders(); }
 
@@ -96,12 +99,27 @@ struct trial_result {
   }
 };
 
+/// Starts of a trial: in a bath each is taken again, with noise of its own, until they are as many as where
+/// energetic starts are known too.
+template <SeparableSystem S>
+std::vector<phase_point<double, S::dimension>> repeated_in_bath(
+    const S& system, std::vector<phase_point<double, S::dimension>> starts) {
+  if constexpr (HasBath<S>) {
+    constexpr std::size_t enough = 192;
+    const std::size_t given = starts.size();
+    for (std::size_t k = 0; system.bath().acts() && given > 0 && starts.size() < enough; ++k) {
+      starts.push_back(starts[k % given]);
+    }
+  }
+  return starts;
+}
+
 /// Runs a method from each start, in lanes and on threads, and looks at H every few steps; in a bath with its
 /// noise, and without looking at H. Trajectories are run in blocks; after a block in which one diverged it
 /// stops. Neither lanes nor threads change a bit. Throws std::invalid_argument if the method does not suit
 /// the system, there are no starts or steps, or a start is not finite. Cost: starts * steps steps.
 /// Trajectories that diverge under an accurate method too, S6 [blanes_moan_2002] in parts of a step, are
-/// left out: their motion is not confined.
+/// left out: their motion is not confined. If all are, the trial counts as not run.
 template <SeparableSystem S>
 trial_result trial_run(const S& system, const tabulated& method, double step,
                        const std::vector<phase_point<double, S::dimension>>& starts,
@@ -142,7 +160,8 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
     if (!result.energy_was_watched) return;
     auto& known = of_trajectory[static_cast<std::size_t>(m)];
     if (n == 0) known.initial = numbers[0];
-    const double departure = std::abs(numbers[0] - known.initial);
+    double departure = std::abs(numbers[0] - known.initial);
+    if (std::isnan(departure)) departure = std::numeric_limits<double>::infinity();
     known.magnitude = std::max(known.magnitude, std::abs(numbers[0]));
     known.kinetic += numbers[1];
     known.peak = std::max(known.peak, numbers[1]);
@@ -159,13 +178,20 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
       return make_stepper(system, one, h);
     }
   };
+  // Parts of a step that an accurate method takes: of the highest frequency that is declared less than a
+  // radian each, far inside its window. Where that is too many, nothing is known of what is lost.
+  constexpr double most_parts = 64.0;
+  double parts = 8.0;
+  if constexpr (HasModes<S> || HasFrequencyBands<S>) {
+    parts = std::max(parts, std::ceil(std::abs(step) * detail::frequency_to_fit(system)));
+  }
   // Whether an accurate method loses a trajectory too: at a fine step and, so that it is not its own
   // instability, at a finer one.
   const auto is_unconfined = [&](const std::vector<diverged_trajectory>& some) {
     std::vector<phase_point<double, S::dimension>> at;
     for (const auto& one : some) at.push_back(starts[static_cast<std::size_t>(one.trajectory)]);
     std::vector<bool> result(some.size(), true);
-    for (const int finer : {8, 32}) {
+    for (const int finer : {static_cast<int>(parts), 4 * static_cast<int>(parts)}) {
       const auto accurate = stepper_of(tabulated(blanes_moan_s6{}), step / finer);
       const auto diverged_at = integrate_ensemble<T>(
           accurate, listed<S::dimension>(at),
@@ -181,6 +207,7 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
   };
   // A few at a time: the first that the motion does not lose decides.
   const auto leave_out_unconfined = [&](const std::vector<diverged_trajectory>& lost) {
+    if (!(parts <= most_parts)) return;
     if constexpr (HasBath<S>) {
       if (system.bath().acts()) return;
     }
@@ -242,6 +269,9 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
     result.farthest = {static_cast<std::int64_t>(m), known.at};
   }
   if (looks > 0.0) result.kinetic_energy = kinetic / looks;
+  if (result.unconfined > 0 && result.kept() == 0) {
+    result.not_run = "an accurate method loses every start too: the motion is not confined";
+  }
   // Each letter rounds H once at most, in one direction at worst.
   result.rounding = static_cast<double>(options.steps) * static_cast<double>(method.letters().length) *
                     std::numeric_limits<double>::epsilon() * magnitude;

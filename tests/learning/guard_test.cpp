@@ -99,6 +99,6 @@ BOOST_AUTO_TEST_CASE(gaps_between_the_bands_are_told) {
   BOOST_REQUIRE(!told.gaps.empty());
   BOOST_TEST(told.gaps[0].low > 0.08 * 5.95);  // above the soft band, below the stiff one
   BOOST_TEST(told.gaps[0].high < 0.08 * 49.0);
-  BOOST_TEST(says(told.full(), "which the system has not"));
+  BOOST_TEST(says(told.full(), "which the motion meets rarely or never"));
   BOOST_TEST(fits_at(0.01).guarded.summary.gaps.empty());
 }

@@ -78,7 +78,7 @@ def main():
     with ThreadPoolExecutor(asked.jobs) as pool:
         rows = list(pool.map(row_of, cases))
     write(asked, rows)
-    bad = [row for row in rows if row.get("lost") or row.get("lost_at_safe_step")]
+    bad = [row for row in rows if row.get("lost", 0) != 0 or row.get("lost_at_safe_step", 0) != 0]  # None: refused
     print(f"{len(rows)} steps, {sum(row['verdict'] == 'stable' for row in rows)} stable, "
           f"{sum('safe_step' in row for row in rows)} safe ones; {len(bad)} lose a trajectory")
     return 1 if bad else 0

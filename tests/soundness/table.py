@@ -124,7 +124,7 @@ def main():
         for row in pool.map(row_of, cases):
             rows.append(row)
             write(asked, rows)  # what is known so far stays if the rest is stopped
-    bad = [row for row in rows if row.get("lost")]
+    bad = [row for row in rows if row.get("lost", 0) != 0]  # None: the run was refused
     print(f"{len(rows)} fits, {sum(row['verdict'] in ('usable', 'nothing gained') for row in rows)} may be used, "
           f"{len(bad)} of them lose a trajectory")
     return 1 if bad else 0

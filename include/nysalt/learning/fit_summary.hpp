@@ -114,11 +114,23 @@ struct fit_summary {
       case nysalt::verdict::usable:
         return "usable";
       case nysalt::verdict::nothing_gained:
-        return fmt::format("nothing gained over {}: take {}", rival, rival);
+        return fmt::format("nothing gained over {}: {}", rival, what_to_take());
       case nysalt::verdict::not_usable:
         break;
     }
     return "NOT usable: " + reason;
+  }
+  /// What to take where nothing is gained, in words: a method with its step, or what the rival is.
+  std::string what_to_take() const {
+    if (rival == "equal steps") return "take a method of one evaluation with smaller steps";
+    if (rival == "phase_fitted") {
+      return "the member of this family that follows from the highest frequency alone is as good";
+    }
+    if (const auto times = rival.find(" x "); times != std::string::npos) {
+      const double n = std::stod(rival.substr(0, times));
+      return fmt::format("take {} at step {:.4g}", rival.substr(times + 3), step / n);
+    }
+    return fmt::format("take {}", rival);
   }
   /// Of the held-out losses of the rival and of this: how many times smaller this is.
   double gain() const { return rival_loss / held_out_loss; }
@@ -170,9 +182,10 @@ struct fit_summary {
     const auto line = [&](const char* what, const std::string& value) {
       text += fmt::format("  {:<22}{}\n", what, value);
     };
-    line("usable", !usable         ? "no: " + reason
-                   : gains_nothing ? fmt::format("yes, but nothing is gained over {}: take {}", rival, rival)
-                                   : "yes");
+    line("usable", !usable ? "no: " + reason
+                   : gains_nothing
+                       ? fmt::format("yes, but nothing is gained over {}: {}", rival, what_to_take())
+                       : "yes");
     line("loss", is_of_data ? fmt::format("{:.6e} ({}) on {} pairs of {} trajectories", loss, loss_name,
                                           samples, trajectories)
                             : fmt::format("{:.6e} ({})", loss, loss_name));
@@ -188,8 +201,10 @@ struct fit_summary {
     }
     if (!rival.empty()) {
       line("best classical",
-           fmt::format("{} of the same cost, held-out loss {:.6e} ({:.3g} times this, +- {:.2g})", rival,
-                       rival_loss, gain(), rival_noise / held_out_loss));
+           fmt::format("{} of the same cost, held-out loss {:.6e} ({:.3g} times this, +- {})", rival,
+                       rival_loss, gain(),
+                       std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / held_out_loss)
+                                                  : std::string("unknown")));
     }
     if (is_of_data) line("uncertainty", uncertainty());
     line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
@@ -200,7 +215,8 @@ struct fit_summary {
     line("trial run", trial.report());
     if (!unguarded.empty()) line("without the guard", unguarded);
     for (const auto& [low, high] : gaps) {
-      line("gap", fmt::format("unstable for z = {:.4g} to {:.4g}, which the system has not", low, high));
+      line("gap", fmt::format("unstable for z = {:.4g} to {:.4g}, which the motion meets rarely or never",
+                              low, high));
     }
     line("one-step error",
          fmt::format("{:.3e}, the reference's own {}", one_step_error,
@@ -210,6 +226,7 @@ struct fit_summary {
     for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
     line("condition", fmt::format("{:.3g}", condition));
     for (const auto& direction : flat_directions) {
+      if (!std::isfinite(direction.front())) continue;  // of a Hessian that is 0
       std::string components;
       for (const double x : direction) components += fmt::format(" {:.4f}", x);
       line("flat direction", components);

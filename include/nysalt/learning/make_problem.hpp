@@ -195,8 +195,8 @@ learning_problem make_problem(const run_time_family& family, const S& system,
   auto starts = std::make_shared<std::vector<phase_point<double, S::dimension>>>(
       starts_of_trial(system, data, held_out));
   problem.trial_starts = std::ssize(*starts);
-  // A tenth of a second or so in lanes. What a black box costs is not known.
-  constexpr std::int64_t coordinates_at_once = 100'000'000;
+  // Some tenths of a second in lanes. What a black box costs is not known.
+  constexpr std::int64_t coordinates_at_once = 400'000'000;
   if constexpr (!BlackBoxForce<S>) problem.trial_evaluations = coordinates_at_once / size(system);
   if constexpr (HasModes<S>) problem.frequency_to_fit = frequency_to_fit(system);
   const auto run = [&system, starts, step = data.step, seed = held_out.seed, threads = options.threads](

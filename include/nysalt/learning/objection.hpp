@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,12 @@
 
 namespace nysalt::detail {
 
-/// Standard error of sum_m (a_m - b_m) over independent trajectories m; 0 if there is but one.
+/// Standard error of sum_m (a_m - b_m) over independent trajectories m; infinite, as
+/// nothing is known, if there is but one.
 inline double noise_of_difference(const std::vector<double>& a, const std::vector<double>& b,
                                   const shard& share) {
   const auto count = static_cast<double>(share.total());
-  if (share.total() < 2) return 0.0;
+  if (share.total() < 2) return std::numeric_limits<double>::infinity();
   std::vector<double> terms;
   for (std::size_t m = 0; m < a.size(); ++m) terms.push_back(a[m] - b[m]);
   const double mean = share.sum(terms) / count;

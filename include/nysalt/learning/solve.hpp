@@ -116,7 +116,7 @@ inline trial_length length_of_trial(const learning_problem& problem) {
   constexpr std::int64_t most = 256;
   constexpr std::int64_t few = 64;
   constexpr std::int64_t fewest = 8;
-  constexpr std::int64_t long_enough = 1000;
+  constexpr std::int64_t long_enough = 10'000;
   constexpr std::int64_t shortest = 100;
   const std::int64_t each = std::max(1, problem.family.letters.evaluations_per_step);
   const std::int64_t cheap = std::min(problem.trial_evaluations, few * problem.options.planned_steps * each);
@@ -143,7 +143,7 @@ inline trial_length length_of_trial(const learning_problem& problem) {
 /// times over that are one in a thousand.
 inline bool tells_of_rare_states(const trial_result& trial) {
   constexpr std::int64_t many_steps = 100'000;
-  return trial.passed() && trial.trajectories * trial.steps >= many_steps;
+  return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
 
 /// A method that is compared by its held-out losses.
@@ -342,7 +342,10 @@ fit solve(const learning_problem& problem) {
       if (!known) continue;
       detail::contender one{known->name, known->held_out_losses};
       one.loss = share.sum(one.losses);
-      one.withstands = [&run_for_trial, trial = known->trial] { return run_for_trial(trial).passed(); };
+      one.withstands = [&run_for_trial,
+                        trial = known->trial] {  // where no trial is run nothing is against it
+        return run_for_trial(trial).objection().empty();
+      };
       rivals.push_back(std::move(one));
     }
     std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });

@@ -12,6 +12,7 @@
 
 #include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/trial_run.hpp"
 
 namespace nysalt {
 
@@ -148,7 +149,7 @@ std::vector<phase_point<double, S::dimension>> starts_of_trial(const S& system,
     if (k < energetic.size()) result.push_back(energetic[k]);
     if (k < plain.size()) result.push_back(plain[k]);
   }
-  return result;
+  return repeated_in_bath(system, std::move(result));
 }
 
 }  // namespace nysalt

@@ -360,8 +360,9 @@ class stability_guard {
     const auto worst = most_magnified(word, coefficients, step, too_much);
     if (worst.factor <= too_much) return {};
     return fmt::format(
-        "in {} steps it magnifies the mode of frequency {:.4g}, z = {:.4g}, {:.3g}-fold under soft forces",
-        steps_, worst.frequency, step * worst.frequency, worst.factor);
+        "in {} steps it magnifies the mode of frequency {:.4g}, z = {:.4g}, {} under soft forces", steps_,
+        worst.frequency, step * worst.frequency,
+        std::isfinite(worst.factor) ? fmt::format("{:.3g}-fold", worst.factor) : "without bound");
   }
 
   std::string resonant(const run_time_word& word, const std::vector<double>& coefficients,
