@@ -175,11 +175,13 @@ other_law() { # NAME SYSTEM LEARN_HORIZON STEP OPTION...
   name=$1 system=$2 learn_horizon=$3 step=$4 old=$folder/$2
   shift 4
   schemes=
+  with_frequency=,$fitted
+  [ "$system" != kepler ] || with_frequency=  # it declares none
   for family in fg4 fg_chin aba3_free; do
     [ ! -f "$old.$family.json" ] || schemes=$schemes$old.$family.json,
   done
   compare "$name" --system "$system" "$@" $equal_cost --metric state --horizon 10 --steps "$step" \
-    --learn-horizon "$learn_horizon" --methods "${schemes}learned:fg4,verlet,mclachlan2,$fourth"
+    --learn-horizon "$learn_horizon" --methods "${schemes}learned:fg4,verlet,mclachlan2,$fourth$with_frequency"
 }
 learn phi4 8 fg4 0.4
 learn phi4 8 fg_chin 0.3
