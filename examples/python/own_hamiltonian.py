@@ -28,10 +28,10 @@ morse = nysalt.hamiltonian("morse_pair", dimension=2, potential=potential, force
                            inverse_mass=[1, 0.25])
 # [/system]
 # [use]
-scheme = nysalt.learn(morse, "nystrom", step=0.4, horizon=8, trajectories=20)
+scheme = nysalt.learn(morse, "nystrom", step=0.3, horizon=7.5, trajectories=20)
 print(scheme.parameters, "usable" if scheme.usable else scheme.reason)
 
-found = nysalt.compare(morse, ["mclachlan2", "verlet_2x", scheme], steps=0.4, horizon=8, trajectories=100,
+found = nysalt.compare(morse, ["mclachlan2", "verlet_2x", scheme], steps=0.3, horizon=7.5, trajectories=100,
                        metric=["state", "energy"])
 for row in found["rows"]:
     print(f"{row['metric']:<8} {row['method']:<16} {row['error']:.2e} +- {row['standard_error']:.0e}")

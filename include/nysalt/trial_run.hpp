@@ -181,17 +181,22 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
   // Parts of a step that an accurate method takes: of the highest frequency that is declared less than a
   // radian each, far inside its window. Where that is too many, nothing is known of what is lost.
   constexpr double most_parts = 64.0;
-  double parts = 8.0;
-  if constexpr (HasModes<S> || HasFrequencyBands<S>) {
-    parts = std::max(parts, std::ceil(std::abs(step) * detail::frequency_to_fit(system)));
-  }
+  const auto parts_of_step = [&] {
+    double highest = 0.0;
+    if constexpr (HasFrequencyBands<S>) {
+      for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+    } else if constexpr (HasModes<S>) {
+      highest = detail::frequency_to_fit(system);
+    }
+    return std::max(8.0, std::ceil(std::abs(step) * highest));
+  };
   // Whether an accurate method loses a trajectory too: at a fine step and, so that it is not its own
   // instability, at a finer one.
-  const auto is_unconfined = [&](const std::vector<diverged_trajectory>& some) {
+  const auto is_unconfined = [&](const std::vector<diverged_trajectory>& some, int parts) {
     std::vector<phase_point<double, S::dimension>> at;
     for (const auto& one : some) at.push_back(starts[static_cast<std::size_t>(one.trajectory)]);
     std::vector<bool> result(some.size(), true);
-    for (const int finer : {static_cast<int>(parts), 4 * static_cast<int>(parts)}) {
+    for (const int finer : {parts, 4 * parts}) {
       const auto accurate = stepper_of(tabulated(blanes_moan_s6{}), step / finer);
       const auto diverged_at = integrate_ensemble<T>(
           accurate, listed<S::dimension>(at),
@@ -207,6 +212,7 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
   };
   // A few at a time: the first that the motion does not lose decides.
   const auto leave_out_unconfined = [&](const std::vector<diverged_trajectory>& lost) {
+    const double parts = parts_of_step();
     if (!(parts <= most_parts)) return;
     if constexpr (HasBath<S>) {
       if (system.bath().acts()) return;
@@ -216,7 +222,7 @@ trial_result trial_run(const S& system, const tabulated& method, double step,
       const std::size_t end = std::min(begin + few, lost.size());
       const std::vector<diverged_trajectory> some(lost.begin() + static_cast<std::ptrdiff_t>(begin),
                                                   lost.begin() + static_cast<std::ptrdiff_t>(end));
-      const auto unconfined = is_unconfined(some);
+      const auto unconfined = is_unconfined(some, static_cast<int>(parts));
       for (std::size_t k = 0; k < some.size(); ++k) {
         if (!unconfined[k]) continue;
         of_trajectory[static_cast<std::size_t>(some[k].trajectory)].is_left_out = true;

@@ -101,7 +101,8 @@ answer about(const subject& its, const stability_chart& chart) {
 std::string where_from(const known_frequencies& known) {
   std::string text = known.declared ? fmt::format("declared up to {:.6g}", *known.declared)
                                     : std::string("no bands are declared");
-  const bool is_of_these_starts = known.of_law >= known.along_starts.value_or(0.0);
+  constexpr double accuracy = 1.02;  // of the estimate along starts
+  const bool is_of_these_starts = accuracy * known.of_law >= known.along_starts.value_or(0.0);
   if (is_of_these_starts) text += fmt::format("; rare starts meet {:.6g}", known.of_law);
   if (known.along_starts)
     text += fmt::format("; {} starts have up to {:.6g}", known.starts, *known.along_starts);

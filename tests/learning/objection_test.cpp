@@ -32,5 +32,5 @@ BOOST_AUTO_TEST_CASE(the_noise_is_that_of_paired_differences) {
   const std::vector<double> a{11.0, 202.0, 3003.0};
   BOOST_TEST(std::abs(detail::noise_of_difference(a, b, shard(std::ssize(a))) - std::sqrt(3.0)) < 1e-15);
   BOOST_TEST(detail::noise_of_difference(b, b, shard(std::ssize(b))) == 0.0);
-  BOOST_TEST(detail::noise_of_difference({1.0}, {2.0}, shard(1)) == 0.0);
+  BOOST_TEST(std::isinf(detail::noise_of_difference({1.0}, {2.0}, shard(1))));  // of one nothing is known
 }

@@ -61,8 +61,8 @@ def test_the_example_learns_and_compares(capsys):
     its = runpy.run_path(str(EXAMPLE))
     assert its["scheme"].usable and not its["morse"].frequency_bands
     assert {row["metric"] for row in its["found"]["rows"]} == {"state", "energy"}
-    # 20 trajectories, and examples/new_hamiltonian.cpp learns from 100 others: the errors of both add up to less
-    # than five of these.
+    # 20 trajectories at the step 0.3, and examples/new_hamiltonian.cpp learns from 100 others at 0.4: the errors of
+    # both, and what the step changes, add up to less than five of these.
     theirs = np.array([0.5199, 0.4113])
     errors = np.array(list(its["scheme"].standard_errors.values()))
     assert (abs(its["scheme"].theta - theirs) <= 5 * errors + 1e-4).all()

@@ -195,6 +195,10 @@ learning_problem make_problem(const run_time_family& family, const S& system,
   auto starts = std::make_shared<std::vector<phase_point<double, S::dimension>>>(
       starts_of_trial(system, data, held_out));
   problem.trial_starts = std::ssize(*starts);
+  if constexpr (HasBath<S>) {
+    constexpr std::int64_t in_bath = 192;
+    if (system.bath().acts()) problem.trial_trajectories = in_bath;
+  }
   // Some tenths of a second in lanes. What a black box costs is not known.
   constexpr std::int64_t coordinates_at_once = 400'000'000;
   if constexpr (!BlackBoxForce<S>) problem.trial_evaluations = coordinates_at_once / size(system);

@@ -67,6 +67,7 @@ struct learning_problem {
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
   std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was
   std::int64_t trial_starts = 0;       ///< how many there are
+  std::int64_t trial_trajectories = 64;  ///< that are enough; in a bath more, as nothing watches their energy
   /// Runs the word with these coefficients from the first of these starts.
   std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
                              std::int64_t steps)>

@@ -110,11 +110,11 @@ struct trial_length {
 };
 
 /// As long as runs are planned, from up to 256 starts, but no more force evaluations than half of those that
-/// the data and the descents took, or than are cheap enough for 64 trajectories; fewer trajectories before
+/// the data and the descents took, or than are cheap for as many trajectories as are enough; fewer before
 /// fewer steps.
 inline trial_length length_of_trial(const learning_problem& problem) {
   constexpr std::int64_t most = 256;
-  constexpr std::int64_t few = 64;
+  const std::int64_t few = problem.trial_trajectories;
   constexpr std::int64_t fewest = 8;
   constexpr std::int64_t long_enough = 10'000;
   constexpr std::int64_t shortest = 100;

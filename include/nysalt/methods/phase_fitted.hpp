@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -63,10 +61,11 @@ class phase_fitted {
     const auto fit =
         detail::fit_phase(family, Eigen::Map<const Eigen::VectorXd>(classical.data(), F::parameters), z);
     if (!fit.theta) {
-      throw std::invalid_argument(fmt::format(
-          "{}: z = step * frequency must be at most {:.4g}, where its coefficients end, got {:.4g}; "
-          "take a smaller step",
-          name(), fit.reached, z));
+      const auto rounded = [](double x) { return std::round(100.0 * x) / 100.0; };
+      throw std::invalid_argument(sentence(
+          "{}: z = step * frequency must be at most {}, where its coefficients end, got {}; take a smaller "
+          "step",
+          name(), rounded(fit.reached), rounded(z)));
     }
     for (std::size_t k = 0; k < theta_.size(); ++k) theta_[k] = (*fit.theta)[static_cast<Eigen::Index>(k)];
   }
