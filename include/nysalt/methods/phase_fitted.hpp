@@ -61,11 +61,11 @@ class phase_fitted {
     const auto fit =
         detail::fit_phase(family, Eigen::Map<const Eigen::VectorXd>(classical.data(), F::parameters), z);
     if (!fit.theta) {
-      const auto rounded = [](double x) { return std::round(100.0 * x) / 100.0; };
+      const double reached = std::floor(1000.0 * fit.reached) / 1000.0;
       throw std::invalid_argument(sentence(
           "{}: z = step * frequency must be at most {}, where its coefficients end, got {}; take a smaller "
           "step",
-          name(), rounded(fit.reached), rounded(z)));
+          name(), reached, std::round(1000.0 * z) / 1000.0));
     }
     for (std::size_t k = 0; k < theta_.size(); ++k) theta_[k] = (*fit.theta)[static_cast<Eigen::Index>(k)];
   }
