@@ -100,7 +100,8 @@ template <class S, class T, class C>
 concept KickOfTheForce = std::is_base_of_v<typename decltype(origin_of_force<S, T>())::type,
                                            typename written_in<decltype(&S::template kick<T, C>)>::type>;
 
-/// Nor is a derivative that is inherited beside another force that force's; where that is not known it counts.
+/// Nor is a derivative that is inherited beside another force that force's; where that is not known it
+/// counts.
 template <class S, class T>
 consteval bool derivative_is_of_the_force() {
   using force = typename decltype(origin_of_force<S, T>())::type;
