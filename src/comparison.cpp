@@ -116,9 +116,9 @@ void comparison::add_row(const method_source& source, double nominal) {
   const double step = command_.equal_cost ? nominal * source.evaluations_per_step : nominal;
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
-  row its{.method = source.typed, .nominal = nominal, .step = step};
-  its.is_learned = source.family || source.learned;
-  its.findings.resize(metrics_.size());
+  row planned{.method = source.typed, .nominal = nominal, .step = step};
+  planned.is_learned = source.family || source.learned;
+  planned.findings.resize(metrics_.size());
   const auto otherwise = placement_asked(command_.placement);
   const bool is_noisy = system_->its_bath().acts() && system_->its_bath().sigma() > 0.0;
   int parts = 1;
@@ -131,7 +131,7 @@ void comparison::add_row(const method_source& source, double nominal) {
     if (where == placement::symmetric) parts = 2;
   } else {
     try {
-      its.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+      planned.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
     } catch (const refusal& problem) {
       // Coefficients that follow from the step may end; other steps have their rows.
       const bool is_alone = command_.steps.size() == 1;
@@ -139,8 +139,8 @@ void comparison::add_row(const method_source& source, double nominal) {
       warnings_.push_back(fmt::format("{} (no row at step {:g})", problem.what(), nominal));
       return;
     }
-    symmetric = its.coefficients->symmetric;
-    if (is_noisy) parts = noise_parts(*its.coefficients, *system_);
+    symmetric = planned.coefficients->symmetric;
+    if (is_noisy) parts = noise_parts(*planned.coefficients, *system_);
   }
   for (std::size_t m = 0; m < metrics_.size(); ++m) {
     const asked_metric& metric = metrics_[m];
@@ -151,9 +151,9 @@ void comparison::add_row(const method_source& source, double nominal) {
     system_->require_measure(metric, metric.is_along_paths() ? paths_at(step) : plan_at(step),
                              command_.learning.fine_step, metric.is_of_law() ? 1 : parts);
     if (metric.is_of_law()) statistics_at(m, step);
-    its.findings[m].reason = too_few_samples(metric, step);
+    planned.findings[m].reason = too_few_samples(metric, step);
   }
-  rows_.push_back(std::move(its));
+  rows_.push_back(std::move(planned));
 }
 
 trajectories_plan comparison::plan_at(double step) const {

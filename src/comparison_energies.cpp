@@ -13,7 +13,8 @@ namespace nysalt::program {
 
 namespace {
 
-/// Of records of the energy alone, so many steps apart; a trajectory that diverges has fewer samples.
+/// Root mean square energy error and share of surviving trajectories at each sample. A record holds the
+/// energy alone, sampled every `between` units of time; the record of a trajectory that diverges is shorter.
 energy_course course_of(const std::vector<record>& all, double between) {
   energy_course result;
   std::size_t longest = 0;
@@ -39,9 +40,9 @@ energy_course course_of(const std::vector<record>& all, double between) {
 void comparison::judge_steps() {
   constexpr std::uint64_t starts = 64;
   const auto known = frequencies_along_starts(*system_, seed_for(role::test, common_.seed), starts);
-  for (row& its : rows_) {
-    if (has_rotation(its.coefficients->letters())) continue;
-    its.margin = judge(*its.coefficients, chart_of(*its.coefficients), known, its.step).margin();
+  for (row& line : rows_) {
+    if (has_rotation(line.coefficients->letters())) continue;
+    line.margin = judge(*line.coefficients, chart_of(*line.coefficients), known, line.step).margin();
   }
 }
 
@@ -49,19 +50,19 @@ void comparison::judge_steps() {
 void comparison::follow_energies(journal& kept) {
   constexpr std::int64_t most_trajectories = 64;
   constexpr std::int64_t samples = 40;
-  for (row& its : rows_) {
-    if (!its.reason.empty()) continue;
-    shown_.part(fmt::format("energies of {} at step {:g}", its.method, its.nominal));
-    const json found = kept.once(fmt::format("energies of {} at {}", its.method, its.step), [&] {
-      sampled_plan plan{.trajectories = plan_at(its.step), .observables = {"energy"}};
+  for (row& line : rows_) {
+    if (!line.reason.empty()) continue;
+    shown_.part(fmt::format("energies of {} at step {:g}", line.method, line.nominal));
+    const json found = kept.once(fmt::format("energies of {} at {}", line.method, line.step), [&] {
+      sampled_plan plan{.trajectories = plan_at(line.step), .observables = {"energy"}};
       plan.trajectories.count = std::min(plan.trajectories.count, most_trajectories);
       plan.every = std::max<std::int64_t>(1, plan.trajectories.steps / samples);
       std::vector<record> all;
       const auto take = [&](std::int64_t, const record& one) { all.push_back(one); };
-      system_->run(*its.coefficients, plan, take, {});
-      return to_json(course_of(all, its.step * static_cast<double>(plan.every)));
+      system_->run(*line.coefficients, plan, take, {});
+      return to_json(course_of(all, line.step * static_cast<double>(plan.every)));
     });
-    its.energies = energies_from(found);
+    line.energies = energies_from(found);
   }
 }
 

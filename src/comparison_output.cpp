@@ -51,9 +51,9 @@ std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
   return text;
 }
 
-std::string margin_of(const row& its) {
-  if (!its.margin) return "-";
-  return *its.margin < 0.0 ? "unstable" : fmt::format("{:.0f} %", 100.0 * *its.margin);
+std::string text_of_margin(const std::optional<double>& margin) {
+  if (!margin) return "-";
+  return *margin < 0.0 ? "unstable" : fmt::format("{:.0f} %", 100.0 * *margin);
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ table rows_of(const comparison& all, std::size_t m) {
                                : "-");
     }
     cells.push_back(fmt::format("{}/{}", one.diverged, all.command().trajectories));
-    cells.push_back(margin_of(its));
+    cells.push_back(text_of_margin(its.margin));
     cells.push_back(joined_marks(all, m, its));
     result.add(cells);
   }

@@ -147,16 +147,16 @@ std::vector<figure> pictures_of_energies(const comparison& all) {
     bool all_survive = true;
     for (const row& one : all.rows()) {
       if (one.nominal != nominal || !one.energies || !drawn.contains(one.method)) continue;
-      const energy_course& its = *one.energies;
-      if (its.t.size() < 2) continue;
+      const energy_course& course = *one.energies;
+      if (course.t.size() < 2) continue;
       // At the start there is no error, which a logarithmic axis cannot show.
       errors.curves.push_back({.label = one.method,
-                               .x = {its.t.begin() + 1, its.t.end()},
-                               .y = {its.deviation.begin() + 1, its.deviation.end()},
+                               .x = {course.t.begin() + 1, course.t.end()},
+                               .y = {course.deviation.begin() + 1, course.deviation.end()},
                                .emphasised = one.is_learned});
       survivors.curves.push_back(
-          {.label = one.method, .x = its.t, .y = its.surviving, .emphasised = one.is_learned});
-      all_survive = all_survive && its.surviving.back() == 1.0;
+          {.label = one.method, .x = course.t, .y = course.surviving, .emphasised = one.is_learned});
+      all_survive = all_survive && course.surviving.back() == 1.0;
     }
     if (errors.curves.empty()) continue;
     figure picture{.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}};

@@ -149,9 +149,10 @@ finding finding_from(const json& text) {
   return its;
 }
 
-json to_json(const energy_course& its) {
-  return {
-      {"t", numbers(its.t)}, {"deviation", numbers(its.deviation)}, {"surviving", numbers(its.surviving)}};
+json to_json(const energy_course& course) {
+  return {{"t", numbers(course.t)},
+          {"deviation", numbers(course.deviation)},
+          {"surviving", numbers(course.surviving)}};
 }
 energy_course energies_from(const json& text) {
   return {numbers_from(text.at("t")), numbers_from(text.at("deviation")), numbers_from(text.at("surviving"))};

@@ -69,7 +69,7 @@ using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
 
 json to_json(const std::vector<diverged_trajectory>& lost);
 json to_json(const finding& its);
-json to_json(const energy_course& its);
+json to_json(const energy_course& course);
 json to_json(const backdrop& its);
 finding finding_from(const json& text);
 energy_course energies_from(const json& text);

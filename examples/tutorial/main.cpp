@@ -68,12 +68,12 @@ int main() {
   };
   const auto start = starts(3, 0);
   auto finish = start;
-  const auto rival_of = [&](const auto& its, int evaluations) {
-    const auto stepper = make_stepper(system, its, step / 3 * evaluations);
+  const auto rival_of = [&](const auto& word, int evaluations) {
+    const auto stepper = make_stepper(system, word, step / 3 * evaluations);
     const auto run = [&, stepper, evaluations] {
       for (int n = 0; n < 1000; ++n) finish = integrate(stepper, start, 120 / evaluations).finish;
     };
-    return rival{tabulated(its), evaluations, run};
+    return rival{tabulated(word), evaluations, run};
   };
   const double z = std::sqrt(system.stiffness) * step / 3;  // of the spring, an evaluation
   const std::vector<rival> rivals{rival_of(method.anywhere(), 3),
@@ -91,8 +91,8 @@ int main() {
   fmt::print("{:25}error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", "", 40 * step);
   std::optional<estimate> null_model;  // of what stays where it starts
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    const auto& [its, evaluations, run] = rivals[i];
-    const std::vector one{its};
+    const auto& [word, evaluations, run] = rivals[i];
+    const std::vector one{word};
     const auto result = trajectory_errors(system, accurate, starts, one, state_measure(system),
                                           {.step = step / 3 * evaluations,
                                            .steps = 120 / evaluations,
@@ -100,7 +100,7 @@ int main() {
                                            .seed = 3,
                                            .null_model = true});
     const auto [error, standard_error] = result.methods[0].error;
-    fmt::print("{:<23}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", its.name(), error, standard_error,
+    fmt::print("{:<23}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", word.name(), error, standard_error,
                seconds[i].least / 120'000 * 1e9, seconds[i].median / 120'000 * 1e9,
                result.methods[0].diverged_at.empty() ? "" : "   some diverged");
     null_model = result.null_model;

@@ -2,6 +2,8 @@
 // What the rows of a comparison are worth: references, null models, floors, horizons, marks and rankings.
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -51,6 +53,21 @@ BOOST_AUTO_TEST_CASE(a_reference_is_as_fine_as_its_rows_need) {
   const auto poor = document(line + "srkn11b --fine-step 0.006");
   BOOST_TEST(poor["rows"][0]["marks"].dump().find("reference") != std::string::npos);
   BOOST_TEST(poor["rankings"][0]["front_by_evaluations"].empty());
+}
+
+// Beside each row the margin of `stability` at the step that is taken; a step beyond the window has none
+// left.
+BOOST_AUTO_TEST_CASE(margins_are_those_of_stability) {
+  const auto all =
+      document("compare --system phi4 --methods verlet,pefrl --steps 0.1,0.6 --horizon 6 --trajectories 3");
+  for (const auto& row : all["rows"]) {
+    const auto alone = document(fmt::format("stability --system phi4 --method {} --step {}",
+                                            row["method"].get<std::string>(), row["step"].get<double>()));
+    BOOST_TEST(row["stability_margin"] == alone["margin"]);
+    BOOST_TEST((row["stability_margin"] > 0.0) == (row["step"] == 0.1));
+  }
+  const auto rotating = document("compare --methods impulse --steps 0.01 --trajectories 3");
+  BOOST_TEST(rotating["rows"][0]["stability_margin"].is_null());
 }
 
 // A method whose coefficients follow from the step has rows where it has coefficients.

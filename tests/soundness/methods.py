@@ -10,13 +10,12 @@ linearly stable one; for a method whose coefficients depend on the step, of 2 s/
 An older program given by --older is asked the same.
 Writes methods.csv, methods.md.
 """
-import argparse
 import csv
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from table import PARTS, SYSTEMS, ask, highest_frequency, lost_of
+from table import PARTS, ask, asked_for, highest_frequency, lost_of
 
 
 def judged(program, system, method, step, with_safe_step):
@@ -40,15 +39,7 @@ def steps_of(method, evaluations, omega):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program")
-    parser.add_argument("folder")
-    parser.add_argument("--older")
-    parser.add_argument("--systems", default=",".join(SYSTEMS))
-    parser.add_argument("--methods")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    asked = parser.parse_args()
-    os.makedirs(asked.folder, exist_ok=True)
+    asked = asked_for(__doc__, "methods")
     listed, _, _ = ask(asked.program, "list")
     methods = [one for one in listed["methods"] if "O" not in one["letters"]]
     if asked.methods:

@@ -87,16 +87,22 @@ def examine(program, system, family, step):
         return row
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def asked_for(description, what):
+    """The command line, with a list of families or of methods; makes the folder."""
+    parser = argparse.ArgumentParser(description=description.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("folder")
     parser.add_argument("--older")
     parser.add_argument("--systems", default=",".join(SYSTEMS))
-    parser.add_argument("--families")
+    parser.add_argument("--" + what)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     asked = parser.parse_args()
     os.makedirs(asked.folder, exist_ok=True)
+    return asked
+
+
+def main():
+    asked = asked_for(__doc__, "families")
     listed, _, _ = ask(asked.program, "list")
     evaluations = {one["name"]: one["evaluations_per_step"] for one in listed["families"]}
     families = asked.families.split(",") if asked.families else list(evaluations)

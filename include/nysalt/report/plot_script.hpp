@@ -91,26 +91,26 @@ inline std::string stretches(const panel& its) {
   return text;
 }
 
-inline std::string axes(const panel& its) {
-  std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(its.title),
-                                 quoted(its.x_label), quoted(its.y_label));
-  const bool log_y = its.log_log && !its.linear_y;
+inline std::string axes(const panel& axis_pair) {
+  std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(axis_pair.title),
+                                 quoted(axis_pair.x_label), quoted(axis_pair.y_label));
+  const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
   text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
-  const bool log_x = its.log_log && !its.linear_x;
+  const bool log_x = axis_pair.log_log && !axis_pair.linear_x;
   if (log_x || log_y) text += fmt::format("set logscale {}{}\n", log_x ? "x" : "", log_y ? "y" : "");
   // Whole decades would leave much of a logarithmic axis empty.
-  const log_range costs = log_x ? range_of_costs(its) : log_range();
+  const log_range costs = log_x ? range_of_costs(axis_pair) : log_range();
   if (costs.is_empty()) {
     text += "set autoscale x\nset xtics autofreq\n";
   } else {
     text += fmt::format("set xrange [{:.6g}:{:.6g}]\n{}", costs.low, costs.high,
                         ticks_command('x', {costs.low, costs.high}));
   }
-  text += has_key_beside(its) ? "set key outside right top vertical Left reverse samplen 4\n"
-                              : "set key outside top center horizontal Right noreverse samplen 4\n";
-  text += "unset label\nunset arrow\n" + stretches(its);
+  text += has_key_beside(axis_pair) ? "set key outside right top vertical Left reverse samplen 4\n"
+                                    : "set key outside top center horizontal Right noreverse samplen 4\n";
+  text += "unset label\nunset arrow\n" + stretches(axis_pair);
   bool at_right = true;  // levels may be close: their names stand at the two ends in turn
-  for (const auto& level : its.levels) {
+  for (const auto& level : axis_pair.levels) {
     text += fmt::format(
         "set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back "
         "lc '#777777' lw 1.2 dt (7,5)\n",
@@ -121,8 +121,8 @@ inline std::string axes(const panel& its) {
     at_right = !at_right;
   }
   text += "set ytics autofreq\n";
-  if (!log_y || its.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", its.y_range);
-  const log_range range = range_of_logarithms(its);
+  if (!log_y || axis_pair.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", axis_pair.y_range);
+  const log_range range = range_of_logarithms(axis_pair);
   if (!range.is_empty()) text += ticks_command('y', {range.low, range.high});
   if (range.outside > 0) {
     text += fmt::format(
