@@ -38,8 +38,6 @@ foreach(header IN LISTS all_headers)
     target_link_libraries(${group} PRIVATE ${all_components} nysalt_warnings)
     target_compile_options(${group} PRIVATE -O0)  # all that counts is whether they compile
     list(TRANSFORM its_dear REPLACE "(.+)" "<\\1>")
-    # That header includes it, and does not compile what is in it.
-    list(TRANSFORM its_dear REPLACE "<Eigen/Eigenvalues>" ${PROJECT_SOURCE_DIR}/once/eigen.hpp)
     target_precompile_headers(${group} PRIVATE ${its_dear})
     add_dependencies(headers_alone ${group})
   endif()

@@ -3,8 +3,8 @@
 
 set(nysalt_components core nysalt learn odeint mpi)
 set(nysalt_core_needs Eigen3)
-set(nysalt_nysalt_needs core Boost fmt TBB)
-set(nysalt_learn_needs nysalt Ceres)
+set(nysalt_nysalt_needs core Boost fmt TBB Ceres)
+set(nysalt_learn_needs nysalt)
 set(nysalt_odeint_needs core Boost)
 set(nysalt_mpi_needs nysalt MPI)
 

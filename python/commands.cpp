@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "../src/comparison.hpp"
-#include "../src/lesson.hpp"
-#include "../src/listing.hpp"
-#include "../src/method_file.hpp"
-#include "../src/recommendation.hpp"
+#include "../src/program/comparison.hpp"
+#include "../src/program/lesson.hpp"
+#include "../src/program/listing.hpp"
+#include "../src/program/method_file.hpp"
+#include "../src/program/recommendation.hpp"
 #include "build_info.hpp"
 #include "computing.hpp"
 #include "given.hpp"

@@ -6,7 +6,7 @@
 #include <future>
 #include <thread>
 
-#include "../src/progress.hpp"
+#include "../src/program/progress.hpp"
 #include "leaving.hpp"
 
 namespace nysalt::python {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "../src/checks.hpp"
-#include "../src/comparison.hpp"
-#include "../src/world.hpp"
+#include "../src/program/checks.hpp"
+#include "../src/program/comparison.hpp"
+#include "../src/program/world.hpp"
 
 namespace nysalt::python {
 

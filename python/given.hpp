@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../src/settings.hpp"
+#include "../src/program/settings.hpp"
 
 namespace nysalt::python {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "../src/bundled_model.hpp"
+#include "../src/program/bundled_model.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 
 namespace nysalt::python {

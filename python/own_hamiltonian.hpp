@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../src/bundled_systems.hpp"
+#include "../src/program/bundled_systems.hpp"
 
 namespace nysalt::python {
 

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "../src/progress.hpp"
-#include "../src/refusal.hpp"
+#include "../src/program/progress.hpp"
+#include "../src/program/refusal.hpp"
 
 namespace nysalt::python {
 

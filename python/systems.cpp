@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "../src/bundled_system.hpp"
-#include "../src/json.hpp"
-#include "../src/learning.hpp"
-#include "../src/refusal.hpp"
-#include "../src/seeds.hpp"
+#include "../src/program/bundled_system.hpp"
+#include "../src/program/json.hpp"
+#include "../src/program/learning.hpp"
+#include "../src/program/refusal.hpp"
+#include "../src/program/seeds.hpp"
 #include "arrays.hpp"
 #include "computing.hpp"
 #include "given.hpp"

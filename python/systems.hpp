@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "../src/bundled_system.hpp"
+#include "../src/program/bundled_system.hpp"
 #include "own_functions_of.hpp"
 
 namespace nysalt::python {

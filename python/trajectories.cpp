@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "../src/checks.hpp"
-#include "../src/learning.hpp"
-#include "../src/method_source.hpp"
-#include "../src/planned_run.hpp"
-#include "../src/stretches.hpp"
+#include "../src/program/checks.hpp"
+#include "../src/program/learning.hpp"
+#include "../src/program/method_source.hpp"
+#include "../src/program/planned_run.hpp"
+#include "../src/program/stretches.hpp"
 #include "arrays.hpp"
 #include "commands.hpp"
 #include "computing.hpp"

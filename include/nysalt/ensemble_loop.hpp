@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
-// The loop over trajectories, on several threads.
+// Loops over trajectories and over blocks of them, on several threads.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 
-#include "nysalt/ensemble_blocks.hpp"
-#if !defined NYSALT_COMPILED_ONCE
-#include "nysalt/ensemble_threads.hpp"
-#endif
-
 namespace nysalt {
 
+/// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
+/// `count` in all, on at most `threads` threads at a time, in no certain order; only the last block is
+/// shorter. A body writes what it finds into the places of its trajectories; whoever sums then takes
+/// tree_sum, and neither width nor the number of threads changes a bit. With one thread the order is that of
+/// the trajectories, and no thread is made. `progress`, if given, is told after each block how many are done;
+/// from any thread, never two calls at once.
+///
+/// If a body throws, its trajectories are gone through again, one after the other, so that what leaves the
+/// loop is the exception of the first trajectory that has one, whatever width and threads; some beyond it are
+/// not visited. Throws std::invalid_argument if threads or width are below 1.
+void for_each_block(std::int64_t count, int width, int threads,
+                    const std::function<void(std::int64_t, int)>& body,
+                    const std::function<void(std::int64_t)>& progress = {});
+
 /// Calls body(m) for m = 0 .. count - 1: blocks of one.
-inline void for_each_trajectory(std::int64_t count, int threads,
-                                const std::function<void(std::int64_t)>& body,
-                                const std::function<void(std::int64_t)>& progress = {}) {
-  for_each_block(
-      count, 1, threads, [&](std::int64_t m, int) { body(m); }, progress);
-}
+void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
+                         const std::function<void(std::int64_t)>& progress = {});
 
 }  // namespace nysalt

@@ -10,9 +10,6 @@
 #include "nysalt/learning/require_valid.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/method.hpp"
-#if !defined NYSALT_COMPILED_ONCE
-#include "nysalt/learning/solve.hpp"
-#endif
 
 namespace nysalt {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <memory>
 
-#include "../../src/bundled_system.hpp"
-#include "../../src/catalogue.hpp"
-#include "../../src/checks.hpp"
-#include "../../src/seeds.hpp"
+#include "../../src/program/bundled_system.hpp"
+#include "../../src/program/catalogue.hpp"
+#include "../../src/program/checks.hpp"
+#include "../../src/program/seeds.hpp"
 #include "nysalt/report/page.hpp"
 #include "nysalt/report/table.hpp"
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../../src/run_program.hpp"
+#include "../../src/program/run_program.hpp"
 #include "../support/scratch.hpp"
 
 namespace nysalt::fuzz {

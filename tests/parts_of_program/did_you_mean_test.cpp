@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/catalogue.hpp"
-#include "../../src/did_you_mean.hpp"
+#include "../../src/program/catalogue.hpp"
+#include "../../src/program/did_you_mean.hpp"
 
 using namespace nysalt::program;
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/catalogue.hpp"
-#include "../../src/known_word.hpp"
+#include "../../src/program/catalogue.hpp"
+#include "../../src/program/known_word.hpp"
 
 using namespace nysalt;
 using namespace nysalt::program;

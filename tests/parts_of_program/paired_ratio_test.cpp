@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "../../src/paired_ratio.hpp"
+#include "../../src/program/paired_ratio.hpp"
 
 using namespace nysalt::program;
 

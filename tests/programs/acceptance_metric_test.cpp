@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "../../src/seeds.hpp"
+#include "../../src/program/seeds.hpp"
 #include "../support/bad_input.hpp"
 #include "../support/document.hpp"
 #include "../support/without_times.hpp"

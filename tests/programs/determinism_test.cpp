@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/seeds.hpp"
+#include "../../src/program/seeds.hpp"
 #include "../support/program.hpp"
 #include "../support/without_times.hpp"
 #include "nysalt/energy.hpp"

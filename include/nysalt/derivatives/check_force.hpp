@@ -8,9 +8,6 @@
 #include <vector>
 
 #include "nysalt/derivatives/force_source.hpp"
-#if !defined NYSALT_COMPILED_ONCE
-#include "nysalt/derivatives/force_examination.hpp"
-#endif
 
 namespace nysalt {
 

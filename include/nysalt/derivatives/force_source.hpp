@@ -152,15 +152,9 @@ class force_source_of final : public force_source {
   const S& system_;
 };
 
-// A project may compile force_examination.hpp apart, once.
-#if defined NYSALT_COMPILED_ONCE
+/// What a system says of the force in several ways, compared at one point after the other.
 force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
                           const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
                           const Eigen::VectorXd& lengths_of_momenta);
-#else
-inline force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
-                                 const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
-                                 const Eigen::VectorXd& lengths_of_momenta);
-#endif
 
 }  // namespace nysalt::detail

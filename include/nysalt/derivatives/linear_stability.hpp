@@ -161,11 +161,6 @@ std::vector<stability_window> stability_windows(
   return chart_stability(word, coefficients).windows;
 }
 
-#if defined NYSALT_COMPILED_ONCE
-extern template stability_chart chart_stability<run_time_word>(const run_time_word&,
-                                                               const std::vector<double>&);
-#endif
-
 /// The windows of a method, at its own coefficients.
 template <Method M>
 std::vector<stability_window> stability_windows(const M& method) {

@@ -11,11 +11,7 @@ struct fit {
   fit_summary summary;    ///< its `usable` says whether to use them
 };
 
-// No type of a system is in it: a project may compile learning/solve.hpp apart, once.
-#if defined NYSALT_COMPILED_ONCE
+/// The fit of a learning problem, judged: see learn().
 fit solve(const learning_problem& problem);
-#else
-inline fit solve(const learning_problem& problem);
-#endif
 
 }  // namespace nysalt

@@ -22,4 +22,3 @@
 #include <string>
 #include <vector>
 
-#include "eigen.hpp"

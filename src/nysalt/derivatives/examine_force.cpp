@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compares, at one point after the other, what a system says of its force in several ways.
-#pragma once
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How blocks of trajectories are gone through on several threads.
-#pragma once
+#include "nysalt/ensemble_loop.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,8 +12,6 @@
 #include <exception>
 #include <mutex>
 #include <stdexcept>
-
-#include "nysalt/ensemble_blocks.hpp"
 
 namespace nysalt {
 
@@ -68,6 +65,12 @@ void for_each_block(std::int64_t count, int width, int threads,
   oneapi::tbb::task_arena arena(threads);
   arena.execute([&] { oneapi::tbb::parallel_for(std::int64_t{0}, blocks, guarded); });
   if (thrown) std::rethrow_exception(thrown);
+}
+
+void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
+                         const std::function<void(std::int64_t)>& progress) {
+  for_each_block(
+      count, 1, threads, [&](std::int64_t m, int) { body(m); }, progress);
 }
 
 }  // namespace nysalt

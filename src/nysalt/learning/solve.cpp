@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // From a problem of learning to a fit, judged.
-#pragma once
+#include "nysalt/learning/fit.hpp"
 
 #include <fmt/format.h>
 
@@ -16,23 +16,25 @@
 #include <vector>
 
 #include "nysalt/families/phase_fitted_start.hpp"
-#include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 
 namespace nysalt {
 
-namespace detail {
+using detail::noise_of_difference;
+using detail::objection;
+
+namespace {
 
 /// Puts in the values of parameters that are not to be learned.
-inline void fix(const fit_options& options, Eigen::VectorXd& theta) {
+void fix(const fit_options& options, Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < options.fixed.size(); ++k) {
     if (options.fixed[k]) theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
   }
 }
 
-inline std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
                                                const std::vector<Eigen::Index>& free) {
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
@@ -48,7 +50,7 @@ inline std::vector<named_parameters> starts_of(const run_time_family& family, co
 
 /// Ranks search each by itself with the same sums. They would not take the same steps if their processors'
 /// libraries differed in a bit.
-inline void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
+void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
   if (ranks.is_alone()) return;
   Eigen::VectorXd of_first = theta;
   ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
@@ -61,7 +63,7 @@ inline void require_same(const communicator& ranks, const Eigen::VectorXd& theta
   });
 }
 
-inline void require_sound(const run_time_family& family, const fit_options& options) {
+void require_sound(const run_time_family& family, const fit_options& options) {
   if (options.planned_steps < 1) {
     throw std::invalid_argument(
         fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));
@@ -92,7 +94,7 @@ inline void require_sound(const run_time_family& family, const fit_options& opti
 
 /// The member of the family whose step is exact on an oscillator of the highest mode's frequency, or, where
 /// no modes are declared, of the highest frequency that is met often; nothing if there is none.
-inline std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
+std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
   double highest = problem.frequency_to_fit;
   if (highest == 0.0) {
     for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
@@ -112,7 +114,7 @@ struct trial_length {
 /// As long as runs are planned, from up to 256 starts, but no more force evaluations than half of those that
 /// the data and the descents took, or than are cheap for as many trajectories as are enough; fewer before
 /// fewer steps.
-inline trial_length length_of_trial(const learning_problem& problem) {
+trial_length length_of_trial(const learning_problem& problem) {
   constexpr std::int64_t most = 256;
   const std::int64_t few = problem.trial_trajectories;
   constexpr std::int64_t fewest = 8;
@@ -141,7 +143,7 @@ inline trial_length length_of_trial(const learning_problem& problem) {
 
 /// Whether a trial run tells what rare frequencies do to a method: it is long enough to meet states many
 /// times over that are one in a thousand.
-inline bool tells_of_rare_states(const trial_result& trial) {
+bool tells_of_rare_states(const trial_result& trial) {
   constexpr std::int64_t many_steps = 100'000;
   return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
@@ -157,12 +159,12 @@ struct contender {
 
 /// Whether the loss of a is smaller than that of b by two standard errors of their difference, and by more
 /// than rounding: losses below 1e-24 are errors of 1e-12 of an increment.
-inline bool is_better(const contender& a, const contender& b, const shard& share) {
+bool is_better(const contender& a, const contender& b, const shard& share) {
   const double noise = noise_of_difference(a.losses, b.losses, share);
   return b.loss > 1e-24 && a.loss < b.loss - 2.0 * noise && a.loss < b.loss * (1.0 - 1e-9);
 }
 
-}  // namespace detail
+}  // namespace
 
 /// Searches from all starts, and judges the best. Throws std::invalid_argument for options that the family
 /// cannot take. Cost: see learn().
@@ -171,25 +173,25 @@ fit solve(const learning_problem& problem) {
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;
   const shard& share = problem.held_out;
-  detail::require_sound(family, options);
+  require_sound(family, options);
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  auto starts = detail::starts_of(family, options, free);
-  const auto fitted = detail::phase_fitted_member(problem);
+  auto starts = starts_of(family, options, free);
+  const auto fitted = phase_fitted_member(problem);
   if (fitted && !options.start) {
     starts.push_back(*fitted);
-    detail::fix(options, starts.back().theta);
+    fix(options, starts.back().theta);
   }
   const bool has_data = !problem.law;
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
   };
   // The same for all that are tried.
-  std::optional<detail::trial_length> length;
+  std::optional<trial_length> length;
   const auto run_for_trial = [&](const auto& run) {
-    if (!length) length = detail::length_of_trial(problem);
+    if (!length) length = length_of_trial(problem);
     if (length->not_run.empty()) return trial_result(run(length->trajectories, length->steps));
     trial_result result;
     result.not_run = length->not_run;
@@ -209,7 +211,7 @@ fit solve(const learning_problem& problem) {
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
     if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
     if (const std::string failed = trial.objection(); !failed.empty()) return failed;
-    return detail::tells_of_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
+    return tells_of_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) {
     return instability_of(theta, trial_of(theta)).empty();
@@ -230,7 +232,7 @@ fit solve(const learning_problem& problem) {
   if (options.guarded) task.withstands = withstands;
   if (family.refuge) {
     task.refuge = named_parameters{"refuge", *family.refuge};
-    detail::fix(options, task.refuge->theta);
+    fix(options, task.refuge->theta);
   }
   if (!has_data) {  // it is its own judge
     task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
@@ -238,16 +240,16 @@ fit solve(const learning_problem& problem) {
   search_result found = search(task, starts);
 
   const auto member_at = [&](const std::string& name, const Eigen::VectorXd& theta) {
-    detail::contender result{name, problem.held_out_losses(theta)};
+    contender result{name, problem.held_out_losses(theta)};
     result.loss = share.sum(result.losses);
     result.theta = theta;
     result.withstands = [&, theta] { return task.admits(theta) && withstands(theta); };
     return result;
   };
-  detail::contender chosen = member_at(found.best.from, found.best.theta);
+  contender chosen = member_at(found.best.from, found.best.theta);
 
   // What is handed out is not worse than a member of the family that was known before.
-  std::vector<detail::contender> members;
+  std::vector<contender> members;
   const bool is_free = std::ssize(free) == family.parameters();
   if (is_free && has_data) {
     for (const auto& known : family.starts) {
@@ -255,13 +257,13 @@ fit solve(const learning_problem& problem) {
     }
     if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
     if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
-    std::ranges::stable_sort(members, {}, &detail::contender::loss);
+    std::ranges::stable_sort(members, {}, &contender::loss);
   }
   const bool has_settled = found.best.converged || found.best.in_valley || found.best.is_held;
   const bool is_chosen_sound = !options.guarded || chosen.withstands();
   for (const auto& member : members) {
     if (!options.guarded || !has_settled) break;
-    const bool may_replace = detail::is_better(member, chosen, share) || !is_chosen_sound;
+    const bool may_replace = is_better(member, chosen, share) || !is_chosen_sound;
     if (!may_replace || !member.withstands()) continue;
     if (!found.unguarded) found.unguarded = found.best;
     found.best = {.from = member.name,
@@ -273,7 +275,7 @@ fit solve(const learning_problem& problem) {
     chosen = member;
     break;
   }
-  detail::require_same(share.ranks(), found.best.theta);
+  require_same(share.ranks(), found.best.theta);
   const candidate& best = found.best;
   const Eigen::VectorXd& theta = best.theta;
 
@@ -282,7 +284,7 @@ fit solve(const learning_problem& problem) {
   summary.loss = best.loss;
   summary.held_out_loss = chosen.loss;
   summary.held_out_start_loss = share.sum(at_start);
-  summary.held_out_noise = detail::noise_of_difference(chosen.losses, at_start, share);
+  summary.held_out_noise = noise_of_difference(chosen.losses, at_start, share);
   summary.one_step_error = std::sqrt(problem.one_step_loss(theta));
   summary.trajectory_error = std::sqrt(problem.loss_at_end(theta));
   summary.starts_tried = found.tried;
@@ -332,7 +334,7 @@ fit solve(const learning_problem& problem) {
 
   // The strongest rival of the same cost, whether the family contains it or not.
   if (has_data) {
-    std::vector<detail::contender> rivals = std::move(members);
+    std::vector<contender> rivals = std::move(members);
     std::vector<std::optional<rival_method>> methods;
     for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
       // Rotations are not counted, and are not free: words with them are compared with each other.
@@ -340,7 +342,7 @@ fit solve(const learning_problem& problem) {
       methods.push_back(problem.rival(method));
       const auto& known = methods.back();
       if (!known) continue;
-      detail::contender one{known->name, known->held_out_losses};
+      contender one{known->name, known->held_out_losses};
       one.loss = share.sum(one.losses);
       one.withstands = [&run_for_trial,
                         trial = known->trial] {  // where no trial is run nothing is against it
@@ -349,19 +351,19 @@ fit solve(const learning_problem& problem) {
       rivals.push_back(std::move(one));
     }
     std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });
-    std::ranges::stable_sort(rivals, {}, &detail::contender::loss);
+    std::ranges::stable_sort(rivals, {}, &contender::loss);
     for (const auto& rival : rivals) {
       if (rival.name == "start") continue;
-      const bool is_beaten = detail::is_better(chosen, rival, share);
+      const bool is_beaten = is_better(chosen, rival, share);
       if (!is_beaten && !rival.withstands()) continue;
       summary.rival = rival.name;
       summary.rival_loss = rival.loss;
-      summary.rival_noise = detail::noise_of_difference(chosen.losses, rival.losses, share);
+      summary.rival_noise = noise_of_difference(chosen.losses, rival.losses, share);
       summary.gains_nothing = !is_beaten;
       break;
     }
   }
-  summary.reason = detail::objection(summary, best.converged || best.in_valley || best.is_held, instability);
+  summary.reason = objection(summary, best.converged || best.in_valley || best.is_held, instability);
   summary.usable = summary.reason.empty();
   summary.learning_evaluations = problem.evaluations();
   summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

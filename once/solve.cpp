@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: BSL-1.0
-#include "nysalt/learning/solve.hpp"
-#include "eigen.hpp"

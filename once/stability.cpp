@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSL-1.0
-#include "eigen.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/run_time_word.hpp"
-
-template nysalt::stability_chart nysalt::chart_stability<nysalt::run_time_word>(const run_time_word&,
-                                                                                const std::vector<double>&);
