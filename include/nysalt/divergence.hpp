@@ -33,6 +33,7 @@ class divergence {
   /// where there is one.
   divergence(const S& system, const state& start) : system_(&system) {
     if constexpr (HasEnergy<S>) {
+      if (!has_energy(system)) return;
       initial_ = energy_in_lanes<T>(system, start);
       const T size = magnitude(initial_);
       const double least = energy_of_bath(system);
@@ -43,8 +44,11 @@ class divergence {
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
   condition_of<T> operator()(const state& x) const {
     condition_of<T> sound = is_finite(x);
-    if constexpr (HasEnergy<S>)
-      sound = both(sound, magnitude(energy_in_lanes<T>(*system_, x) - initial_) <= most_);
+    if constexpr (HasEnergy<S>) {
+      if (has_energy(*system_)) {
+        sound = both(sound, magnitude(energy_in_lanes<T>(*system_, x) - initial_) <= most_);
+      }
+    }
     return !sound;
   }
 

@@ -197,7 +197,8 @@ void force_of(const S& system, const vector<T, S::dimension>& q, vector<T, S::di
 /// f'(q) v of a field can be had over T.
 template <class S, class T, field F>
 concept ForceDerivativeOver = ForceOver<S, dual<T, 1>, F> ||
-    (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>)));
+    (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
+    (ErasedSystem<S> && HasForce<S, T>);
 
 /// Room for a force over dual numbers.
 template <class T, int N>
@@ -257,9 +258,11 @@ void black_box_along(const S& system, const vector<T, S::dimension>& q, const ve
 template <field F, class T, System S>
   requires ForceDerivativeOver<S, T, F>
 void force_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
-                 vector<T, S::dimension>& g, lifted_room<T, S::dimension>& room,
+                 vector<T, S::dimension>& g, auto& room,
                  double s = detail::part_of_displacement) {
-  if constexpr (F == field::whole && HasForceDerivative<S, T>) {
+  if constexpr (ErasedSystem<S>) {
+    system.template kernels<T>().force_along(F, q, v, g, room, s);
+  } else if constexpr (F == field::whole && HasForceDerivative<S, T>) {
     system.force_derivative(q, v, g);
   } else if constexpr (F == field::whole && BlackBoxForce<S>) {
     if constexpr (is_dual<T>) {
@@ -281,6 +284,13 @@ void force_along(const S& system, const vector<T, S::dimension>& q, const vector
 /// and else one.
 template <System S>
 inline constexpr int derivative_calls = BlackBoxForce<S> && !HasForceDerivative<S> ? 2 : 1;
+
+/// The same of any system.
+template <System S>
+constexpr int calls_of_derivative(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().derivative_calls;
+  return derivative_calls<S>;
+}
 
 /// How derivatives of the force come about, for reports.
 template <SeparableSystem S>

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/kernels.hpp"
 #include "nysalt/prepared_word.hpp"
 #include "nysalt/run_time_word.hpp"
 
@@ -47,12 +48,17 @@ class prepared_word<run_time_word, C, N> {
     }
     const std::array back{C(-c.front()), C(0.0)};
     if (merges_) undo_ = prepare(w, 0, back.data(), h, its, evaluation::none);
-    if (!halves_meet_) return;
-    seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its.its_bath->sigma() > 0.0);
-    for (auto* letters : {&plain_, &loop_, &last_}) {
-      letters->pop_back();
-      letters->erase(letters->begin());
+    if (halves_meet_) {
+      seam_ = noise_seam<C>(plain_.back().noise, plain_.front().noise, its.its_bath->sigma() > 0.0);
+      for (auto* letters : {&plain_, &loop_, &last_}) {
+        letters->pop_back();
+        letters->erase(letters->begin());
+      }
     }
+    run_program_ = program(loop_, last_, w.stochastic_letters > 0);
+    if (merges_) run_program_.undo = {translated(undo_, 0)};
+    run_program_.find_pairs();
+    plain_program_ = program(plain_, plain_, w.stochastic_letters > 0);
   }
 
   /// What the loop applies: itself, as its letters lie elsewhere and no copy would be nearer.
@@ -71,11 +77,31 @@ class prepared_word<run_time_word, C, N> {
   template <class T, System S>
   [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                  auto& cursor) const {
+    if constexpr (ErasedSystem<S>) return take_steps(system, run_program_, loop_, last_, x, steps, cursor);
     for (std::int64_t n = 1; n <= steps; ++n) {
       if (halves_meet_) cross(system, x, cursor);
       for (const auto& letter : n < steps ? loop_ : last_) apply(system, letter, x, cursor);
       cursor.next();
     }
+  }
+  /// The same of an erased system, watched: look() is called with the synchronous state in y after `first`
+  /// steps, and after every so many from there on.
+  template <class T, ErasedSystem S>
+  void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
+               std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
+               const auto& look) const {
+    const auto see = [&] {
+      if (halves_meet_) end(system, y, cursor);
+      look();
+    };
+    const detail::watch<T> watched{
+        .q = &y.q,
+        .p = &y.p,
+        .first = first,
+        .every = every,
+        .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+        .context = const_cast<void*>(static_cast<const void*>(&see))};
+    take_steps(system, run_program_, loop_, last_, x, steps, cursor, watched);
   }
   /// What an open state is at its step. No evaluation.
   template <class T, System S>
@@ -87,8 +113,12 @@ class prepared_word<run_time_word, C, N> {
   template <class T, System S>
   [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (halves_meet_) begin(system, x, cursor);
-    for (const auto& letter : plain_) apply(system, letter, x, cursor);
-    cursor.next();
+    if constexpr (ErasedSystem<S>) {
+      take_steps(system, plain_program_, plain_, plain_, x, 1, cursor);
+    } else {
+      for (const auto& letter : plain_) apply(system, letter, x, cursor);
+      cursor.next();
+    }
     if (halves_meet_) end(system, x, cursor);
   }
 
@@ -102,6 +132,68 @@ class prepared_word<run_time_word, C, N> {
     int number = 0;  // among the letters O
     std::shared_ptr<const rotation::prepared<C, N>> turn{};
   };
+
+  using program_type = detail::step_program<C>;
+  // What a program calls back beside its letters.
+  static constexpr int next_step = -1;
+  static constexpr int seam_of_steps = -2;
+  static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
+
+  static typename program_type::letter translated(const prepared_letter& l, int number) {
+    using action = typename program_type::action;
+    typename program_type::letter result{.evaluates = l.evaluates, .number = number, .coefficient = l.prepared};
+    result.gradient = l.gradient;
+    if constexpr (N == Eigen::Dynamic) result.turn = l.turn.get();
+    switch (l.letter) {
+      case drift::letter: result.what = action::drift; break;
+      case kick::letter:
+      case soft_kick::letter: result.what = action::kick; break;
+      case gradient_kick::letter:
+      case soft_gradient_kick::letter: result.what = action::gradient_kick; break;
+      case rotation::letter: result.what = action::rotation; break;
+      default: break;
+    }
+    return result;
+  }
+
+  program_type program(const std::vector<prepared_letter>& loop, const std::vector<prepared_letter>& last,
+                       bool has_noise) const {
+    program_type result;
+    result.reads = reads_soft_ ? field::soft : field::whole;
+    result.calls = has_noise;
+    const auto translate = [&](const std::vector<prepared_letter>& letters, int first) {
+      std::vector<typename program_type::letter> all;
+      if (halves_meet_ && &letters != &plain_) all.push_back({.number = seam_of_steps});
+      for (const prepared_letter& l : letters) all.push_back(translated(l, first++));
+      if (!all.empty() && has_noise && all.back().what == program_type::action::call && all.back().number >= 0) {
+        all.back().number |= ends_step;
+      } else if (has_noise) {
+        all.push_back({.number = next_step});
+      }
+      return all;
+    };
+    result.loop = translate(loop, 0);
+    result.last = translate(last, static_cast<int>(loop.size()));
+    return result;
+  }
+
+  /// Steps of a system whose kernels know all letters but those of the bath.
+  template <class T, System S>
+  void take_steps(const S& system, const program_type& letters, const std::vector<prepared_letter>& loop,
+                  const std::vector<prepared_letter>& last, flow_state<T, S::dimension>& x,
+                  std::int64_t steps, auto& cursor, const detail::watch<T>& watched = {}) const {
+    const auto act = [&](int number) {
+      if (number == next_step) return cursor.next();
+      if (number == seam_of_steps) return cross(system, x, cursor);
+      const auto k = static_cast<std::size_t>(number & ~ends_step);
+      apply(system, k < loop.size() ? loop[k] : last[k - loop.size()], x, cursor);
+      if ((number & ends_step) != 0) cursor.next();
+    };
+    const detail::callback other{
+        [](void* context, int number) { (*static_cast<decltype(act)*>(context))(number); },
+        const_cast<void*>(static_cast<const void*>(&act))};
+    system.template kernels<T>().advance(x.q, x.p, x.f, cursor.room, letters, steps, other, watched);
+  }
 
   static prepared_letter prepare(const run_time_word& w, std::size_t i, const C* c, double h,
                                  const surroundings_of_word& its, evaluation evaluates) {
@@ -191,6 +283,8 @@ class prepared_word<run_time_word, C, N> {
   std::vector<prepared_letter> loop_;
   std::vector<prepared_letter> last_;  // as loop_, and leaves the force where it is needed
   prepared_letter undo_;
+  program_type run_program_;    // the same for kernels
+  program_type plain_program_;
   noise_seam<C> seam_;
 };
 

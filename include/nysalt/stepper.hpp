@@ -126,6 +126,13 @@ class stepper {
     with_letters([&](const auto& all) __attribute__((always_inline)) {
       decltype(auto) letters = all.in_loop();
       std::int64_t step = run.step;
+      if constexpr (ErasedSystem<S>) {
+        std::int64_t next = (step / every + 1) * every;
+        return letters.advance(system, x, y, steps, next - step, every, cursor, [&] {
+          look(next, static_cast<const phase_point<T, dimension>&>(y));
+          next += every;
+        });
+      }
       while (step < end) {
         const std::int64_t next = std::min(end, (step / every + 1) * every);
         letters.advance(system, x, next - step, cursor);

@@ -57,6 +57,10 @@ concept System = std::copyable<S> &&
        { s.size() } -> std::convertible_to<Eigen::Index>;
      }));
 
+/// What the system can do is known while running: see nysalt/model.hpp.
+template <class S>
+concept ErasedSystem = System<S> && requires { requires S::is_erased; };
+
 /// V(q) can be evaluated over T.
 template <class S, class T>
 concept HasPotential = requires(const S& s, const vector<T, S::dimension>& q) {
@@ -217,6 +221,49 @@ concept HasQuadraticPart = NystromSystem<S> && HasModes<S> && HasSoftForce<S>;
 template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
+
+/// Whether H can be evaluated.
+template <System S>
+constexpr bool has_energy(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_energy;
+  return HasEnergy<S>;
+}
+/// Whether V can be evaluated.
+template <System S>
+constexpr bool has_potential(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_potential;
+  return HasPotential<S, double>;
+}
+/// Whether K = p M^-1 p / 2.
+template <System S>
+constexpr bool has_quadratic_kinetic(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_kinetic;
+  return NystromSystem<S>;
+}
+/// Whether the modes of its quadratic part are declared.
+template <System S>
+constexpr bool has_modes(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_modes;
+  return HasModes<S>;
+}
+/// Whether modes and soft force are declared.
+template <System S>
+constexpr bool has_quadratic_part(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_part;
+  return HasQuadraticPart<S>;
+}
+/// Whether the frequencies of its linearised motion are declared.
+template <System S>
+constexpr bool has_frequency_bands(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_bands;
+  return HasFrequencyBands<S>;
+}
+/// Whether its force is known for double only.
+template <System S>
+constexpr bool is_black_box(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().is_black_box;
+  return BlackBoxForce<S>;
+}
 
 /// Number of degrees of freedom.
 template <System S>

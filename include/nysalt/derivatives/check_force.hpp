@@ -11,11 +11,6 @@
 
 namespace nysalt {
 
-/// A potential from which all else comes by automatic differentiation can contradict nothing.
-template <class S>
-inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
-                                           HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
-
 /// Compares force with -grad V, kick with force, soft_force with the force less the quadratic part (up to 64
 /// coordinates), and force_derivative with differences of the force, and looks at the symmetry of f'(q), at
 /// the given points; at the momenta compares a velocity of the system's own with grad K, or looks at the

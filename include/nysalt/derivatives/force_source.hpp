@@ -10,7 +10,14 @@
 #include "nysalt/energy.hpp"
 #include "nysalt/quadratic_part.hpp"
 
-namespace nysalt::detail {
+namespace nysalt {
+
+/// A potential from which all else comes by automatic differentiation can contradict nothing.
+template <class S>
+inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
+                                           HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
+
+namespace detail {
 
 class force_source {
  public:
@@ -157,4 +164,6 @@ force_check examine_force(const force_source& its, const std::vector<Eigen::Vect
                           const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
                           const Eigen::VectorXd& lengths_of_momenta);
 
-}  // namespace nysalt::detail
+}  // namespace detail
+
+}  // namespace nysalt

@@ -23,10 +23,16 @@ struct drift {
     return c * h;
   }
 
-  template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto&) {
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C>
+  static void apply(const S& system, const C& c, State& x, auto&) {
+    using T = typename State::scalar_type;
     const Eigen::Index n = size(system);
-    if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
+    if constexpr (ErasedSystem<S>) {
+      if (!system.has_unit_mass() || !has_quadratic_kinetic(system)) {
+        return system.template kernels<T>().drift(x.q, x.p, c);
+      }
+      for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * c;
+    } else if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
       auto v = make_vector<T>(system);
       velocity<T>(system, x.p, v);
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += v[i] * c;

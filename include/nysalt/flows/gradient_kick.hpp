@@ -39,9 +39,9 @@ struct gradient_kick_of {
     return {b * h, c * (2.0 * h * h * h), detail::part_of_displacement * h * h};
   }
 
-  template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const gradient_kick_coefficients<C>& prepared,
-                    flow_state<T, S::dimension>& x, flow_room<T, S::dimension>& room) {
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C>
+  static void apply(const S& system, const gradient_kick_coefficients<C>& prepared, State& x, auto& room) {
+    using T = typename State::scalar_type;
     const auto& [of_f, of_g, reach_of_v] = prepared;
     auto& v = room.x;
     auto& g = room.y;

@@ -24,16 +24,17 @@ struct kick_of {
     return c * h;
   }
 
-  template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto&) {
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C>
+  static void apply(const S& system, const C& c, State& x, auto&) {
     const Eigen::Index n = size(system);
     for (Eigen::Index i = 0; i < n; ++i) x.p[i] += x.f[i] * c;
   }
 
   /// The same where nothing else needs the force: by the system's own kick, or with a force that is at home
   /// in registers if its dimension is fixed.
-  template <System S, Scalar T, CoefficientOf<T> C>
-  static void evaluate_and_apply(const S& system, const C& c, flow_state<T, S::dimension>& x, auto& room) {
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C>
+  static void evaluate_and_apply(const S& system, const C& c, State& x, auto& room) {
+    using T = typename State::scalar_type;
     if constexpr (Field == field::whole && HasKick<S, T, C>) {
       system.kick(x.q, x.p, c);
     } else if constexpr (S::dimension != Eigen::Dynamic) {

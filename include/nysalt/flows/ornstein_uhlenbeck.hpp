@@ -56,7 +56,14 @@ struct ornstein_uhlenbeck {
   static void apply(const S& system, const prepared<C>& flow, const vector<T, S::dimension>& xi,
                     flow_state<T, S::dimension>& x) {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if constexpr (HasInverseMass<S>) {
+      if constexpr (ErasedSystem<S>) {
+        if (system.has_unit_mass()) {
+          x.p[i] = x.p[i] * flow.decay + xi[i] * flow.deviation;
+          continue;
+        }
+        const C deviation = flow.deviation * system.root_mass(i);
+        x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
+      } else if constexpr (HasInverseMass<S>) {
         const C deviation = flow.deviation * (1.0 / std::sqrt(system.inverse_mass(i)));
         x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
       } else {

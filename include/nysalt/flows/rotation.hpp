@@ -50,10 +50,11 @@ struct rotation {
     return result;
   }
 
-  template <System S, Scalar T, CoefficientOf<T> C>
-  static void apply(const S&, const prepared<C, S::dimension>& turn, flow_state<T, S::dimension>& z,
-                    flow_room<T, S::dimension>& room) {
-    auto& [q, p] = static_cast<phase_point<T, S::dimension>&>(z);
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C, int N>
+  static void apply(const S&, const prepared<C, N>& turn, State& z, auto& room) {
+    using T = typename State::scalar_type;
+    auto& q = z.q;
+    auto& p = z.p;
     auto& x = room.x;
     auto& y = room.y;
     const Eigen::Index n = z.size();

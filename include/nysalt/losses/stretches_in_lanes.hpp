@@ -11,15 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/kernels.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise_intervals.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 
 namespace nysalt {
-
-/// Parameters whose derivatives are carried at a time; more take further passes.
-inline constexpr int directions_at_a_time = 2;
 
 /// What passes over data compute with: packs where the system serves them and their derivatives, else double.
 template <System S>

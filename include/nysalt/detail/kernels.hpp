@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSL-1.0
+// What the library calls of a system whose type it does not know.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nysalt/bath.hpp"
+#include "nysalt/flow.hpp"
+#include "nysalt/flows/gradient_kick.hpp"
+#include "nysalt/flows/rotation.hpp"
+#include "nysalt/lanes.hpp"
+#include "nysalt/word.hpp"
+
+namespace nysalt {
+
+/// Parameters whose derivatives are carried at a time; more take further passes.
+inline constexpr int directions_at_a_time = 2;
+
+}  // namespace nysalt
+
+namespace nysalt::detail {
+
+/// Trajectories side by side, as many as suit the processor.
+using lanes = scalar_of_lanes<default_lanes>;
+/// One trajectory with its derivatives by two parameters, and trajectories side by side with theirs.
+using slopes = dual<double, directions_at_a_time>;
+using lanes_with_slopes = dual<lanes, directions_at_a_time>;
+
+/// The scalars over which kernels are compiled.
+template <class T>
+concept Served = std::same_as<T, double> || std::same_as<T, lanes> || std::same_as<T, slopes> ||
+                 std::same_as<T, lanes_with_slopes>;
+
+/// The scalar of coefficients of steps over T: derivatives by theta are in both.
+template <class T>
+using coefficient_of = std::conditional_t<is_dual<T>, T, double>;
+
+/// Letters of one step as data, with the step folded into the coefficients.
+template <Scalar C>
+struct step_program {
+  /// What kernels do themselves; letters of the bath are called back.
+  enum class action : std::uint8_t { drift, kick, gradient_kick, rotation, call };
+  struct letter {
+    action what = action::call;
+    evaluation evaluates = evaluation::none;  ///< of the force, before it
+    int number = 0;                           ///< what is called back
+    C coefficient{0.0};
+    gradient_kick_coefficients<C> gradient{};
+    const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
+  };
+  std::vector<letter> loop;  ///< of a step that another one follows
+  std::vector<letter> last;  ///< of a step after which the run may be looked at
+  std::vector<letter> undo;  ///< what takes the first letter back, of an open run
+  field reads = field::none;
+  bool calls = false;  ///< there are letters that are called back
+  /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the
+  /// state in registers then. Empty of other loops.
+  std::vector<std::array<C, 2>> pairs{};
+  bool begins_with_kick = false;
+  bool keeps_last_force = false;  ///< the last kick of a last step leaves its force known
+
+  void find_pairs() {
+    pairs.clear();
+    if (calls || loop.empty() || loop.size() % 2 != 0) return;
+    begins_with_kick = loop.front().what == action::kick;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const bool is_kick = begins_with_kick == (i % 2 == 0);
+      if (loop[i].what != (is_kick ? action::kick : action::drift)) return;
+      if (is_kick && loop[i].evaluates != evaluation::alone) return;
+      const bool may_be_kept = !begins_with_kick && i + 1 == loop.size();
+      if (is_kick && !may_be_kept && last[i].evaluates != evaluation::alone) return;
+    }
+    keeps_last_force = !begins_with_kick && last.back().evaluates == evaluation::shared;
+    for (std::size_t i = 0; i < loop.size(); i += 2)
+      pairs.push_back({loop[i].coefficient, loop[i + 1].coefficient});
+  }
+};
+
+/// Whom kernels call for letters of the bath. The state is up to date then, and read again.
+struct callback {
+  void (*call)(void* context, int number) = nullptr;
+  void* context = nullptr;
+};
+
+/// Who looks at a run: after `first` steps, and then after every so many, q and p are given the synchronous
+/// state, and `look` is called. Nobody, if there is no look.
+template <class T>
+struct watch {
+  vector<T, Eigen::Dynamic>* q = nullptr;
+  vector<T, Eigen::Dynamic>* p = nullptr;
+  std::int64_t first = 0;
+  std::int64_t every = 1;
+  void (*look)(void* context) = nullptr;
+  void* context = nullptr;
+};
+
+/// A system's functions over T. What a system does not serve throws std::logic_error: the facts of a model
+/// tell beforehand.
+template <class T>
+class kernels {
+ public:
+  using column = vector<T, Eigen::Dynamic>;
+  using program = step_program<coefficient_of<T>>;
+
+  virtual ~kernels() = default;
+  /// So many steps of an open run. Cost: a virtual call, and what the letters and looks cost.
+  virtual void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
+                       const program& letters, std::int64_t steps, const callback& other,
+                       const watch<T>& watched) const = 0;
+  virtual void force(field of, const column& q, column& f) const = 0;
+  /// g = f'(q) v, of a black box from a difference along reach v.
+  virtual void force_along(field of, const column& q, const column& v, column& g,
+                           lifted_room<T, Eigen::Dynamic>& room, double reach) const = 0;
+  /// q += c grad K(p)
+  virtual void drift(column& q, const column& p, const coefficient_of<T>& c) const = 0;
+  virtual void velocity(const column& p, column& v) const = 0;
+  virtual T kinetic_energy(const column& p) const = 0;
+  virtual T potential(const column& q) const = 0;
+  virtual T energy(const column& q, const column& p) const = 0;
+};
+
+class force_source;
+
+/// A system without its type.
+class any_system : public kernels<double>,
+                   public kernels<lanes>,
+                   public kernels<slopes>,
+                   public kernels<lanes_with_slopes> {
+ public:
+  virtual std::unique_ptr<any_system> clone() const = 0;
+  virtual normal_modes modes() const = 0;
+  /// Of the system in its bath, or without it.
+  virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;
+  /// What a check of the force asks; nothing where there is nothing that could be wrong.
+  virtual std::unique_ptr<force_source> what_to_check() const = 0;
+};
+
+/// The letters that a system serves over a scalar, beside A, B and O.
+struct letters_served {
+  bool R = false;
+  bool S = false;
+  bool G = false;
+  bool H = false;
+};
+
+/// What is known of a system while running; concepts tell the same of its type.
+struct model_facts {
+  Eigen::Index size = 0;
+  std::string description{};
+  std::string description_alone{};  ///< without its bath
+  bath in = bath::of_sigma(0.0, 0.0);
+  std::vector<double> inverse_masses{};       ///< empty: all are 1
+  std::vector<double> inverse_root_masses{};  ///< 1/sqrt(inverse mass); empty: all are 1
+  bool in_lanes = false;                      ///< over packs too
+  bool in_lanes_with_slopes = false;
+  bool has_potential = false;
+  bool has_energy = false;              ///< over double
+  bool has_energy_over_slopes = false;  ///< over what carries derivatives by theta, in lanes or not
+  bool has_quadratic_kinetic = false;
+  bool has_modes = false;
+  bool has_quadratic_part = false;
+  bool has_bands = false;
+  bool is_black_box = false;
+  int derivative_calls = 1;
+  const char* derivative_source = "";
+  letters_served over_double{};
+  letters_served over_lanes{};
+  letters_served over_slopes{};
+  letters_served over_lanes_with_slopes{};
+
+  template <Served T>
+  const letters_served& over() const {
+    if constexpr (std::same_as<T, double>) return over_double;
+    if constexpr (std::same_as<T, lanes>) return over_lanes;
+    if constexpr (std::same_as<T, slopes>) return over_slopes;
+    if constexpr (std::same_as<T, lanes_with_slopes>) return over_lanes_with_slopes;
+  }
+};
+
+}  // namespace nysalt::detail

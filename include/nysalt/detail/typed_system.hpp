@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: BSL-1.0
+// The kernels of a system by its type: what a user's own source compiles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "nysalt/derivatives/force_source.hpp"
+#include "nysalt/detail/kernels.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/gradient_kick.hpp"
+#include "nysalt/flows/kick.hpp"
+#include "nysalt/flows/rotation.hpp"
+#include "nysalt/noise_seam.hpp"
+
+namespace nysalt::detail {
+
+[[noreturn]] void refuse_kernel();  // what the facts of a model say that it does not serve
+
+/// A vector of N entries where it lies.
+template <int N, class T>
+auto& as_fixed(vector<T, Eigen::Dynamic>& x) {
+  if constexpr (N == Eigen::Dynamic) {
+    return x;
+  } else {
+    return reinterpret_cast<vector<T, N>&>(*x.data());
+  }
+}
+template <int N, class T>
+const auto& as_fixed(const vector<T, Eigen::Dynamic>& x) {
+  if constexpr (N == Eigen::Dynamic) {
+    return x;
+  } else {
+    return reinterpret_cast<const vector<T, N>&>(*x.data());
+  }
+}
+
+/// A state where it lies: letters that are called back change it.
+template <class T, int N>
+struct state_in_place {
+  using scalar_type = T;
+  vector<T, N>& q;
+  vector<T, N>& p;
+  vector<T, N>& f;
+  Eigen::Index size() const { return q.size(); }
+};
+
+/// What a drift changes, and what it reads.
+template <class T, int N>
+struct positions_in_place {
+  using scalar_type = T;
+  vector<T, N>& q;
+  const vector<T, N>& p;
+};
+
+/// The room of letters: of a fixed dimension on the stack, not initialised, as few letters need it.
+template <class T, int N>
+struct room_of_letters {
+  explicit room_of_letters(flow_room<T, Eigen::Dynamic>&) {}
+  union {
+    flow_room<T, N> room;
+  };
+};
+template <class T>
+struct room_of_letters<T, Eigen::Dynamic> {
+  explicit room_of_letters(flow_room<T, Eigen::Dynamic>& given) : room(given) {}
+  flow_room<T, Eigen::Dynamic>& room;
+};
+
+/// The system is inlined wherever it is used below: with several users of its force g++ would not.
+template <field F, class S, class State, class T = typename State::scalar_type>
+[[gnu::flatten, gnu::noinline]] void take_steps(const S& system, State& x,
+                                                flow_room<T, S::dimension>& room,
+                                                const step_program<coefficient_of<T>>& letters,
+                                                std::int64_t steps, const callback& other,
+                                                const watch<T>& watched) {
+  using C = coefficient_of<T>;
+  using action = typename step_program<C>::action;
+  constexpr int N = S::dimension;
+  const auto apply = [&](const auto& letter, auto& z) __attribute__((always_inline)) {
+    switch (letter.what) {
+      case action::drift: {
+        const C c = letter.coefficient;  // local: it cannot alias the state
+        drift::apply(system, c, z, room);
+        break;
+      }
+      case action::kick: {
+        const C c = letter.coefficient;
+        if (letter.evaluates == evaluation::alone) {
+          kick_of<F>::evaluate_and_apply(system, c, z, room);
+        } else {
+          if (letter.evaluates == evaluation::shared) force_of<F, T>(system, z.q, z.f);
+          kick_of<F>::apply(system, c, z, room);
+        }
+        break;
+      }
+      case action::gradient_kick:
+        if constexpr (gradient_kick_of<F>::template serves<S, T>) {
+          const gradient_kick_coefficients<C> c = letter.gradient;
+          if (letter.evaluates != evaluation::none) force_of<F, T>(system, z.q, z.f);
+          gradient_kick_of<F>::apply(system, c, z, room);
+        }
+        break;
+      case action::rotation:
+        if constexpr (rotation::serves<S, T>) rotation::apply(system, *letter.turn, z, room);
+        break;
+      case action::call:
+        other.call(other.context, letter.number);
+        break;
+    }
+  };
+  // Drifts and kicks in turn, without a decision: a state of few coordinates stays in registers.
+  const auto take_pairs = [&](std::int64_t count, std::size_t pairs) __attribute__((always_inline)) {
+    for (std::int64_t n = 0; n < count; ++n) {
+      for (std::size_t i = 0; i < pairs; ++i) {
+        const auto& [first, second] = letters.pairs[i];
+        drift::apply(system, first, x, room);
+        kick_of<F>::evaluate_and_apply(system, second, x, room);
+      }
+    }
+  };
+  const auto take_pairs_from_kick = [&](std::int64_t count) __attribute__((always_inline)) {
+    for (std::int64_t n = 0; n < count; ++n) {
+      for (const auto& [first, second] : letters.pairs) {
+        kick_of<F>::evaluate_and_apply(system, first, x, room);
+        drift::apply(system, second, x, room);
+      }
+    }
+  };
+  const auto go_on = [&](std::int64_t count) __attribute__((always_inline)) {
+    if constexpr (!is_dual<T>) {
+      if (!letters.pairs.empty() && letters.begins_with_kick) return take_pairs_from_kick(count);
+      if (!letters.pairs.empty()) {
+        const std::int64_t alike = letters.keeps_last_force ? count - 1 : count;
+        take_pairs(alike, letters.pairs.size());
+        if (alike == count) return;
+        take_pairs(1, letters.pairs.size() - 1);
+        const auto& [first, second] = letters.pairs.back();
+        drift::apply(system, first, x, room);
+        force_of<F, T>(system, x.q, x.f);
+        kick_of<F>::apply(system, second, x, room);
+        return;
+      }
+    }
+    for (std::int64_t n = 1; n <= count; ++n) {
+      for (const auto& letter : n < count ? letters.loop : letters.last) apply(letter, x);
+    }
+  };
+  if (watched.look == nullptr) {
+    if (steps > 0) go_on(steps);
+    return;
+  }
+  state_in_place<T, N> seen{as_fixed<N>(*watched.q), as_fixed<N>(*watched.p), x.f};
+  std::int64_t step = 0;
+  for (std::int64_t next = watched.first; step < steps; next += watched.every) {
+    const std::int64_t end = std::min(next, steps);
+    go_on(end - step);
+    step = end;
+    if (step != next) break;
+    for (Eigen::Index i = 0; i < x.q.size(); ++i) {
+      seen.q[i] = x.q[i];
+      seen.p[i] = x.p[i];
+    }
+    for (const auto& letter : letters.undo) apply(letter, seen);
+    watched.look(watched.context);
+  }
+}
+
+template <class T>
+inline constexpr bool is_in_lanes = lanes_in<T> > 1;
+template <class T, int N>
+inline constexpr bool is_in_lanes<dual<T, N>> = is_in_lanes<T>;
+
+/// S can be stepped over T: where S asks for one lane, packs are not even tried.
+template <class S, class T>
+consteval bool serves_scalar() {
+  if constexpr (is_in_lanes<T> && lanes_of<S> == 1) {
+    return false;
+  } else {
+    return SystemOver<S, T> && DriftsOver<S, T>;
+  }
+}
+template <class S, class T>
+inline constexpr bool serves = serves_scalar<S, T>();
+/// Its energy can be evaluated over T.
+template <class S, class T>
+consteval bool serves_energy() {
+  if constexpr (serves<S, T>) return HasEnergy<S, T>;
+  return false;
+}
+
+/// The functions of S over T.
+template <class S, class T, class Base>
+class with_kernels : public Base {
+  static constexpr int N = S::dimension;
+  using column = vector<T, Eigen::Dynamic>;
+  using C = coefficient_of<T>;
+  static constexpr bool serves = detail::serves<S, T>;
+  static constexpr bool serves_potential = [] {
+    if constexpr (serves) return HasPotential<S, T>;
+    return false;
+  }();
+
+ public:
+  using Base::Base;
+
+  void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
+               const step_program<C>& letters, std::int64_t steps, const callback& other,
+               const watch<T>& watched) const final {
+    if constexpr (serves) {
+      room_of_letters<T, N> own(room);
+      const auto take = [&](auto& x) {
+        if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
+          if (letters.reads == field::soft) {
+            return take_steps<field::soft>(this->system(), x, own.room, letters, steps, other, watched);
+          }
+        }
+        take_steps<field::whole>(this->system(), x, own.room, letters, steps, other, watched);
+      };
+      if (letters.calls) {
+        state_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p), as_fixed<N>(f)};
+        take(x);
+      } else if constexpr (N == Eigen::Dynamic) {
+        flow_state<T, N> x{{std::move(q), std::move(p)}, std::move(f)};  // local: it cannot alias the system
+        take(x);
+        q = std::move(x.q);
+        p = std::move(x.p);
+        f = std::move(x.f);
+      } else {
+        flow_state<T, N> x{{as_fixed<N>(q), as_fixed<N>(p)}, as_fixed<N>(f)};
+        take(x);
+        as_fixed<N>(q) = x.q;
+        as_fixed<N>(p) = x.p;
+        as_fixed<N>(f) = x.f;
+      }
+    } else {
+      refuse_kernel();
+    }
+  }
+  void force(field of, const column& q, column& f) const final {
+    if constexpr (serves) {
+      if constexpr (HasSoftForce<S, T>) {
+        if (of == field::soft) return this->system().soft_force(as_fixed<N>(q), as_fixed<N>(f));
+      }
+      nysalt::force<T>(this->system(), as_fixed<N>(q), as_fixed<N>(f));
+    } else {
+      refuse_kernel();
+    }
+  }
+  void force_along(field of, const column& q, const column& v, column& g,
+                   lifted_room<T, Eigen::Dynamic>& room, double reach) const final {
+    if constexpr (serves) {
+      if constexpr (ForceDerivativeOver<S, T, field::soft>) {
+        if (of == field::soft) return along<field::soft>(q, v, g, room, reach);
+      }
+      if constexpr (ForceDerivativeOver<S, T, field::whole>) {
+        return along<field::whole>(q, v, g, room, reach);
+      }
+    }
+    refuse_kernel();
+  }
+  void drift(column& q, const column& p, const C& c) const final {
+    if constexpr (serves) {
+      positions_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p)};
+      no_room room;
+      nysalt::drift::apply(this->system(), c, x, room);
+    } else {
+      refuse_kernel();
+    }
+  }
+  void velocity(const column& p, column& v) const final {
+    if constexpr (serves) {
+      nysalt::velocity<T>(this->system(), as_fixed<N>(p), as_fixed<N>(v));
+    } else {
+      refuse_kernel();
+    }
+  }
+  T kinetic_energy(const column& p) const final {
+    if constexpr (serves_energy<S, T>()) {
+      return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p));
+    } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
+      return in_each_lane(p, p, [&](const auto& x) { return nysalt::kinetic_energy<double>(this->system(), x.p); });
+    } else {
+      refuse_kernel();
+    }
+  }
+  T potential(const column& q) const final {
+    if constexpr (serves_potential) {
+      return this->system().potential(as_fixed<N>(q));
+    } else if constexpr (serves && HasPotential<S, double> && lanes_in<T> > 1) {
+      return in_each_lane(q, q, [&](const auto& x) { return this->system().potential(x.q); });
+    } else {
+      refuse_kernel();
+    }
+  }
+  T energy(const column& q, const column& p) const final {
+    if constexpr (serves_energy<S, T>()) {
+      return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p)) +
+             this->system().potential(as_fixed<N>(q));
+    } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
+      return in_each_lane(q, p, [&](const auto& x) { return nysalt::energy<double>(this->system(), x); });
+    } else {
+      refuse_kernel();
+    }
+  }
+
+ private:
+  template <field F>
+  void along(const column& q, const column& v, column& g, lifted_room<T, Eigen::Dynamic>& room,
+             double reach) const {
+    if constexpr (N == Eigen::Dynamic) {
+      nysalt::force_along<F, T>(this->system(), q, v, g, room, reach);
+    } else {
+      lifted_room<T, N> own;
+      nysalt::force_along<F, T>(this->system(), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own, reach);
+    }
+  }
+  static T in_each_lane(const column& q, const column& p, const auto& value) {
+    T result(0.0);
+    phase_point<double, N> x{vector<double, N>(q.size()), vector<double, N>(p.size())};
+    for (int k = 0; k < lanes_in<T>; ++k) {
+      for (Eigen::Index i = 0; i < q.size(); ++i) {
+        x.q[i] = lane(q[i], k);
+        x.p[i] = lane(p[i], k);
+      }
+      set_lane(result, k, value(x));
+    }
+    return result;
+  }
+};
+
+template <class S>
+class holds_system : public any_system {
+ public:
+  explicit holds_system(const S& system) : system_(system) {}
+  const S& system() const { return system_; }
+
+ private:
+  S system_;
+};
+
+template <class S>
+using kernels_of =
+    with_kernels<S, lanes_with_slopes,
+                 with_kernels<S, slopes, with_kernels<S, lanes, with_kernels<S, double, holds_system<S>>>>>;
+
+/// S as an any_system.
+template <class S>
+class typed_system final : public kernels_of<S> {
+ public:
+  using kernels_of<S>::kernels_of;
+
+  std::unique_ptr<any_system> clone() const override { return std::make_unique<typed_system>(this->system()); }
+  normal_modes modes() const override {
+    if constexpr (HasModes<S>) {
+      return this->system().modes();
+    } else {
+      refuse_kernel();
+    }
+  }
+  std::vector<frequency_band> frequency_bands(bool in_bath) const override {
+    if constexpr (requires { { this->system().alone() } -> HasFrequencyBands; }) {
+      if (!in_bath) return this->system().alone().frequency_bands();
+    }
+    if constexpr (HasFrequencyBands<S>) {
+      return this->system().frequency_bands();
+    } else {
+      return {};
+    }
+  }
+  std::unique_ptr<force_source> what_to_check() const override {
+    if constexpr (force_may_be_wrong<S>) {
+      return std::make_unique<force_source_of<S>>(this->system());
+    } else {
+      return nullptr;
+    }
+  }
+};
+
+template <class S, class T>
+letters_served served_over() {
+  letters_served result;
+  if constexpr (serves<S, T>) {
+    result.R = rotation::serves<S, T>;
+    result.S = soft_kick::serves<S, T>;
+    result.G = gradient_kick::serves<S, T>;
+    result.H = soft_gradient_kick::serves<S, T>;
+  }
+  return result;
+}
+
+/// What the concepts say of S, and what the system itself does.
+template <class S>
+model_facts facts_of(const S& system) {
+  model_facts facts;
+  facts.size = nysalt::size(system);
+  facts.description = facts.description_alone = describe(system);
+  if constexpr (requires { describe(system.alone()); }) facts.description_alone = describe(system.alone());
+  if constexpr (HasBath<S>) facts.in = static_cast<const bath&>(system.bath());
+  if constexpr (HasInverseMass<S>) {
+    for (Eigen::Index i = 0; i < facts.size; ++i) {
+      facts.inverse_masses.push_back(system.inverse_mass(i));
+      facts.inverse_root_masses.push_back(1.0 / std::sqrt(facts.inverse_masses.back()));
+    }
+  }
+  facts.in_lanes = serves<S, lanes>;
+  facts.in_lanes_with_slopes = serves<S, lanes_with_slopes>;
+  facts.has_potential = HasPotential<S, double>;
+  facts.has_energy = HasEnergy<S>;
+  facts.has_energy_over_slopes =
+      HasEnergy<S> && (serves<S, lanes_with_slopes> ? serves_energy<S, lanes_with_slopes>()
+                                                    : serves_energy<S, slopes>());
+  facts.has_quadratic_kinetic = NystromSystem<S>;
+  facts.has_modes = HasModes<S>;
+  facts.has_quadratic_part = HasQuadraticPart<S>;
+  facts.has_bands = HasFrequencyBands<S>;
+  facts.is_black_box = BlackBoxForce<S>;
+  facts.derivative_calls = derivative_calls<S>;
+  facts.derivative_source = derivative_source<S>();
+  facts.over_double = served_over<S, double>();
+  facts.over_lanes = served_over<S, lanes>();
+  facts.over_slopes = served_over<S, slopes>();
+  facts.over_lanes_with_slopes = served_over<S, lanes_with_slopes>();
+  return facts;
+}
+
+}  // namespace nysalt::detail

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSL-1.0
+// A system as a value: the boundary between templates and the compiled library.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nysalt/detail/typed_system.hpp"
+
+namespace nysalt {
+
+/// A model that steps as many trajectories at a time as Lanes says: default_lanes, or one.
+template <int Lanes>
+class basic_model;
+
+/// Any system, in its bath if it is in one, behind one type: what the library's compiled half takes. A system
+/// converts to it. Copies share the system. Its dimension is known while running; it is a System itself, and
+/// steps by words as data with the bits of the system.
+///
+/// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
+/// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is
+/// stepped one trajectory at a time.
+using model = basic_model<default_lanes>;
+
+namespace detail {
+template <class S>
+inline constexpr bool is_model = false;
+template <int Lanes>
+inline constexpr bool is_model<basic_model<Lanes>> = true;
+}  // namespace detail
+
+template <int Lanes>
+class basic_model {
+ public:
+  static constexpr int dimension = Eigen::Dynamic;
+  static constexpr int lanes = Lanes;          ///< most trajectories side by side
+  static constexpr bool is_erased = true;      ///< what it can do is known while running
+  template <int Other>
+  friend class basic_model;
+
+  /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
+  template <class S>
+    requires(!detail::is_model<S> && SeparableSystem<S>)
+  basic_model(const S& system)  // NOLINT(google-explicit-constructor)
+      : system_(std::make_shared<detail::typed_system<S>>(system)),
+        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {}
+
+  /// The same with another number of lanes.
+  template <int Other>
+  explicit basic_model(const basic_model<Other>& same) : system_(same.system_), facts_(same.facts_) {}
+
+  Eigen::Index size() const { return facts_->size; }  ///< degrees of freedom
+  const std::string& description() const { return facts_->description; }
+  const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
+  /// The system without its bath.
+  basic_model alone() const {
+    auto facts = std::make_shared<detail::model_facts>(*facts_);
+    facts->description = facts->description_alone;
+    facts->in = nysalt::bath::of_sigma(0.0, 0.0);
+    basic_model result = *this;
+    result.facts_ = std::move(facts);
+    result.is_in_bath_ = false;
+    return result;
+  }
+  /// With a copy of the system of its own, for a thread whose system may change while it computes.
+  basic_model separate() const {
+    basic_model result = *this;
+    result.system_ = system_->clone();
+    return result;
+  }
+  const detail::model_facts& facts() const { return *facts_; }
+
+  double inverse_mass(Eigen::Index i) const {
+    return facts_->inverse_masses.empty() ? 1.0 : facts_->inverse_masses[static_cast<std::size_t>(i)];
+  }
+  bool has_unit_mass() const { return facts_->inverse_masses.empty(); }
+  /// The square root of the mass of coordinate i.
+  double root_mass(Eigen::Index i) const {
+    return facts_->inverse_root_masses.empty() ? 1.0
+                                               : facts_->inverse_root_masses[static_cast<std::size_t>(i)];
+  }
+  normal_modes modes() const { return system_->modes(); }
+  std::vector<frequency_band> frequency_bands() const { return system_->frequency_bands(is_in_bath_); }
+
+  template <detail::Served T>
+  const detail::kernels<T>& kernels() const {
+    return *system_;
+  }
+  template <detail::Served T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    kernels<T>().force(field::whole, q, f);
+  }
+  template <detail::Served T>
+  void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    kernels<T>().force(field::soft, q, f);
+  }
+  /// Over numbers with one derivative: those of two, the second of which is zero.
+  void force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
+    with_one_slope(field::whole, q, f);
+  }
+  void soft_force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
+    with_one_slope(field::soft, q, f);
+  }
+  template <detail::Served T>
+  void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
+                        vector<T, dimension>& g) const {
+    lifted_room<T, dimension> room(size());
+    kernels<T>().force_along(field::whole, q, v, g, room, detail::part_of_displacement);
+  }
+  template <detail::Served T>
+  T potential(const vector<T, dimension>& q) const {
+    return kernels<T>().potential(q);
+  }
+
+  std::unique_ptr<detail::force_source> what_to_check() const { return system_->what_to_check(); }
+
+ private:
+  void with_one_slope(field of, const vector<dual<double, 1>, dimension>& q,
+                      vector<dual<double, 1>, dimension>& f) const {
+    using T = detail::slopes;
+    vector<T, dimension> lifted(q.size());
+    vector<T, dimension> found(q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      lifted[i] = T(q[i].value);
+      lifted[i].derivative[0] = q[i].derivative[0];
+    }
+    kernels<T>().force(of, lifted, found);
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      f[i].value = found[i].value;
+      f[i].derivative[0] = found[i].derivative[0];
+    }
+  }
+
+  std::shared_ptr<const detail::any_system> system_;
+  std::shared_ptr<const detail::model_facts> facts_;
+  bool is_in_bath_ = true;
+};
+
+}  // namespace nysalt
