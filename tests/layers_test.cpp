@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
 BOOST_AUTO_TEST_CASE(what_steps_needs_eigen_alone) {
   const auto files = read_headers();
   const int integrate = layer_of("integrate.hpp");
-  const std::set<std::string> others{"methods/s_aia.hpp", "odeint_stepper.hpp"};  // of other components
+  const std::set<std::string> others{"odeint_stepper.hpp"};  // of other components
   for (const auto& [path, text] : files) {
     if (layer_of(path) > integrate && path != "core.hpp") continue;
     const auto needs = needs_of(files, path);

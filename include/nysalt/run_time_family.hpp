@@ -2,13 +2,14 @@
 // A family as data: what a search must know of it, so that learning is compiled once a system.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "nysalt/family.hpp"
@@ -62,17 +63,7 @@ class run_time_family {
   }
 
   /// A method as a family of one member, without parameters.
-  run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients)
-      : name(std::move(method_name)),
-        starts({{name, Eigen::VectorXd()}}),
-        order(0),
-        symmetric(false),
-        requires_quadratic_kinetic(false),
-        letters(std::move(word)),
-        coefficients_([coefficients](const Eigen::VectorXd&) { return coefficients; }),
-        jacobian_([count = static_cast<Eigen::Index>(coefficients.size())](const Eigen::VectorXd&) {
-          return Eigen::MatrixXd(count, 0);
-        }) {}
+  run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
 
   std::string name;
   std::vector<std::string> parameter_names;  ///< one for each parameter
@@ -90,36 +81,14 @@ class run_time_family {
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& theta) const { return jacobian_(theta); }
 
   /// Whether theta is within the open ranges: beyond them the coefficients are not defined.
-  bool is_defined(const Eigen::VectorXd& theta) const {
-    for (std::size_t k = 0; k < ranges.size(); ++k) {
-      if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
-    }
-    return true;
-  }
+  bool is_defined(const Eigen::VectorXd& theta) const;
 
   /// Whether theta is within all ranges, open or closed.
-  bool is_in_range(const Eigen::VectorXd& theta) const {
-    for (std::size_t k = 0; k < ranges.size(); ++k) {
-      if (!ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
-    }
-    return true;
-  }
+  bool is_in_range(const Eigen::VectorXd& theta) const;
 
   /// A family with letters O at a placement. Throws std::invalid_argument if it has some already, or no
   /// central letter to split.
-  friend run_time_family thermostatted(const run_time_family& plain, placement where) {
-    run_time_family result = plain;
-    result.letters = thermostatted(plain.letters, where);
-    result.order = thermostatted_order(where, plain.order, plain.symmetric);
-    result.symmetric = where != placement::end && plain.symmetric;
-    result.coefficients_ = [plain, where](const Eigen::VectorXd& theta) {
-      return thermostatted_coefficients(plain.letters, where, plain.coefficients(theta));
-    };
-    result.jacobian_ = [plain, where](const Eigen::VectorXd& theta) {
-      return thermostatted_jacobian(plain, where, theta);
-    };
-    return result;
-  }
+  friend run_time_family thermostatted(const run_time_family& plain, placement where);
 
  private:
   template <Family F>
@@ -145,36 +114,11 @@ class run_time_family {
     return result;
   }
 
-  static Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement where,
-                                                const Eigen::VectorXd& theta) {
-    using D = dual<double, 1>;
-    const auto c = plain.coefficients(theta);
-    const Eigen::MatrixXd slopes = plain.jacobian(theta);
-    Eigen::MatrixXd result;
-    for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
-      std::vector<D> lifted(c.begin(), c.end());
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        lifted[i].derivative[0] = slopes(static_cast<Eigen::Index>(i), k);
-      }
-      const auto placed = thermostatted_coefficients(plain.letters, where, lifted);
-      result.conservativeResize(static_cast<Eigen::Index>(placed.size()), slopes.cols());
-      for (std::size_t i = 0; i < placed.size(); ++i) {
-        result(static_cast<Eigen::Index>(i), k) = placed[i].derivative[0];
-      }
-    }
-    return result;
-  }
-
   std::function<std::vector<double>(const Eigen::VectorXd&)> coefficients_;
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
 };
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
-inline void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
-  for (std::size_t k = 0; k < family.ranges.size(); ++k) {
-    detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
-                             theta[static_cast<Eigen::Index>(k)]);
-  }
-}
+void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta);
 
 }  // namespace nysalt

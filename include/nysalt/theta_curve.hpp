@@ -2,16 +2,9 @@
 // Parameters that were learned at several steps, and between them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
 #include <Eigen/Core>
 
-#include "nysalt/sentence.hpp"
+#include <vector>
 
 namespace nysalt {
 
@@ -21,58 +14,21 @@ class theta_curve {
  public:
   /// Through one theta for each step. Throws std::invalid_argument unless there is a theta for each step, all
   /// as long and finite, and the steps are positive and rise.
-  theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas)
-      : steps_(std::move(steps)), thetas_(std::move(thetas)) {
-    bool sound = !steps_.empty() && steps_.size() == thetas_.size();
-    for (std::size_t k = 0; sound && k < steps_.size(); ++k) {
-      sound = std::isfinite(steps_[k]) &&
-              (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] * (1.0 + 2.0 * met) < steps_[k]) &&
-              thetas_[k].allFinite() && thetas_[k].size() == thetas_[0].size();
-    }
-    if (sound) return;
-    throw std::invalid_argument("a curve of parameters needs rising steps, and as many finite ones at each");
-  }
+  theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas);
 
   const std::vector<double>& steps() const { return steps_; }             ///< of the points, rising
   const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }  ///< what was learned at each
 
   /// Whether a step lies between the first and the last, to 1e-9 relative, as steps are typed in decimals.
-  bool covers(double step) const {
-    return steps_.front() * (1.0 - met) <= step && step <= steps_.back() * (1.0 + met);
-  }
+  bool covers(double step) const;
 
   /// Whether a step is one of the points, and not between.
-  bool has(double step) const {
-    return std::any_of(steps_.begin(), steps_.end(), [&](double s) { return std::abs(step - s) <= met * s; });
-  }
+  bool has(double step) const;
 
   /// theta at a step. Throws std::invalid_argument where it does not cover the step.
-  Eigen::VectorXd at(double step) const {
-    if (!covers(step)) {
-      throw std::invalid_argument(
-          sentence("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
-    }
-    for (std::size_t k = 0; k < steps_.size(); ++k) {
-      if (std::abs(step - steps_[k]) <= met * steps_[k]) return thetas_[k];
-    }
-    const auto after =
-        static_cast<std::size_t>(std::upper_bound(steps_.begin(), steps_.end(), step) - steps_.begin());
-    const std::size_t count = std::min<std::size_t>(4, steps_.size());
-    const std::size_t first = std::min(after < 2 ? 0 : after - 2, steps_.size() - count);
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(thetas_[0].size());
-    for (std::size_t k = first; k < first + count; ++k) {  // Lagrange's form
-      double weight = 1.0;
-      for (std::size_t j = first; j < first + count; ++j) {
-        if (j != k) weight *= (step - steps_[j]) / (steps_[k] - steps_[j]);
-      }
-      result += weight * thetas_[k];
-    }
-    return result;
-  }
+  Eigen::VectorXd at(double step) const;
 
  private:
-  static constexpr double met = 1e-9;
-
   std::vector<double> steps_;
   std::vector<Eigen::VectorXd> thetas_;
 };

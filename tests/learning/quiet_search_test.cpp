@@ -2,6 +2,9 @@
 // A search writes nothing to the standard error stream, wherever it starts: Ceres would.
 #include <boost/test/unit_test.hpp>
 
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <unistd.h>
 
 #include <cmath>

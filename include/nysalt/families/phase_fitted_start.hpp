@@ -2,13 +2,9 @@
 // Where a search may begin if the highest frequency is known.
 #pragma once
 
-#include <cmath>
 #include <optional>
-#include <stdexcept>
 
-#include "nysalt/families/phase_fitting.hpp"
 #include "nysalt/run_time_family.hpp"
-#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -17,25 +13,6 @@ namespace nysalt {
 /// for nothing. Nothing where the word rotates by itself, has fewer parameters than the rotation has
 /// equations (two if it is symmetric, else three), or no start leads to a member in the ranges. Throws
 /// std::invalid_argument unless z is positive and finite. Cost: some milliseconds.
-inline std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z) {
-  if (!(z > 0.0) || !std::isfinite(z)) {
-    throw std::invalid_argument(sentence(
-        "phase_fitted_start: z = step * frequency must be positive and finite, got {}; fit to a mode that "
-        "moves",
-        z));
-  }
-  const auto is_classical = [](const named_parameters& one) {
-    return one.name != "start" && one.name != "further start";
-  };
-  for (const bool classical : {true, false}) {
-    for (const auto& one : family.starts) {
-      if (is_classical(one) != classical) continue;
-      if (const auto fit = detail::fit_phase(family, one.theta, z); fit.theta) {
-        return named_parameters{"phase_fitted", *fit.theta};
-      }
-    }
-  }
-  return std::nullopt;
-}
+std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z);
 
 }  // namespace nysalt

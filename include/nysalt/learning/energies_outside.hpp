@@ -2,10 +2,7 @@
 // Whether starts are beyond the energies that a method was learned on, or outside by chance alone.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <ranges>
 #include <string>
@@ -35,36 +32,14 @@ struct energies_outside {
   bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
 
   /// The probability that so many of n, or more, are outside by chance.
-  double probability() const {
-    const auto m = static_cast<double>(trajectories);
-    const auto n = static_cast<double>(looked_at);
-    double term = m * (m - 1.0) / ((m + n) * (m + n - 1.0));  // that none is
-    double rest = 1.0;
-    for (std::size_t j = 0; j < outside; ++j) {
-      rest -= term;
-      const auto k = static_cast<double>(j);
-      term *= (n - k) / (k + 1.0) * (k + 2.0) / (m + n - k - 2.0);
-    }
-    return rest;
-  }
+  double probability() const;
 
   /// The distance that none of n starts is beyond the range, but by a chance of one in a thousand. Infinite
   /// from one trajectory, which tells no range.
-  double far() const {
-    const double m = static_cast<double>(trajectories) + 1.0;
-    if (trajectories < 2) return std::numeric_limits<double>::infinity();
-    return (seen.high - seen.low) *
-           std::max(0.0, std::log(static_cast<double>(looked_at) / (m * chance)) / std::log(m));
-  }
+  double far() const;
 
   /// A sentence with the numbers.
-  std::string report() const {
-    return fmt::format(
-        "{} of {} starts have energies outside {:.6g} to {:.6g}, on which it was learned (they go from "
-        "{:.6g} "
-        "to {:.6g})",
-        outside, looked_at, seen.low, seen.high, energies.low, energies.high);
-  }
+  std::string report() const;
 };
 
 /// Of starts by their energies; one that is not finite is outside. Gentle motion is followed well: what is

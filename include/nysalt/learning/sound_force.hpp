@@ -2,14 +2,13 @@
 // What is learned from a wrong force is wrong, and nothing else would tell.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/learning/some_states.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -34,9 +33,8 @@ void require_sound_force(const S& system, const flow_map_data<S::dimension>& dat
     const auto finishes = finishes_of(data, size(system), pairs);
     const force_check found = check_force(system, points, momenta, finishes);
     if (found.passed()) return;
-    throw std::invalid_argument(
-        fmt::format("learn: {} (system {}); mend it, or learn with check_force = false", found.report(),
-                    describe(system)));
+    throw std::invalid_argument(sentence("learn: {} (system {}); mend it, or learn with check_force = false",
+                                         found.report(), describe(system)));
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -22,11 +21,9 @@ struct squares {
   Eigen::VectorXd half_gradient;  ///< J^T r
   Eigen::MatrixXd normal_matrix;  ///< J^T J
 
-  Eigen::VectorXd gradient() const { return 2.0 * half_gradient; }  ///< of the loss: 2 J^T r
+  Eigen::VectorXd gradient() const;  ///< of the loss: 2 J^T r
   /// Whether all numbers are.
-  bool is_finite() const {
-    return std::isfinite(value) && half_gradient.allFinite() && normal_matrix.allFinite();
-  }
+  bool is_finite() const;
 };
 
 /// theta as families hold it.
@@ -48,21 +45,8 @@ using objective = std::function<squares(const Eigen::VectorXd& theta)>;
 namespace detail {
 
 /// Column of a trajectory: r^T r, J^T r and the upper triangle of J^T J.
-inline squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters) {
-  squares result{column[0], column.segment(1, parameters), Eigen::MatrixXd(parameters, parameters)};
-  Eigen::Index term = 1 + parameters;
-  for (Eigen::Index i = 0; i < parameters; ++i) {
-    for (Eigen::Index j = i; j < parameters; ++j, ++term) {
-      result.normal_matrix(i, j) = column[term];
-      result.normal_matrix(j, i) = column[term];
-    }
-  }
-  return result;
-}
-
-inline Eigen::Index terms_of_column(Eigen::Index parameters) {
-  return 1 + parameters + parameters * (parameters + 1) / 2;
-}
+squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters);
+Eigen::Index terms_of_column(Eigen::Index parameters);
 
 template <class Loss>
 std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen::VectorXd& theta) {

@@ -2,30 +2,20 @@
 // Linear stability of a word at a step, on the frequencies that a system has.
 #pragma once
 
-#include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <numbers>
-#include <optional>
 #include <ranges>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "nysalt/conservative_part.hpp"
 #include "nysalt/derivatives/frequencies_at.hpp"
-#include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/derivatives/magnification.hpp"
-#include "nysalt/derivatives/sum_resonance.hpp"
-#include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/derivatives/stability_window.hpp"
 #include "nysalt/quadratic_part.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
 
@@ -52,36 +42,9 @@ class stability_guard {
   stability_guard(const S& system, const std::ranges::range auto& states, bool rotations = true,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max())
       : steps_(steps) {
-    declare_bands(system);
-    const bool are_declared = !bands_.empty();
-    const auto along = frequencies_of_states(system, states);
+    if constexpr (HasFrequencyBands<S>) declare(system.frequency_bands());
     const auto count = static_cast<std::size_t>(std::ranges::distance(states));
-    typical = std::min(typical, count);
-    highest_along_ = along.highest().frequency;
-    state_of_highest_ = along.highest().state;
-    often_ = bands_;
-    if (are_declared) {
-      description_ = "declared bands";
-      for (const auto& band : bands_) description_ += fmt::format(" [{:g}, {:g}]", band.low, band.high);
-      extend(along, typical);
-    } else if (highest_along_ > 0.0) {
-      std::vector<double> highest;
-      for (std::size_t k = 0; k < typical; ++k) {
-        if (!along.of_state[k].empty()) highest.push_back(along.of_state[k].back());
-      }
-      bands_.push_back({0.0, highest_along_ * (1.0 + margin)});
-      often_.push_back({0.0, exceeded_often(highest, typical) * (1.0 + margin)});
-      description_ = fmt::format("estimated 0..{:.4g} along {} states", bands_[0].high, count);
-      if (often_[0].high < bands_[0].high)
-        description_ += fmt::format(", 0..{:.4g} in nine tenths of them", often_[0].high);
-    } else if (NystromSystem<S> && count == 0) {
-      throw std::invalid_argument(
-          "stability_guard: no frequency_bands() are declared, and there are no states to look at");
-    } else if (along.of_state.empty()) {
-      description_ = "no linear criterion: no bands are declared, and K''(p) is not known";
-    } else {
-      description_ = fmt::format("no linear criterion: nothing oscillates along {} states", count);
-    }
+    look_along(frequencies_of_states(system, states), count, std::min(typical, count), NystromSystem<S>);
     if constexpr (HasQuadraticPart<S> && ForceDerivativeOver<S, double, field::soft>) {
       if (rotations && count > 0) watch_rotations(system, states);
     }
@@ -89,31 +52,18 @@ class stability_guard {
 
   /// Whether there is no objection() to the word with these coefficients at this step.
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
-              met which = met::ever) const {
-    return objection(word, coefficients, step, which).empty();
-  }
+              met which = met::ever) const;
 
   /// One sentence, or nothing if the word may be used. Cost: some 5 us for 9 evaluations; with rotations some
   /// 20 us a mode, and 1 us a pair of modes and state.
   /// Throws std::invalid_argument unless there is a coefficient for each slot.
   std::string objection(const run_time_word& word, const std::vector<double>& coefficients, double step,
-                        met which = met::ever) const {
-    word.require_one_for_each_slot(coefficients);
-    if (!rotates(word)) return unstable(word, coefficients, step, which);
-    const std::string of_one = magnified(word, coefficients, step);
-    return of_one.empty() ? resonant(word, coefficients, step) : of_one;
-  }
+                        met which = met::ever) const;
 
   /// Where z = step omega is unstable between 0 and the system's highest frequency: outside its bands, if the
   /// word is admitted. None for words with rotations. Cost: that of stability_windows().
   std::vector<stability_window> gaps(const run_time_word& word, const std::vector<double>& coefficients,
-                                     double step) const {
-    if (rotates(word)) return {};
-    double highest = 0.0;
-    for (const auto& band : bands_) highest = std::max(highest, step * band.high);
-    return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
-                      highest);
-  }
+                                     double step) const;
 
   /// A mode, and how much it grows.
   struct magnified_mode {
@@ -123,19 +73,7 @@ class stability_guard {
   /// The mode that a word with rotations magnifies most, or the first that it magnifies by more than is
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.
   magnified_mode most_magnified(const run_time_word& word, const std::vector<double>& coefficients,
-                                double step, double enough = std::numeric_limits<double>::infinity()) const {
-    constexpr int samples = 64;  // a narrower gap is passed before it does harm, as soft forces change
-    magnified_mode worst{0.0, 1.0};
-    for (const double omega : modes_) {
-      for (int i = 1; i <= samples && stiffest_soft_ > 0.0; ++i) {
-        const double soft = step * stiffest_soft_ * i / samples;
-        const double grown = magnification(word, coefficients, step * omega, soft * soft, steps_);
-        if (!(grown <= worst.factor)) worst = {omega, grown};
-        if (!(worst.factor <= enough)) return worst;
-      }
-    }
-    return worst;
-  }
+                                double step, double enough = std::numeric_limits<double>::infinity()) const;
 
   /// Two modes that soft forces couple, and how much they grow.
   struct resonant_pair {
@@ -147,27 +85,7 @@ class stability_guard {
   /// derivatives along the states, or in the mean over them. Growth 0 where no pair grows, or none is known.
   /// Cost: some 1 us a pair of modes and state.
   resonant_pair most_resonant(const run_time_word& word, const std::vector<double>& coefficients,
-                              double step) const {
-    resonant_pair worst{0.0, 0.0, 0.0};
-    const auto growth_at = [&](const Eigen::MatrixXd& soft, Eigen::Index i, Eigen::Index j) {
-      const Eigen::Array2d theta(step * all_modes_[static_cast<std::size_t>(i)],
-                                 step * all_modes_[static_cast<std::size_t>(j)]);
-      const Eigen::Matrix2d k{{soft(i, i), soft(i, j)}, {soft(j, i), soft(j, j)}};
-      return growth_of_pair(word, coefficients, theta, step * step * k);
-    };
-    for (Eigen::Index i = 0; i < mean_soft_.rows(); ++i) {
-      for (Eigen::Index j = 0; j < i; ++j) {
-        double in_the_mean = 0.0;
-        for (const auto& soft : soft_) in_the_mean += growth_at(soft, i, j);
-        in_the_mean /= static_cast<double>(soft_.size());
-        const double growth =
-            static_cast<double>(steps_) * std::max(growth_at(mean_soft_, i, j), in_the_mean);
-        if (growth <= worst.growth) continue;
-        worst = {all_modes_[static_cast<std::size_t>(j)], all_modes_[static_cast<std::size_t>(i)], growth};
-      }
-    }
-    return worst;
-  }
+                              double step) const;
 
   /// The bands, with 2 % more on either side.
   const std::vector<frequency_band>& frequencies(met which = met::ever) const {
@@ -183,130 +101,26 @@ class stability_guard {
   const std::string& description() const { return description_; }  ///< what it knows, and where from
 
  private:
-  static constexpr double margin = 0.02;
-  static constexpr double rarely = 0.1;  // of the states
+  void declare(const std::vector<frequency_band>& bands);
 
-  static bool rotates(const run_time_word& word) { return has_rotation(word) || word.reads == field::soft; }
-
-  void declare_bands(const auto& system) {
-    if constexpr (HasFrequencyBands<std::remove_cvref_t<decltype(system)>>) {
-      for (const auto& band : system.frequency_bands())
-        bands_.push_back({band.low * (1.0 - margin), band.high * (1.0 + margin)});
-    }
-  }
-
-  /// What a tenth of all states exceed, of values that some of them have; 0 if fewer have one.
-  static double exceeded_often(std::vector<double> values, std::size_t states) {
-    const auto rank = static_cast<std::size_t>(rarely * static_cast<double>(states));
-    if (values.size() <= rank) return 0.0;
-    std::ranges::sort(values, std::greater{});
-    return values[rank];
-  }
+  /// What is met along so many states: of each state its frequencies, where they are known.
+  void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
+                  bool has_quadratic_kinetic);
 
   /// Raises the end of the nearest band where frequencies lie beyond it; frequencies below all bands make one
   /// of their own.
-  void extend(const frequencies_along& along, std::size_t typical) {
-    const std::vector<frequency_band> declared = bands_;
-    const auto is_declared = [&](double omega) {
-      return std::ranges::any_of(declared,
-                                 [&](const auto& band) { return band.low <= omega && omega <= band.high; });
-    };
-    const auto distance = [](const frequency_band& band, double omega) {
-      return omega > band.high ? omega - band.high : band.low - omega;
-    };
-    enum where : std::size_t { above, below };
-    using of_states = std::vector<double>;  // of those that have one
-    struct beyond_bands {
-      std::vector<std::array<of_states, 2>> of_band;
-      of_states under_all;
-    };
-    beyond_bands all{std::vector<std::array<of_states, 2>>(declared.size()), {}};
-    beyond_bands of_typical = all;
-    const double lowest = std::ranges::min(declared, {}, &frequency_band::low).low;
-    for (std::size_t state = 0; state < along.of_state.size(); ++state) {
-      const auto& one = along.of_state[state];
-      std::vector<std::array<double, 2>> farthest(declared.size(), {0.0, 0.0});
-      double under = 0.0;
-      for (const double omega : one) {
-        if (omega == 0.0 || is_declared(omega)) continue;
-        if (omega < lowest) {
-          under = std::max(under, omega);
-          continue;
-        }
-        const auto nearest = static_cast<std::size_t>(
-            std::ranges::min_element(declared, {}, [&](const auto& band) { return distance(band, omega); }) -
-            declared.begin());
-        auto& far = farthest[nearest][omega > declared[nearest].high ? above : below];
-        far = std::max(far, distance(declared[nearest], omega));
-      }
-      for (beyond_bands* found : {&all, &of_typical}) {
-        if (found == &of_typical && state >= typical) continue;
-        for (std::size_t k = 0; k < declared.size(); ++k) {
-          for (const where side : {above, below}) {
-            if (farthest[k][side] > 0.0) found->of_band[k][side].push_back(farthest[k][side]);
-          }
-        }
-        if (under > 0.0) found->under_all.push_back(under);
-      }
-    }
-    const std::size_t states = along.of_state.size();
-    for (std::size_t k = 0; k < declared.size(); ++k) {
-      const auto& [over, down] = all.of_band[k];
-      const auto largest = [](const of_states& values) {
-        return values.empty() ? 0.0 : std::ranges::max(values);
-      };
-      const auto widen = [&](frequency_band& band, double up, double low) {
-        if (up > 0.0) band.high = (declared[k].high + up) * (1.0 + margin);
-        if (low > 0.0) band.low = (declared[k].low - low) * (1.0 - margin);
-      };
-      widen(bands_[k], largest(over), largest(down));
-      widen(often_[k], exceeded_often(of_typical.of_band[k][above], typical),
-            exceeded_often(of_typical.of_band[k][below], typical));
-      if (!over.empty() || !down.empty()) {
-        description_ += fmt::format(
-            "; along {} of {} states frequencies lie outside of band {}: [{:.4g}, "
-            "{:.4g}]",
-            std::max(over.size(), down.size()), states, k + 1, bands_[k].low, bands_[k].high);
-      }
-    }
-    // A band from zero is a bound: how much of it is met often is known where all frequencies of the states
-    // are.
-    for (std::size_t k = 0; k < declared.size() && along.are_complete; ++k) {
-      if (declared[k].low > 0.0 || often_[k].high > declared[k].high) continue;
-      of_states inside;
-      for (std::size_t state = 0; state < typical; ++state) {
-        double highest = 0.0;
-        for (const double omega : along.of_state[state]) {
-          if (omega <= declared[k].high) highest = std::max(highest, omega);
-        }
-        if (highest > 0.0) inside.push_back(highest);
-      }
-      const double often = exceeded_often(inside, typical) * (1.0 + margin);
-      if (often > 0.0) often_[k].high = std::min(often_[k].high, often);
-    }
-    if (all.under_all.empty()) return;
-    bands_.push_back({0.0, std::ranges::max(all.under_all) * (1.0 + margin)});
-    description_ += fmt::format("; along {} of {} states there are frequencies in 0..{:.4g}",
-                                all.under_all.size(), states, bands_.back().high);
-    const double often = exceeded_often(of_typical.under_all, typical);
-    if (often > 0.0) often_.push_back({0.0, often * (1.0 + margin)});
-  }
+  void extend(const frequencies_along& along, std::size_t typical);
 
   /// Modes that a decomposition found equal but for rounding are one.
-  void add_mode(double omega) {
-    const auto is_near = [&](double other) { return std::abs(omega - other) <= 1e-9 * other; };
-    if (std::none_of(modes_.begin(), modes_.end(), is_near)) modes_.push_back(omega);
-  }
+  void add_mode(double omega);
+
+  /// The modes of the quadratic part, under soft forces of frequencies up to the highest.
+  void watch_modes(const std::vector<double>& frequencies, double highest);
 
   template <class S>
   void watch_rotations(const S& system, const std::ranges::range auto& states) {
     const auto part = quadratic_part::of(system);
-    all_modes_ = part->frequencies();
-    for (const double omega : all_modes_) add_mode(omega);
-    const double highest = stiffness_along<field::soft>(system, states).highest_frequency();
-    stiffest_soft_ = highest * (1.0 + margin);
-    description_ += fmt::format("; {} modes under soft forces of frequencies up to {:.4g}", modes_.size(),
-                                stiffest_soft_);
+    watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
     const Eigen::Index n = size(system);
     if (n > most_for_all_frequencies) {
       description_ += "; pairs of modes are not looked at";
@@ -335,47 +149,12 @@ class stability_guard {
   }
 
   std::string unstable(const run_time_word& word, const std::vector<double>& coefficients, double step,
-                       met which) const {
-    // trace/2 = cosh(rate): over the steps the growth is less than e where the excess is below this.
-    const double excess = 0.5 / (static_cast<double>(steps_) * static_cast<double>(steps_));
-    for (const auto& band : frequencies(which)) {
-      const double low = step * band.low;
-      const double high = step * band.high;
-      const auto trace = half_trace(word, coefficients, 0.0, low * low, high * high);
-      if (const auto x = where_larger(trace, 1.0 + excess)) {
-        return fmt::format(
-            "it is not linearly stable at z = {:.4g}, on the frequencies {:.4g} to {:.4g} of the system",
-            std::sqrt(*x), band.low, band.high);
-      }
-    }
-    return {};
-  }
-
-  /// Threefold is much: a stable motion whose energy swings by nine. On the FPU chain at h omega = j pi
-  /// impulses come to 33 by t = 100, and words learned there to 1.0003.
-  static constexpr double too_much = 3.0;
+                       met which) const;
 
   std::string magnified(const run_time_word& word, const std::vector<double>& coefficients,
-                        double step) const {
-    const auto worst = most_magnified(word, coefficients, step, too_much);
-    if (worst.factor <= too_much) return {};
-    return fmt::format(
-        "in {} steps it magnifies the mode of frequency {:.4g}, z = {:.4g}, {} under soft forces", steps_,
-        worst.frequency, step * worst.frequency,
-        std::isfinite(worst.factor) ? fmt::format("{:.3g}-fold", worst.factor) : "without bound");
-  }
+                        double step) const;
 
-  std::string resonant(const run_time_word& word, const std::vector<double>& coefficients,
-                       double step) const {
-    const auto worst = most_resonant(word, coefficients, step);
-    if (!(worst.growth > std::log(too_much))) return {};
-    const double turns = step * (worst.first + worst.second) / (2.0 * std::numbers::pi);
-    return fmt::format(
-        "the modes of frequencies {:.4g} and {:.4g}, which soft forces couple, grow by the factor "
-        "exp({:.3g}) "
-        "in {} steps: h (omega_1 + omega_2) = {:.4g} 2 pi is near a resonance",
-        worst.first, worst.second, worst.growth, steps_, turns);
-  }
+  std::string resonant(const run_time_word& word, const std::vector<double>& coefficients, double step) const;
 
   std::vector<frequency_band> bands_;
   std::vector<frequency_band> often_;

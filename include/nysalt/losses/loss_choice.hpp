@@ -2,10 +2,6 @@
 // Which loss to learn with.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -23,28 +19,11 @@ struct loss_choice {
   friend bool operator==(const loss_choice&, const loss_choice&) = default;  ///< equal in both
 
   /// The text that loss_named() reads, such as "state:1".
-  std::string description() const {
-    if (of == kind::covariance) return "covariance";
-    return fmt::format("{}:{}", of == kind::state ? "state" : "energy", steps);
-  }
+  std::string description() const;
 };
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.
-inline loss_choice loss_named(std::string_view text) {
-  if (text == "covariance") return {loss_choice::kind::covariance, 1};
-  const std::string_view name = text.substr(0, text.find(':'));
-  loss_choice result{name == "energy" ? loss_choice::kind::energy : loss_choice::kind::state, 1};
-  bool is_known = name == "state" || name == "energy";
-  if (is_known && name.size() < text.size()) {
-    const std::string_view number = text.substr(name.size() + 1);
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.steps);
-    is_known = error == std::errc() && end == number.data() + number.size() && result.steps >= 1 &&
-               number.front() != '0';
-  }
-  if (is_known) return result;
-  throw std::invalid_argument(fmt::format(
-      "unknown loss '{}': it is one of state:K, energy:K with the number K of steps, and covariance", text));
-}
+loss_choice loss_named(std::string_view text);
 
 }  // namespace nysalt

@@ -2,9 +2,10 @@
 // In which coordinates, and with which weights, an error of one step counts.
 #pragma once
 
-#include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -21,9 +23,7 @@ namespace nysalt {
 enum class coordinates { qp, modes, energy };
 
 /// The name: qp, modes or energy.
-inline std::string to_string(coordinates c) {
-  return c == coordinates::qp ? "qp" : c == coordinates::modes ? "modes" : "energy";
-}
+std::string to_string(coordinates c);
 
 /// r = Sigma^{-1/2} (the difference of two states in the chosen coordinates), Sigma the mean square
 /// increment over the data. The weights come from training data, and then judge any data alike.
@@ -84,7 +84,7 @@ class metric {
       if (which == coordinates::energy) {
         for (Eigen::Index k = 0; k < size_; ++k) {
           if (modes.frequencies[k] == 0.0) {
-            throw std::invalid_argument(fmt::format(
+            throw std::invalid_argument(sentence(
                 "the energy coordinates of {} do not exist: mode {} has frequency zero; use modes or qp",
                 describe(system), k + 1));
           }
@@ -93,8 +93,8 @@ class metric {
       }
     } else {
       throw std::invalid_argument(
-          fmt::format("the {} coordinates of {} are not known: it has no modes(); use qp", to_string(which),
-                      describe(system)));
+          sentence("the {} coordinates of {} are not known: it has no modes(); use qp", to_string(which),
+                   describe(system)));
     }
   }
 
@@ -119,9 +119,9 @@ class metric {
     active_.clear();
     for (Eigen::Index row = 0; row < 2 * size_; ++row) {
       if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
-        throw std::invalid_argument(fmt::format(
-            "the weight of {} is not finite: its increments in the data are too large to be squared",
-            name_of(row, which)));
+        throw std::invalid_argument(
+            sentence("the weight of {} is not finite: its increments in the data are too large to be squared",
+                     name_of(row, which)));
       }
       // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
       constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
@@ -146,7 +146,7 @@ class metric {
 
   std::string name_of(Eigen::Index row, coordinates which) const {
     const std::string_view names = which == coordinates::qp ? "qp" : "xy";
-    return fmt::format("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
+    return sentence("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
   }
 
   static double mean_of(const Eigen::VectorXd& values) {

@@ -2,9 +2,8 @@
 // How far the law that a thermostatted word keeps is from the Gibbs law, mode by mode and without data.
 #pragma once
 
-#include <fmt/format.h>
+#include <Eigen/Core>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -18,6 +17,7 @@
 #include "nysalt/learning/squares.hpp"
 #include "nysalt/losses/discrete_lyapunov.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
@@ -66,23 +66,13 @@ class stationary_covariance {
     requires(HasBath<S>&& HasModes<S>)
   stationary_covariance(const S& system, const run_time_word& word, double step)
       : word_(word), step_(step), bath_(system.bath()) {
-    if (!(step > 0.0) || !std::isfinite(step)) {
-      throw std::invalid_argument(fmt::format("the step must be positive and finite, got {}", step));
-    }
-    if (word.stochastic_letters == 0) {
-      throw std::invalid_argument(
-          fmt::format("the word {} has no letter O and keeps no law: thermostat it", word.letters()));
-    }
-    if (bath_.friction() == 0.0 || bath_.sigma() == 0.0) {
-      throw std::invalid_argument(fmt::format(
-          "in a {} there is no law to keep: give it friction and a temperature", bath_.description()));
-    }
+    require_law();
     const normal_modes modes = system.modes();
     for (const double omega : modes.frequencies) {
       if (omega > 0.0) ++multiplicity_of_[omega];
     }
     if (multiplicity_of_.empty()) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "{} has no mode of a frequency above zero, hence none with a law of its own", describe(system)));
     }
     require_served<S, double>(word, system);
@@ -109,28 +99,7 @@ class stationary_covariance {
 
   /// The loss and its derivatives by theta, from the coefficients at theta and their Jacobian: a row for
   /// each coefficient, a column for each parameter.
-  squares at(const std::vector<double>& coefficients, const Eigen::MatrixXd& jacobian) const {
-    constexpr int width = 2;  // columns at a time, as their number is known while running only
-    const auto values = residuals(coefficients);
-    const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
-    Eigen::MatrixXd J(r.size(), jacobian.cols());
-    for (Eigen::Index first = 0; first < J.cols(); first += width) {
-      const Eigen::Index end = std::min(first + width, J.cols());
-      std::vector<dual<double, width>> c(coefficients.begin(), coefficients.end());
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        for (Eigen::Index k = first; k < end; ++k) {
-          c[i].derivative[static_cast<std::size_t>(k - first)] = jacobian(static_cast<Eigen::Index>(i), k);
-        }
-      }
-      const auto moving = residuals(c);
-      for (std::size_t i = 0; i < moving.size(); ++i) {
-        for (Eigen::Index k = first; k < end; ++k) {
-          J(static_cast<Eigen::Index>(i), k) = moving[i].derivative[static_cast<std::size_t>(k - first)];
-        }
-      }
-    }
-    return {r.squaredNorm(), J.transpose() * r, J.transpose() * J};
-  }
+  squares at(const std::vector<double>& coefficients, const Eigen::MatrixXd& jacobian) const;
 
  private:
   /// A letter O, or all letters between two of them.
@@ -139,15 +108,8 @@ class stationary_covariance {
     std::optional<run_time_word> turn;
   };
 
-  void split_at_bath() {
-    const std::string& letters = word_.letters();
-    for (std::size_t i = 0; i < letters.size();) {
-      pieces_.push_back({word_.first_slot(i), std::nullopt});
-      const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
-      if (length > 0) pieces_.back().turn = run_time_word(letters.substr(i, length));
-      i += std::max<std::size_t>(length, 1);
-    }
-  }
+  void require_law() const;
+  void split_at_bath();
 
   /// The map M of the word and the excess R that it makes of none: then D = M D M^T + R.
   template <Scalar T>
@@ -190,10 +152,6 @@ class stationary_covariance {
 };
 
 /// The loss as a function of theta alone, for a family with the letters of the loss.
-inline objective objective_of(const stationary_covariance& loss, const run_time_family& family) {
-  return [=](const Eigen::VectorXd& theta) {
-    return loss.at(family.coefficients(theta), family.jacobian(theta));
-  };
-}
+objective objective_of(const stationary_covariance& loss, const run_time_family& family);
 
 }  // namespace nysalt

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -10,6 +13,7 @@
 #include "nysalt/method.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/requirements.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <boost/math/tools/minima.hpp>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <stdexcept>
 #include <string>
 
 #include "nysalt/methods/palindromic.hpp"
 #include "nysalt/requirements.hpp"
-#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -23,37 +18,7 @@ namespace detail {
 ///   rho = (B + C)^2 / (2 (1 - A^2)),
 /// and after n steps from the canonical law the energy errs by sin^2(n t) rho kT on average, cos t = A
 /// [blanes_casas_sanz_serna_2014]. Infinity where |A| >= 1.
-inline double energy_error_on_oscillator(double a, double x) {
-  const double rest = 0.5 - a;
-  const double defect = 2.0 * a * a * rest * x + 4.0 * a * a - 6.0 * a + 1.0;
-  const double rotation = (2.0 - a * x) * (2.0 - rest * x) * (1.0 - a * rest * x);
-  if (!(rotation > 0.0)) return std::numeric_limits<double>::infinity();
-  return x * x * defect * defect / (8.0 * rotation);
-}
-
-/// As a function of x rho rises from 0 to a hump, returns to 0 at `zero`, and then rises to infinity.
-/// Whether, up to x, the hump is the worst.
-inline bool hump_is_worst(double a, double x) {
-  const double zero = -(4.0 * a * a - 6.0 * a + 1.0) / (2.0 * a * a * (0.5 - a));
-  if (zero >= x) return true;
-  constexpr int half_the_digits = 26;  // of the place, so that the height has them all
-  const auto below = [&](double part) { return -energy_error_on_oscillator(a, part * zero); };
-  const double hump = -boost::math::tools::brent_find_minima(below, 0.0, 1.0, half_the_digits).second;
-  return hump > energy_error_on_oscillator(a, x);
-}
-
-/// argmin_a max_{0 < z <= highest_z} rho. While a grows from (3 - sqrt 5)/4, where there is no hump, the hump
-/// grows and the end falls; the worst is least where they are equal.
-inline double s_aia_coefficient(double highest_z) {
-  const double x = highest_z * highest_z;
-  double low = (3.0 - std::sqrt(5.0)) / 4.0;  // 4a^2 - 6a + 1 = 0: the best for z -> 0
-  double high = 0.25;
-  if (x >= 8.0) return high;  // for any other a, rho is infinite before z = sqrt 8
-  for (double a = std::midpoint(low, high); a != low && a != high; a = std::midpoint(low, high)) {
-    (hump_is_worst(a, x) ? high : low) = a;
-  }
-  return low;
-}
+double energy_error_on_oscillator(double a, double x);
 
 }  // namespace detail
 
@@ -74,19 +39,7 @@ class s_aia2 : public palindromic<drift, kick, 5> {
 
   /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.
   /// Cost: some 30 microseconds; a is right to rounding.
-  explicit s_aia2(double highest_z) : highest_z_(highest_z) {
-    if (!(highest_z > 0.0) || !std::isfinite(highest_z)) {
-      throw std::invalid_argument(
-          sentence("s_aia2: z = step * highest frequency must be positive and finite, got {}", highest_z));
-    }
-    if (highest_z >= 4.0) {
-      throw std::invalid_argument(sentence(
-          "s_aia2: no method of two stages is stable up to z = step * highest frequency = {}; take a smaller "
-          "step, such that z < 4",
-          highest_z));
-    }
-    coefficient_ = detail::s_aia_coefficient(highest_z);
-  }
+  explicit s_aia2(double highest_z);
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
   double highest_z() const { return highest_z_; }  ///< as it was given

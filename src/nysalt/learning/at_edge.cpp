@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// A descent among admitted points only, along the edge where it must.
-#pragma once
+// Polls along the axes of Gauss-Newton's matrix.
+#include "at_edge.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <vector>
-
-#include "nysalt/learning/squares.hpp"
 
 namespace nysalt {
 
-/// From an admitted theta to one that no poll lowers: steps to either side along the eigenvectors of
-/// Gauss-Newton's matrix, each as long as the loss at its bottom would ask for, then shorter. What is not
-/// admitted is not taken, so that it slides along an edge. Cost: a pass with derivatives for each poll that
-/// is admitted, 400 at most.
-inline Eigen::VectorXd descend_at_edge(const objective& loss,
-                                       const std::function<bool(const Eigen::VectorXd&)>& admits,
-                                       Eigen::VectorXd theta, const std::vector<Eigen::Index>& free) {
+Eigen::VectorXd descend_at_edge(const objective& loss,
+                                const std::function<bool(const Eigen::VectorXd&)>& admits,
+                                Eigen::VectorXd theta, const std::vector<Eigen::Index>& free) {
   constexpr int most_passes = 400;
   constexpr double longest = 0.3;  // coefficients are of order one
   constexpr double shortest = 1e-3;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSL-1.0
+// A fit in words.
+#include "nysalt/learning/fit_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace nysalt {
+
+std::string fit_summary::verdict_in_words() const {
+  switch (verdict()) {
+    case nysalt::verdict::usable:
+      return "usable";
+    case nysalt::verdict::nothing_gained:
+      return fmt::format("nothing gained over {}: {}", rival, what_to_take());
+    case nysalt::verdict::not_usable:
+      break;
+  }
+  return "NOT usable: " + reason;
+}
+
+std::string fit_summary::what_to_take() const {
+  if (rival == "equal steps") return "take a method of one evaluation with smaller steps";
+  if (rival == "phase_fitted") {
+    return "the member of this family that follows from the highest frequency alone is as good";
+  }
+  if (const auto times = rival.find(" x "); times != std::string::npos) {
+    const double n = std::stod(rival.substr(0, times));
+    return fmt::format("take {} at step {:.4g}", rival.substr(times + 3), step / n);
+  }
+  return fmt::format("take {}", rival);
+}
+
+std::string fit_summary::uncertainty() const {
+  if (std::isnan(expected_excess)) return "not known";
+  return fmt::format(
+      "adds {:.1e} to the loss on new data, {:.2g} % of it; it rests on {:.0f} trajectories{}",
+      expected_excess, 100.0 * excess_share(), deciding_trajectories,
+      is_decided_by_few() ? ", too few to rely on it: take more, or starts of less different energies" : "");
+}
+
+std::string fit_summary::brief() const {
+  std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
+  for (const auto& p : parameters) {
+    text += fmt::format(" {} = {:.6f}", p.name, p.value);
+    text += p.free && !std::isfinite(p.standard_error) ? std::string(" (not determined)")
+            : p.free                                   ? fmt::format(" +- {:.1e}", p.standard_error)
+            : is_held_by_guard                         ? " (held)"
+                                                       : " (fixed)";
+  }
+  text += fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
+                      held_out_is_new ? "" : " (the same data)", verdict_in_words());
+  return text;
+}
+
+std::string fit_summary::full() const {
+  std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
+  for (const auto& p : parameters) {
+    text +=
+        fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
+                    p.free && !std::isfinite(p.standard_error) ? std::string("  (not determined by the data)")
+                    : p.free                                   ? fmt::format("  +- {:.2e}", p.standard_error)
+                    : is_held_by_guard                         ? "  (held by the guard)"
+                                                               : "  (not free)");
+  }
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<22}{}\n", what, value);
+  };
+  line("usable", !usable ? "no: " + reason
+                 : gains_nothing
+                     ? fmt::format("yes, but nothing is gained over {}: {}", rival, what_to_take())
+                     : "yes");
+  line("loss", is_of_data ? fmt::format("{:.6e} ({}) on {} pairs of {} trajectories", loss, loss_name,
+                                        samples, trajectories)
+                          : fmt::format("{:.6e} ({})", loss, loss_name));
+  line("held-out loss",
+       fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
+                   held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
+  if (is_of_data && coordinates_used > 0) {
+    line("per coordinate",
+         fmt::format("{:.3g} root mean square on held-out data, {} to {:.3g} at the start",
+                     std::sqrt(held_out_loss / static_cast<double>(coordinates_used)),
+                     held_out_loss <= held_out_start_loss ? "compared" : "WORSE compared",
+                     std::sqrt(held_out_start_loss / static_cast<double>(coordinates_used))));
+  }
+  if (!rival.empty()) {
+    line("best classical",
+         fmt::format("{} of the same cost, held-out loss {:.6e} ({:.3g} times this, +- {})", rival,
+                     rival_loss, gain(),
+                     std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / held_out_loss)
+                                                : std::string("unknown")));
+  }
+  if (is_of_data) line("uncertainty", uncertainty());
+  line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
+                             is_held_by_guard ? ", held by the guard"
+                             : is_in_valley   ? ", in a valley of parameters that do as well"
+                                              : ""));
+  line("stability", guard);
+  line("trial run", trial.report());
+  if (!unguarded.empty()) line("without the guard", unguarded);
+  for (const auto& [low, high] : gaps) {
+    line("gap",
+         fmt::format("unstable for z = {:.4g} to {:.4g}, which the motion meets rarely or never", low, high));
+  }
+  line("one-step error",
+       fmt::format("{:.3e}, the reference's own {}", one_step_error,
+                   reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));
+  line("trajectory error", fmt::format("{:.3e} at the end of held-out trajectories", trajectory_error));
+  line("coordinates", coordinates);
+  for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
+  line("condition", fmt::format("{:.3g}", condition));
+  for (const auto& direction : flat_directions) {
+    if (!std::isfinite(direction.front())) continue;  // of a Hessian that is 0
+    std::string components;
+    for (const double x : direction) components += fmt::format(" {:.4f}", x);
+    line("flat direction", components);
+  }
+  line("iterations", fmt::format("{}", iterations));
+  line("reference", reference);
+  line("starts", fmt::format("{}, seed {}, held out {}", ensemble, seed, held_out_seed));
+  line("force derivatives", derivatives);
+  line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations,
+                           data_seconds, fit_seconds));
+  return text;
+}
+
+}  // namespace nysalt

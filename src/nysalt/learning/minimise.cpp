@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSL-1.0
+// The minimum of a loss: Ceres, then Newton's method for the last digits.
+#include "nysalt/learning/minimise.hpp"
+
+#include <ceres/cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "nysalt/learning/compressed_cost.hpp"
+#include "nysalt/learning/curvature.hpp"
+
+namespace nysalt {
+
+namespace {
+
+/// A compressed cost as Ceres takes it.
+class cost_of_ceres final : public ceres::CostFunction {
+ public:
+  cost_of_ceres(objective loss, std::function<bool(const Eigen::VectorXd&)> defined, int parameters)
+      : cost_(std::move(loss), std::move(defined), parameters) {
+    set_num_residuals(parameters + 1);
+    mutable_parameter_block_sizes()->push_back(parameters);
+  }
+
+  bool is_usable_at(const Eigen::VectorXd& theta) const { return cost_.is_usable_at(theta); }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    return cost_.Evaluate(blocks, residuals, jacobians);
+  }
+
+ private:
+  compressed_cost cost_;
+};
+
+}  // namespace
+
+namespace detail {
+
+void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
+             minimum& found) {
+  Eigen::VectorXd& theta = found.theta;
+  std::vector<int> fixed;
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    if (std::find(free.begin(), free.end(), k) == free.end()) fixed.push_back(static_cast<int>(k));
+  }
+  if (!fixed.empty()) {
+    problem.SetManifold(theta.data(), new ceres::SubsetManifold(static_cast<int>(theta.size()), fixed));
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 0.0;
+  options.gradient_tolerance = 0.0;
+  options.parameter_tolerance = 1e-8;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  found.iterations = static_cast<int>(summary.iterations.size());
+  found.has_ended = summary.termination_type == ceres::CONVERGENCE;
+  const auto& steps = summary.iterations;
+  constexpr double hardly = 1.1;  // by a tenth
+  constexpr std::size_t enough = 50;
+  found.in_valley = summary.termination_type == ceres::NO_CONVERGENCE && steps.size() > enough &&
+                    steps[steps.size() * 3 / 4].cost <= hardly * steps.back().cost;
+}
+
+void polish(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
+            const std::vector<Eigen::Index>& free, minimum& found) {
+  const Eigen::VectorXd began = found.theta;
+  found.hessian = hessian(loss, began);
+  const curvature bend(found.hessian, free);
+  squares here = loss(began);
+  found.loss = here.value;
+  if (!bend.is_minimum()) return;
+  const auto decrease_of = [&](const squares& at) {  // by the next step
+    const Eigen::VectorXd gradient = at.gradient();
+    return 0.5 * gradient.dot(bend.solve(gradient));
+  };
+  double decrease = decrease_of(here);
+  for (int n = 0; n < 8 && decrease > 0.0; ++n) {
+    const Eigen::VectorXd next = found.theta - bend.solve(here.gradient());
+    if (!defined(next)) break;
+    const squares there = loss(next);
+    const double next_decrease = decrease_of(there);
+    if (!(next_decrease < decrease)) break;
+    found.theta = next;
+    here = there;
+    decrease = next_decrease;
+    ++found.iterations;
+  }
+  found.loss = here.value;
+  if ((found.theta - began).norm() > 1e-6) found.hessian = hessian(loss, found.theta);
+  // 1e-24: errors of 1e-12 of an increment, which exact recovery cannot get below.
+  found.converged = decrease <= 1e-6 * found.loss + 1e-24;
+  constexpr double hardly = 0.005;  // so that the loss is within a hundredth of the least
+  found.in_valley =
+      !found.converged && (found.in_valley || (found.has_ended && decrease <= hardly * found.loss));
+}
+
+}  // namespace detail
+
+minimum minimise(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
+                 const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free, int max_iterations) {
+  minimum found{start};
+  if (free.empty()) {
+    found.loss = loss(start).value;
+    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // nobody asks in which direction
+    found.converged = true;
+    return found;
+  }
+  auto cost = std::make_unique<cost_of_ceres>(loss, defined, static_cast<int>(start.size()));
+  if (!cost->is_usable_at(start)) {
+    found.loss = std::numeric_limits<double>::infinity();
+    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());
+    return found;
+  }
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
+  detail::descend(problem, free, max_iterations, found);
+  detail::polish(loss, defined, free, found);
+  return found;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSL-1.0
+// From several starts to the best minimum that may be used.
+#include "nysalt/learning/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "at_edge.hpp"
+#include "nysalt/learning/minimise.hpp"
+#include "nysalt/noises/counter_based.hpp"
+
+namespace nysalt {
+
+namespace {
+
+/// Minimises where `defined`; bounds that may be attained are left aside, and where the search ends beyond
+/// one that parameter is held there and the others are fitted again.
+candidate descend(const search_task& task, const std::function<bool(const Eigen::VectorXd&)>& defined,
+                  const named_parameters& start) {
+  candidate found{.from = start.name, .theta = start.theta, .hessian = {}, .free = task.free};
+  for (bool inside = false; !inside;) {
+    const auto end = minimise(task.loss, defined, found.theta, found.free, task.max_iterations);
+    found.theta = end.theta;
+    found.hessian = end.hessian;
+    found.loss = end.loss;
+    found.converged = end.converged;
+    found.in_valley = end.in_valley;
+    found.iterations += end.iterations;
+    inside = 0 == std::erase_if(found.free, [&](Eigen::Index k) {
+               constexpr double met = 1e-12;  // a bound is met to rounding: exact recovery of Verlet
+               const auto& [low, high, open] = task.family->ranges[static_cast<std::size_t>(k)];
+               double& theta = found.theta[k];
+               if (open || (low + met < theta && theta < high - met)) return false;
+               theta = theta - low < high - theta ? low : high;
+               return true;
+             });
+  }
+  found.judged =
+      std::isfinite(found.loss) ? task.judge(found.theta) : std::numeric_limits<double>::infinity();
+  found.admitted = task.admits(found.theta);
+  return found;
+}
+
+/// Those that the judge can judge, from the one that it likes best on; of equals the first comes first.
+std::vector<candidate> by_judgement(std::vector<candidate> all) {
+  std::erase_if(all, [](const candidate& one) { return !std::isfinite(one.judged); });
+  std::ranges::stable_sort(all, {}, &candidate::judged);
+  return all;
+}
+
+/// The first that is admitted and withstands a trial run; nothing if none of the first few different ones
+/// does.
+std::optional<candidate> first_to_withstand(const search_task& task, const std::vector<candidate>& in_order) {
+  constexpr int most_trials = 4;
+  constexpr double same = 1e-6;  // of coefficients of order one
+  std::vector<Eigen::VectorXd> failed;
+  for (const candidate& one : in_order) {
+    if (!one.admitted) continue;
+    if (!task.withstands) return one;
+    const bool has_failed = std::ranges::any_of(
+        failed, [&](const Eigen::VectorXd& theta) { return (theta - one.theta).norm() <= same; });
+    if (has_failed) continue;
+    if (task.withstands(one.theta)) return one;
+    failed.push_back(one.theta);
+    if (std::ssize(failed) == most_trials) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
+                             const std::vector<Eigen::Index>& free, std::uint64_t seed, std::uint64_t n) {
+  Eigen::VectorXd normals(theta.size());
+  standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::search}, normals);
+  for (const Eigen::Index k : free) {
+    const auto& [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
+    const double inset = open ? 1e-3 * (high - low) : 0.0;
+    theta[k] = std::clamp(theta[k] + 0.3 * normals[k], low + inset, high - inset);
+  }
+  return theta;
+}
+
+search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
+  const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
+  std::vector<candidate> all;
+  for (const auto& start : starts) all.push_back(descend(task, is_defined, start));
+  search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(all.size())};
+
+  std::erase_if(all, [](const candidate& c) { return !c.converged && !c.in_valley; });
+  const auto sound = by_judgement(std::move(all));
+  if (sound.empty()) return result;
+  result.best = sound.front();
+  if (const auto found = first_to_withstand(task, sound)) {
+    if (found->theta != sound.front().theta) result.unguarded = sound.front();
+    result.best = *found;
+    return result;
+  }
+  result.unguarded = sound.front();
+
+  std::vector<candidate> held;
+  const auto is_allowed = [&](const Eigen::VectorXd& theta) {
+    const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
+    return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
+  };
+  std::vector<named_parameters> refuges = starts;
+  if (task.refuge) refuges.push_back(*task.refuge);
+  for (const auto& start : refuges) {
+    if (!is_allowed(start.theta)) continue;
+    candidate one{
+        .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
+    one.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free);
+    one.loss = task.loss(one.theta).value;
+    one.judged = task.judge(one.theta);
+    held.push_back(one);
+    ++result.tried;
+  }
+  held = by_judgement(std::move(held));
+  if (held.empty()) return result;
+  result.best = first_to_withstand(task, held).value_or(held.front());
+  return result;
+}
+
+}  // namespace nysalt
