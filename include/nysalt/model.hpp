@@ -71,6 +71,8 @@ class basic_model {
     return result;
   }
   const detail::model_facts& facts() const { return *facts_; }
+  /// Force evaluations of this copy so far, of a black box.
+  std::int64_t calls() const { return system_->calls(); }
 
   double inverse_mass(Eigen::Index i) const {
     return facts_->inverse_masses.empty() ? 1.0 : facts_->inverse_masses[static_cast<std::size_t>(i)];
@@ -137,5 +139,20 @@ class basic_model {
   std::shared_ptr<const detail::model_facts> facts_;
   bool is_in_bath_ = true;
 };
+
+namespace detail {
+
+/// f(m) with as many lanes as the model's system takes.
+decltype(auto) with_its_lanes(const model& m, const auto& f) {
+  if (m.facts().in_lanes) return f(m);
+  return f(basic_model<1>(m));
+}
+
+/// The force evaluations of so many evaluations of which some are f'(q) v.
+inline std::int64_t evaluations_of(const auto& erased, std::int64_t all, std::int64_t derivatives) {
+  return all + derivatives * (erased.facts().derivative_calls - 1);
+}
+
+}  // namespace detail
 
 }  // namespace nysalt

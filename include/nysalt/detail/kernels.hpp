@@ -132,6 +132,8 @@ class any_system : public kernels<double>,
                    public kernels<lanes_with_slopes> {
  public:
   virtual std::unique_ptr<any_system> clone() const = 0;
+  /// Force evaluations of this copy so far, of a black box: how many a derivative takes is known afterwards.
+  virtual std::int64_t calls() const = 0;
   virtual normal_modes modes() const = 0;
   /// Of the system in its bath, or without it.
   virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;

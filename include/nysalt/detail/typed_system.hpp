@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/counted.hpp"
 #include "nysalt/derivatives/force_source.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -333,14 +334,22 @@ class with_kernels : public Base {
   }
 };
 
+/// A black box is counted.
 template <class S>
 class holds_system : public any_system {
+  using held = typename std::conditional_t<BlackBoxForce<S>, std::type_identity<counted<S>>,
+                                           std::type_identity<S>>::type;
+
  public:
   explicit holds_system(const S& system) : system_(system) {}
-  const S& system() const { return system_; }
+  const held& system() const { return system_; }
+  std::int64_t calls() const final {
+    if constexpr (BlackBoxForce<S>) return system_.evaluations;
+    return 0;
+  }
 
  private:
-  S system_;
+  held system_;
 };
 
 template <class S>

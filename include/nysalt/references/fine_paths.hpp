@@ -61,6 +61,10 @@ class fine_paths {
     x = fine.synchronous(run);
   }
 
+  double step() const { return step_; }        ///< of its method
+  const M& method() const { return method_; }  ///< that takes the steps
+  int halvings() const { return halvings_; }   ///< of the step whose noise is fresh
+
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }
   std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }

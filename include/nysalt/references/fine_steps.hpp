@@ -42,6 +42,8 @@ class fine_steps {
     x = fine.synchronous(run);
   }
 
+  double step() const { return step_; }        ///< of its method
+  const M& method() const { return method_; }  ///< that takes the steps
   fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
   std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
 
