@@ -9,7 +9,10 @@
 
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
+#include "nysalt/report/curve_drawing.hpp"
 #include "nysalt/report/plot.hpp"
+#include "nysalt/report/plot_range.hpp"
+#include "nysalt/report/plot_script.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
