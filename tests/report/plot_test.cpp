@@ -2,6 +2,8 @@
 // Pictures: data and script are written, and drawn where gnuplot is there.
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <limits>
 #include <set>
