@@ -2,8 +2,6 @@
 // Where trajectories start.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "nysalt/lanes.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -37,7 +36,7 @@ template <int N>
 std::string not_finite_in(const phase_point<double, N>& x) {
   for (const auto& [name, values] : {std::pair('q', &x.q), std::pair('p', &x.p)}) {
     for (Eigen::Index i = 0; i < values->size(); ++i) {
-      if (!std::isfinite((*values)[i])) return fmt::format("{}{} is {}", name, i + 1, (*values)[i]);
+      if (!std::isfinite((*values)[i])) return sentence("{}{} is {}", name, i + 1, (*values)[i]);
     }
   }
   return {};
@@ -48,9 +47,9 @@ phase_point<double, S::dimension> require_sound(const S& system, const E& ensemb
                                                 phase_point<double, S::dimension> start) {
   if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
   const std::string what = not_finite_in(start);
-  throw std::invalid_argument(fmt::format("start {} of {} is not finite or has not the dimension of {}{}", n,
-                                          ensemble.description(), describe(system),
-                                          what.empty() ? "" : ": " + what));
+  throw std::invalid_argument(sentence("start {} of {} is not finite or has not the dimension of {}{}", n,
+                                       ensemble.description(), describe(system),
+                                       what.empty() ? "" : ": " + what));
 }
 }  // namespace detail
 

@@ -2,13 +2,10 @@
 // Many trajectories under way: they can be put away between two steps, and taken up later.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -18,6 +15,7 @@
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/lockstep.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -135,7 +133,7 @@ class ensemble_run {
   void begin(const auto& ensemble, std::uint64_t seed, int threads, const make_runs& make) {
     if (count_ < 1 || first_ < 0) {
       throw std::invalid_argument(
-          fmt::format("ensemble_run: {} trajectories from {} on: cannot be", count_, first_));
+          sentence("ensemble_run: {} trajectories from {} on: cannot be", count_, first_));
     }
     const std::int64_t blocks = (count_ - 1) / width + 1;
     blocks_.resize(static_cast<std::size_t>(blocks));
@@ -154,9 +152,9 @@ class ensemble_run {
     const auto count = static_cast<std::size_t>(std::max<std::int64_t>(count_, 0));
     if (saved.diverged_at.size() != count || saved.numbers.size() != each * count || saved.step < 0) {
       throw std::invalid_argument(
-          fmt::format("ensemble_run: {} numbers of {} trajectories at step {} were saved, and {} numbers of "
-                      "{} are needed",
-                      saved.numbers.size(), saved.diverged_at.size(), saved.step, each * count, count));
+          sentence("ensemble_run: {} numbers of {} trajectories at step {} were saved, and {} numbers of "
+                   "{} are needed",
+                   saved.numbers.size(), saved.diverged_at.size(), saved.step, each * count, count));
     }
     step_ = saved.step;
   }

@@ -2,15 +2,12 @@
 // Many trajectories from start to finish, in lanes and on threads, each watched over.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "nysalt/communicators/alone.hpp"
@@ -19,6 +16,7 @@
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/progress_of_share.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/together.hpp"
 
@@ -54,9 +52,9 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
   if (options.trajectories < 1 || options.trajectories > most || options.first < 0 ||
       options.first > most - options.trajectories || options.steps < 0 || options.every < 1) {
-    throw std::invalid_argument(fmt::format(
-        "integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
-        options.trajectories, options.first, options.steps, options.every));
+    throw std::invalid_argument(
+        sentence("integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
+                 options.trajectories, options.first, options.steps, options.every));
   }
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);

@@ -12,15 +12,8 @@ namespace nysalt {
 /// What to tell of the progress with `count` trajectories, those of this rank, so that `progress` hears of
 /// all `total`. Shares are equal but for a little: rank 0 tells of its own as if it were the whole, and the
 /// others are silent.
-inline std::function<void(std::int64_t)> progress_of_share(
-    const communicator& ranks, std::int64_t count, std::int64_t total,
-    const std::function<void(std::int64_t)>& progress) {
-  if (!progress || ranks.is_alone()) return progress;
-  if (!ranks.is_first()) return {};
-  return [progress, count, total](std::int64_t done) {
-    const double share = static_cast<double>(done) / static_cast<double>(count);
-    progress(static_cast<std::int64_t>(share * static_cast<double>(total)));
-  };
-}
+std::function<void(std::int64_t)> progress_of_share(const communicator& ranks, std::int64_t count,
+                                                    std::int64_t total,
+                                                    const std::function<void(std::int64_t)>& progress);
 
 }  // namespace nysalt

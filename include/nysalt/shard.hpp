@@ -2,13 +2,9 @@
 // The trajectories that one rank has of an ensemble.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,24 +30,14 @@ std::span<double> numbers_in(Matrix& term) {
 class shard {
  public:
   /// The share that this rank has of `total` trajectories.
-  explicit shard(std::int64_t total, const communicator& ranks = alone) : total_(total), ranks_(&ranks) {
-    const std::int64_t leaves = (total + trajectories_of_leaf - 1) / trajectories_of_leaf;
-    blocks_ = leaves;
-    while (blocks_ / 2 >= blocks_of_rank * ranks.size()) {
-      blocks_ = (blocks_ + 1) / 2;
-      ++level_;
-    }
-  }
+  explicit shard(std::int64_t total, const communicator& ranks = alone);
 
   std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
   std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
   /// Trajectories of this rank.
   std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
   /// The first trajectory of a rank; total() of rank size().
-  std::int64_t first_of(int rank) const {
-    const std::int64_t block = first_of_part(blocks_, rank, ranks_->size());
-    return std::min(total_, (block << level_) * trajectories_of_leaf);
-  }
+  std::int64_t first_of(int rank) const;
   const communicator& ranks() const { return *ranks_; }  ///< the ranks that share the trajectories
 
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
@@ -87,11 +73,7 @@ class shard {
  private:
   static constexpr std::int64_t blocks_of_rank = 32;
 
-  static void require_length(std::int64_t its, std::int64_t wanted) {
-    if (its == wanted) return;
-    throw std::invalid_argument(fmt::format(
-        "shard: {} items, where there are {} trajectories; each rank brings its own to a sum", its, wanted));
-  }
+  static void require_length(std::int64_t its, std::int64_t wanted);
   int rank_of(std::int64_t block) const { return static_cast<int>(block * ranks_->size() / blocks_); }
 
   /// The nodes of the blocks of this rank become those of the next level, and so on; a node is where its left

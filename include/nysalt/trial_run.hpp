@@ -2,8 +2,6 @@
 // A method run for long from many starts: what no linear criterion sees.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -69,34 +67,10 @@ struct trial_result {
   bool passed() const { return not_run.empty() && !lost && !energy_wanders(); }
 
   /// One sentence on why it failed; empty if it passed or was not run.
-  std::string objection() const {
-    if (lost) {
-      return fmt::format(
-          "in a trial run of {} steps, {} of {} trajectories diverge, trajectory {} at step {}", steps,
-          diverged, trajectories, lost->trajectory, lost->step);
-    }
-    if (energy_wanders()) {
-      return fmt::format(
-          "in a trial run of {} steps the energy of trajectory {} departs by {:.2g} at step {}, which is "
-          "{:.2g} times the largest deviation of all trajectories in the first {} steps",
-          steps, farthest.trajectory, deviation, farthest.step, deviation / first_deviation,
-          static_cast<std::int64_t>(static_cast<double>(steps) / stretches));
-    }
-    return {};
-  }
+  std::string objection() const;
 
   /// What was tried and what came of it, in one line.
-  std::string report() const {
-    if (!not_run.empty()) return "not run: " + not_run;
-    const std::string length = fmt::format("{} trajectories of {} steps", trajectories, steps);
-    if (lost) return fmt::format("{}: {} diverged, the first at step {}", length, diverged, lost->step);
-    const std::string left_out =
-        unconfined == 0 ? "" : fmt::format(", {} left out whose motion is not confined", unconfined);
-    if (!energy_was_watched) return length + left_out + ": none diverged";
-    return fmt::format("{}{}: none diverged, |H - H_0| up to {:.2e}, up to {:.2e} in the first tenth{}",
-                       length, left_out, deviation, first_deviation,
-                       energy_wanders() ? ": the energy drifts" : "");
-  }
+  std::string report() const;
 };
 
 /// Starts of a trial: in a bath each is taken again, with noise of its own, until they are as many as where

@@ -2,6 +2,8 @@
 // Pictures: data and script are written, and drawn where gnuplot is there.
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <limits>
 #include <set>
@@ -9,7 +11,10 @@
 
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
+#include "nysalt/report/curve_drawing.hpp"
 #include "nysalt/report/plot.hpp"
+#include "nysalt/report/plot_range.hpp"
+#include "nysalt/report/plot_script.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include "../support/refusal.hpp"
 #include "nysalt/report/table.hpp"
 

@@ -2,8 +2,6 @@
 // How often a trajectory would be accepted as a proposal of Hybrid Monte Carlo.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,6 +15,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {
@@ -50,7 +49,7 @@ void require_even_kinetic(const S& system, const vector<double, S::dimension>& p
     is_even = is_even && std::abs(k - system.kinetic_energy(back)) <= rounding * std::abs(k);
   }
   if (is_even) return;
-  throw std::invalid_argument(fmt::format(
+  throw std::invalid_argument(sentence(
       "acceptance: the kinetic energy must be even, K(-p) = K(p), and at start {} it is not: with p -> -p "
       "the "
       "motion does not run back, and Hybrid Monte Carlo would sample another law; take a K that is even",
@@ -79,21 +78,21 @@ template <SeparableSystem S, Method M, Ensemble<S> E>
                                                      double temperature = 1.0) {
     using T = scalar_of_lanes<lanes_of<S>>;
     if (!method.symmetric) {
-      throw std::invalid_argument(fmt::format(
-          "acceptance: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
-          "a symmetric method",
-          method.name()));
+      throw std::invalid_argument(
+          sentence("acceptance: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
+                   "a symmetric method",
+                   method.name()));
     }
     if constexpr (HasBath<S>) {
       const bath& its = system.bath();
       if (its.acts()) {
-        throw std::invalid_argument(fmt::format(
+        throw std::invalid_argument(sentence(
             "acceptance: H is not conserved in {}; take the system without its bath", describe(system)));
       }
     }
     if (!(temperature > 0.0) || !std::isfinite(temperature)) {
       throw std::invalid_argument(
-          fmt::format("acceptance: kT must be positive and finite, got {}", temperature));
+          sentence("acceptance: kT must be positive and finite, got {}", temperature));
     }
     together(*options.ranks, [&] { require_room(options, 1, 1); });
     if constexpr (!NystromSystem<S>) {

@@ -9,9 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "nysalt/lanes.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -40,11 +39,7 @@ struct pair_sums {
 using autocovariance_sums = std::vector<pair_sums>;
 
 /// The number of lags. Throws std::invalid_argument unless it is 1 to 10^5: a sample costs a product a lag.
-inline std::size_t checked_lags(int lags) {
-  constexpr int most = 100'000;
-  if (1 <= lags && lags <= most) return static_cast<std::size_t>(lags);
-  throw std::invalid_argument(fmt::format("autocovariance: {} lags cannot be, take 1 to {}", lags, most));
-}
+std::size_t checked_lags(int lags);
 
 /// Takes the samples of the trajectories in the lanes of T one by one, each sum in the order of time: the
 /// bits do not depend on the lanes. The heads of lag k are all samples but the last k, the tails all but the
@@ -56,7 +51,7 @@ class autocovariance_along {
   /// std::invalid_argument if the lags cannot be or the centre is not finite.
   autocovariance_along(int lags, double centre) : centre_(centre), lags_(checked_lags(lags)) {
     if (!std::isfinite(centre)) {
-      throw std::invalid_argument(fmt::format("autocovariance: the centre must be finite, got {}", centre));
+      throw std::invalid_argument(sentence("autocovariance: the centre must be finite, got {}", centre));
     }
     window_.assign(lags_ + stretch, T(0.0));  // zeros before the first sample make no pairs and add nothing
     first_.reserve(lags_);
@@ -76,8 +71,8 @@ class autocovariance_along {
   /// The sums of lane k. Throws std::invalid_argument unless there are more samples than lags.
   autocovariance_sums in_lane(int k) {
     if (!(samples_ > static_cast<double>(lags_))) {
-      throw std::invalid_argument(fmt::format(
-          "autocovariance: {} lags need more than {} samples along a trajectory", lags_, samples_));
+      throw std::invalid_argument(
+          sentence("autocovariance: {} lags need more than {} samples along a trajectory", lags_, samples_));
     }
     add_waiting(waiting_);
     autocovariance_sums result(lags_ + 1);

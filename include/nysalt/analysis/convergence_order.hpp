@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +11,7 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -35,9 +34,9 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {
     throw std::invalid_argument(
-        fmt::format("convergence_order: {} steps at least, {} halvings and a horizon of {}: needs a step, no "
-                    "negative number of halvings and a finite horizon",
-                    fewest_steps, halvings, horizon));
+        sentence("convergence_order: {} steps at least, {} halvings and a horizon of {}: needs a step, no "
+                 "negative number of halvings and a finite horizon",
+                 fewest_steps, halvings, horizon));
   }
   auto exact = start;
   reference.advance(system, exact, horizon);

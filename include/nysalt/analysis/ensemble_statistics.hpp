@@ -2,13 +2,10 @@
 // What an ensemble of trajectories shows in the mean, none of them kept.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "nysalt/analysis/gathered_statistics.hpp"
@@ -18,23 +15,7 @@ namespace nysalt {
 
 /// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
 /// options cannot be, or lags need more samples.
-inline std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
-  if (options.trajectories < 1 || options.trajectories > most || options.first < 0 || options.steps < 0 ||
-      options.every < 1 || wanted.from < 0 || wanted.from > options.steps) {
-    throw std::invalid_argument(fmt::format(
-        "ensemble_statistics: {} trajectories from {} on, of {} steps, sampled every {} from step "
-        "{} on: cannot be",
-        options.trajectories, options.first, options.steps, options.every, wanted.from));
-  }
-  const std::int64_t before = wanted.from == 0 ? 0 : (wanted.from - 1) / options.every + 1;
-  const std::int64_t samples = options.steps / options.every + 1 - before;
-  if (samples > wanted.lags.value_or(0)) return samples;
-  throw std::invalid_argument(
-      fmt::format("ensemble_statistics: {} samples along a trajectory are not enough for {} lags; take more "
-                  "steps or fewer lags",
-                  samples, wanted.lags.value_or(0)));
-}
+std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted);
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
 /// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from

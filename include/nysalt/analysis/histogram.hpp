@@ -2,16 +2,10 @@
 // How often a number fell where.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "nysalt/lanes.hpp"
@@ -34,44 +28,17 @@ struct equal_bins {
 class histogram {
  public:
   /// Empty. Throws std::invalid_argument unless low < high are finite and there are 1 to 10^5 bins.
-  explicit histogram(const equal_bins& bins) : bins_(bins), per_width_(1.0 / bins.width()) {
-    constexpr int most = 100'000;  // one histogram a lane and a group of trajectories must fit into memory
-    const bool sound = bins.low < bins.high && std::isfinite(per_width_) && per_width_ > 0.0;
-    if (!sound || bins.count < 1 || bins.count > most) {
-      throw std::invalid_argument(
-          fmt::format("histogram: {} bins from {} to {}: cannot be, take 1 to {} bins "
-                      "between finite numbers that rise",
-                      bins.count, bins.low, bins.high, most));
-    }
-    counts_.resize(static_cast<std::size_t>(bins.count) + 2);
-  }
+  explicit histogram(const equal_bins& bins);
 
   /// That of which counts() are known. Throws std::invalid_argument also if they are of other bins.
-  histogram(const equal_bins& bins, std::span<const std::int64_t> counts) : histogram(bins) {
-    if (counts.size() != counts_.size()) {
-      throw std::invalid_argument(fmt::format(
-          "histogram: {} counts are not those of {} bins, below and above", counts.size(), bins.count));
-    }
-    counts_.assign(counts.begin(), counts.end());
-  }
+  histogram(const equal_bins& bins, std::span<const std::int64_t> counts);
 
   /// Counts x; infinities lie below and above. Throws std::invalid_argument if x is NaN.
-  void add(double x) {
-    if (std::isnan(x)) throw std::invalid_argument("histogram: NaN lies in no bin");
-    count(place(x));
-  }
+  void add(double x);
   /// Adds what the other counted. Throws std::invalid_argument if the bins differ.
-  histogram& operator+=(const histogram& other) {
-    require_bins_of(other);
-    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
-    return *this;
-  }
+  histogram& operator+=(const histogram& other);
   /// Takes away what was added. Throws std::invalid_argument if the bins differ.
-  histogram& operator-=(const histogram& other) {
-    require_bins_of(other);
-    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] -= other.counts_[i];
-    return *this;
-  }
+  histogram& operator-=(const histogram& other);
 
   const equal_bins& bins() const { return bins_; }  ///< where numbers are counted
   /// How many lie below, in each of the bins from low to high, and above.
@@ -80,27 +47,11 @@ class histogram {
   std::int64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
   /// The counts over total(), in the same order. Throws std::invalid_argument if nothing was added.
-  std::vector<double> fractions() const {
-    const auto all = static_cast<double>(total());
-    if (all == 0.0) throw std::invalid_argument("histogram: nothing was added, so it has no fractions");
-    std::vector<double> result;
-    for (const std::int64_t n : counts_) result.push_back(static_cast<double>(n) / all);
-    return result;
-  }
+  std::vector<double> fractions() const;
   /// Fraction per width of the bins from low to high. Throws like fractions().
-  std::vector<double> density() const {
-    const auto all = fractions();
-    std::vector<double> result(all.begin() + 1, all.end() - 1);
-    for (double& fraction : result) fraction /= bins_.width();
-    return result;
-  }
+  std::vector<double> density() const;
   /// Throws std::invalid_argument if the bins differ.
-  void require_bins_of(const histogram& other) const {
-    if (bins_ == other.bins_) return;
-    throw std::invalid_argument(fmt::format(
-        "histograms of {} bins from {} to {} and of {} from {} to {} cannot be joined or compared",
-        bins_.count, bins_.low, bins_.high, other.bins_.count, other.bins_.low, other.bins_.high));
-  }
+  void require_bins_of(const histogram& other) const;
 
  private:
   template <class T>

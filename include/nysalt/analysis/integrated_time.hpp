@@ -2,10 +2,8 @@
 // How many samples count for one.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
 
 namespace nysalt {
 
@@ -22,23 +20,10 @@ struct integrated_time {
 /// window asks memory, which for rho >= 0 is tau: tau itself dips where rho oscillates, and the window would
 /// close there. Without enough lags tau and memory are what all of them add up to. A burn-in is told by
 /// memory. Throws std::invalid_argument if there is no lag.
-inline integrated_time integrated_autocorrelation_time(std::span<const double> rho) {
-  if (rho.size() < 2) throw std::invalid_argument("integrated_autocorrelation_time: there is no lag");
-  integrated_time result;
-  for (std::size_t k = 1; k < rho.size(); ++k) {
-    result.tau += 2.0 * rho[k];
-    result.memory += 2.0 * std::abs(rho[k]);
-    result.window = k;
-    result.enough = static_cast<double>(k) >= 5.0 * result.memory && result.tau > 0.0;
-    if (static_cast<double>(k) >= 5.0 * result.memory) break;
-  }
-  return result;
-}
+integrated_time integrated_autocorrelation_time(std::span<const double> rho);
 
 /// The independent samples that would give a mean the error of so many along a trajectory, samples/tau; for
 /// trajectories much longer than the window. NaN where the lags were not enough.
-inline double effective_sample_size(double samples, const integrated_time& time) {
-  return time.enough ? samples / time.tau : std::nan("");
-}
+double effective_sample_size(double samples, const integrated_time& time);
 
 }  // namespace nysalt

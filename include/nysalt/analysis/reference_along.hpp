@@ -2,8 +2,6 @@
 // What measures read along a reference.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +14,7 @@
 #include "nysalt/analysis/joined_measures.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -77,7 +76,7 @@ class reference_along {
       if (!its) continue;
       const auto& measure = (*measures_)[its->measure];
       if (its->without_scale) throw std::invalid_argument(measure.no_scale);
-      throw std::runtime_error(fmt::format(
+      throw std::runtime_error(sentence(
           "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
           "take other starts, a finer reference or a shorter horizon",
           first + k, reference_->description(), measure.name, its->step));

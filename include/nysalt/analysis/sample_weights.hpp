@@ -2,11 +2,7 @@
 // How much each sample of a trajectory counts in a mean over time.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 namespace nysalt {
 
@@ -20,17 +16,7 @@ class sample_weights {
   explicit sample_weights(std::int64_t samples) : samples_(samples) {}
 
   /// Those of the mean over [0, horizon]. Throws std::invalid_argument unless it ends within the last step.
-  sample_weights(double step, std::int64_t samples, double horizon)
-      : samples_(samples),
-        is_alike_(false),
-        last_(horizon / std::abs(step) - static_cast<double>(samples - 1)) {
-    constexpr double rounding = 1e-9;  // of horizon/step: as where steps are counted
-    const double most = 1.0 + rounding * static_cast<double>(samples);
-    if (samples >= 1 && last_ > 0.0 && last_ <= most) return;
-    throw std::invalid_argument(
-        fmt::format("sample_weights: horizon must lie within the last of {} steps of {}, got {}", samples,
-                    step, horizon));
-  }
+  sample_weights(double step, std::int64_t samples, double horizon);
 
   /// That of sample i.
   double operator()(std::int64_t i) const {

@@ -2,11 +2,7 @@
 // Whether a mean over trajectories, and its standard error, rest on few of them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
-#include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
 
@@ -29,31 +25,6 @@ struct tail {
 
 /// The tail of numbers, one a trajectory; NaN marks a trajectory that does not count. Sums are those of
 /// tree_sum, so that neither threads nor ranks change a bit.
-inline tail tail_of(std::span<const double> numbers) {
-  tail result;
-  double largest = 0.0;
-  for (const double x : numbers) {
-    result.count += std::isnan(x) ? 0.0 : 1.0;
-    if (std::abs(x) > largest) largest = std::abs(x);
-  }
-  if (largest == 0.0) return result;
-  std::vector<double> terms(numbers.size());
-  // In units of the largest: no power of a small number underflows.
-  const auto mean_of = [&](const auto& term) {
-    std::ranges::transform(numbers, terms.begin(),
-                           [&](double x) { return std::isnan(x) ? 0.0 : term(x / largest); });
-    return tree_sum(terms) / result.count;
-  };
-  const double mean = mean_of([](double x) { return x; });
-  const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); });
-  const double third = mean_of([&](double x) { return (x - mean) * (x - mean) * (x - mean); });
-  result.deciding = result.count * mean * mean / (variance + mean * mean);
-  // What differs by rounding alone is equal: half a unit in the last place of each number and of the mean.
-  const double deviation = std::sqrt(variance);
-  if (deviation > std::numeric_limits<double>::epsilon()) {
-    result.skewness = third / (variance * deviation);
-  }
-  return result;
-}
+tail tail_of(std::span<const double> numbers);
 
 }  // namespace nysalt

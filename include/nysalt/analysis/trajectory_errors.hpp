@@ -2,18 +2,14 @@
 // Methods at one step against one reference, along many trajectories, by one measure or several.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <ranges>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +21,7 @@
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/progress_of_share.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/together.hpp"
 
@@ -56,12 +53,12 @@ void require_comparable(const S& system, const R& reference, std::span<const M> 
                         const trajectory_options& options) {
   if (parts > 0 && !PathReference<R, S>) {
     throw std::invalid_argument(
-        fmt::format("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
-                    reference.description()));
+        sentence("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
+                 reference.description()));
   }
   const double perturbation = options.perturbation.value_or(1.0);
   if (!(perturbation > 0.0) || !std::isfinite(perturbation)) {
-    throw std::invalid_argument(fmt::format(
+    throw std::invalid_argument(sentence(
         "trajectory_errors: the perturbation of starts must be positive and finite, got {}", perturbation));
   }
   for (const M& method : methods) make_stepper(system, method, options.step, counter_noise(0));

@@ -30,23 +30,10 @@ namespace detail {
 struct measured_trajectories {
   /// Nothing yet.
   measured_trajectories(std::size_t methods, std::size_t trajectories, std::size_t checked, bool null,
-                        std::size_t perturbed)
-      : runs(methods, std::vector<run_score>(trajectories)),
-        checks(checked),
-        null_model(null ? trajectories : 0),
-        predictable_until(perturbed),
-        sizes(trajectories),
-        signs(trajectories) {}
+                        std::size_t perturbed);
 
   /// Each rank has filled in its own, and all get all. The few that checks are of are in the first leaf.
-  void gather(const shard& its) {
-    for (auto& of_method : runs) its.gather(of_method);
-    if (!null_model.empty()) its.gather(null_model);
-    its.gather(sizes);
-    its.gather(signs);
-    broadcast(its.ranks(), checks);
-    broadcast(its.ranks(), predictable_until);
-  }
+  void gather(const shard& its);
 
   std::vector<std::vector<run_score>> runs;  // of each method
   std::vector<double> checks;                // of the reference against its finer self

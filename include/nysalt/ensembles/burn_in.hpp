@@ -2,21 +2,30 @@
 // How long, with what friction and what step chains must run until they have forgotten their starts.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "nysalt/ensembles/burn_in_pilot.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
 #include "nysalt/ensembles/slowest_mode.hpp"
+#include "nysalt/in_digits.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
+
+namespace detail {
+
+/// Throws std::invalid_argument if an option cannot be.
+void require_burn_in(const burn_in_options& options);
+/// Throws std::runtime_error where a discrepancy of number i shows; `what` says what it is.
+void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
+                        const burn_in_report& report);
+
+}  // namespace detail
 
 /// The search for a burn-in.
 template <NystromSystem S, Ensemble<S> E>
@@ -26,7 +35,7 @@ class burn_in_search {
   /// Throws std::invalid_argument if an option cannot be.
   burn_in_search(const S& alone, double temperature, const E& from, const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
-    require(options);
+    detail::require_burn_in(options);
     slowest_ = slowest_mode(alone);
   }
 
@@ -50,21 +59,6 @@ class burn_in_search {
  private:
   static constexpr int most_halvings = 6;
 
-  static void require(const burn_in_options& options) {
-    const auto sound = [](const char* what, double value) {
-      if (value >= 0.0 && std::isfinite(value)) return;
-      throw std::invalid_argument(fmt::format(
-          "gibbs: the {} of the burn-in must be finite and positive, or 0 to be found, got {}", what, value));
-    };
-    sound("friction", options.friction);
-    sound("step", options.step);
-    sound("length", options.length);
-    if (options.pilots >= 16 && options.pilots <= 100'000 && options.most_steps >= 1) return;
-    throw std::invalid_argument(
-        fmt::format("gibbs: {} pilots of at most {} steps: cannot be; take 16 to 100000", options.pilots,
-                    options.most_steps));
-  }
-
   burn_in_pilot<S, E> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
     const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
@@ -83,10 +77,9 @@ class burn_in_search {
       if (stretch.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(
-        fmt::format("gibbs: no stationary state of {} within {} steps of {:.6g} with the friction {:.6g}: "
-                    "give another friction "
-                    "or more steps",
-                    describe(*alone_), options_.most_steps, step, friction));
+        sentence("gibbs: no stationary state of {} within {} steps of {} with the friction {}: give another "
+                 "friction or more steps",
+                 describe(*alone_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
   }
 
   /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
@@ -127,8 +120,8 @@ class burn_in_search {
       if (report.halvings == most_halvings) throw;
     }
     if (report.halvings < most_halvings) return false;
-    throw std::runtime_error(
-        fmt::format("gibbs: even the step {:.6g} has a bias that shows; give a smaller one", report.step));
+    throw std::runtime_error(sentence("gibbs: even the step {} has a bias that shows; give a smaller one",
+                                      in_digits(report.step, 6)));
   }
 
   static bool counts(const burn_in_report& report, std::size_t i) {
@@ -149,16 +142,9 @@ class burn_in_search {
         report.excess[i].mean -= 1.0;
       }
       if (!counts(report, i)) continue;
-      refuse_if(report.excess[i], i, "is not that of equipartition", report);
-      refuse_if(report.to_forget[i], i, "still changes afterwards", report);
+      detail::refuse_discrepancy(report.excess[i], i, "is not that of equipartition", report);
+      detail::refuse_discrepancy(report.to_forget[i], i, "still changes afterwards", report);
     }
-  }
-  static void refuse_if(const discrepancy& found, std::size_t i, const char* what,
-                        const burn_in_report& report) {
-    if (!found.shows()) return;
-    throw std::runtime_error(fmt::format(
-        "gibbs: after a burn-in of {:.6g} the {} {}: off by {:.3g} +- {:.3g} kT; burn in for longer",
-        report.length, watched_names[i], what, found.mean, found.standard_error));
   }
 
   const S* alone_;

@@ -2,8 +2,6 @@
 // Some chains that are watched, to learn how long they remember.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,8 @@
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/ensembles/burn_in_chains.hpp"
 #include "nysalt/ensembles/watched_stretch.hpp"
+#include "nysalt/in_digits.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -154,11 +154,11 @@ class burn_in_pilot {
         const auto lost = blocks_[b].run.diverged_at(k);
         if (!lost) continue;
         throw chain_diverged(
-            fmt::format("gibbs: pilot chain {} diverged at time {:.6g} with the step {:.6g}: the motion of "
-                        "{} is not confined, "
-                        "or the step is too large",
-                        b * width + static_cast<std::size_t>(k), static_cast<double>(*lost) * chains_.step(),
-                        chains_.step(), describe(chains_.system())));
+            sentence("gibbs: pilot chain {} diverged at time {} with the step {}: the motion of {} is not "
+                     "confined, or the step is too large",
+                     b * width + static_cast<std::size_t>(k),
+                     in_digits(static_cast<double>(*lost) * chains_.step(), 6), in_digits(chains_.step(), 6),
+                     describe(chains_.system())));
       }
     }
   }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt {
@@ -31,10 +30,10 @@ class fpu_law {
     const bool finite =
         std::isfinite(spread) && std::isfinite(soft.displacement) && std::isfinite(soft.velocity);
     if (spread >= 0.0 && finite) return;
-    throw std::invalid_argument(fmt::format(
-        "fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
-        "{} and {}",
-        spread, soft.displacement, soft.velocity));
+    throw std::invalid_argument(
+        sentence("fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
+                 "{} and {}",
+                 spread, soft.displacement, soft.velocity));
   }
 
   /// Of the soft energy omega^2, half in motion (m y_0^2/2) and half in the two springs at the ends (x_0^4/2
@@ -61,10 +60,10 @@ class fpu_law {
     return start;
   }
   std::string description() const {
-    std::string text = fmt::format("fpu_law(omega={}", omega_);
-    if (spread_ != 1.0) text += fmt::format(", spread={}", spread_);
+    std::string text = sentence("fpu_law(omega={}", omega_);
+    if (spread_ != 1.0) text += sentence(", spread={}", spread_);
     if (soft_.displacement != 1.0 || soft_.velocity != 1.0) {
-      text += fmt::format(", x_0={}, y_0={}", soft_.displacement, soft_.velocity);
+      text += sentence(", x_0={}, y_0={}", soft_.displacement, soft_.velocity);
     }
     return text + ")";
   }

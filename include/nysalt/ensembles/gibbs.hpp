@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "nysalt/ensembles/burn_in.hpp"
+#include "nysalt/in_digits.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
+
+namespace detail {
+/// kT. Throws std::invalid_argument unless the bath has a temperature, and that is positive.
+double temperature_to_sample(const bath& its);
+}  // namespace detail
 
 /// Independent states from exp(-H/kT) of a system in a bath that has a temperature: each is the end of a
 /// chain of its own, which begins at a state of another ensemble with fresh momenta and follows BAOAB. The
@@ -34,7 +39,9 @@ class gibbs {
   /// if there is neither a step nor frequency_bands(); std::runtime_error if chains diverge, do not become
   /// stationary, or a check fails.
   gibbs(const in_bath<S>& system, E from, const burn_in_options& options = {})
-      : alone_(system.alone()), from_(std::move(from)), temperature_(temperature_of(system.bath())) {
+      : alone_(system.alone()),
+        from_(std::move(from)),
+        temperature_(detail::temperature_to_sample(system.bath())) {
     report_ = burn_in_search<S, E>(alone_, temperature_, from_, options).find();
   }
 
@@ -55,9 +62,9 @@ class gibbs {
     run.go_on(report_.steps);
     for (int k = 0; k < count; ++k) {
       if (!run.diverged_at(k)) continue;
-      throw std::runtime_error(fmt::format(
-          "gibbs: chain {} of seed {} diverged at time {:.6g}: the motion of {} is not confined", first + k,
-          seed, static_cast<double>(*run.diverged_at(k)) * report_.step, describe(alone_)));
+      throw std::runtime_error(sentence(
+          "gibbs: chain {} of seed {} diverged at time {}: the motion of {} is not confined", first + k, seed,
+          in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6), describe(alone_)));
     }
     auto x = run.synchronous();
     chains.draw_momenta(x, first, report_.steps);
@@ -65,24 +72,12 @@ class gibbs {
   }
 
   std::string description() const {
-    return fmt::format(
-        "gibbs(temperature={:.6g}, from {}, burned in for {:.4g} with friction {:.4g} and step {:.4g})",
-        temperature_, from_.description(), report_.length, report_.friction, report_.step);
+    return sentence("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
+                    in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
+                    in_digits(report_.friction, 4), in_digits(report_.step, 4));
   }
 
  private:
-  static double temperature_of(const bath& its) {
-    if (!its.has_temperature()) {
-      throw std::invalid_argument(
-          fmt::format("gibbs: a {} has no temperature; give one, or friction", its.description()));
-    }
-    if (its.temperature() > 0.0) return its.temperature();
-    throw std::invalid_argument(
-        "gibbs: at temperature 0 a system rests where its potential is least, and there is nothing to "
-        "sample; start from "
-        "another ensemble");
-  }
-
   S alone_;
   E from_;
   double temperature_;

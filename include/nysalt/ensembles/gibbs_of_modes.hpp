@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 
 #include "nysalt/ensemble.hpp"
+#include "nysalt/in_digits.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/references/exact_linear.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -28,10 +28,10 @@ class gibbs_of_modes {
     const normal_modes modes = system.modes();
     if (!(temperature > 0.0) || !std::isfinite(temperature) || !(modes.frequencies.minCoeff() > 0.0)) {
       throw std::invalid_argument(
-          fmt::format("gibbs_of_modes: {} at temperature {} has no Gibbs law that is normal: it needs a "
-                      "temperature above "
-                      "0, and a frequency above 0 of each mode",
-                      describe(system), temperature));
+          sentence("gibbs_of_modes: {} at temperature {} has no Gibbs law that is normal: it needs a "
+                   "temperature above "
+                   "0, and a frequency above 0 of each mode",
+                   describe(system), temperature));
     }
     const double deviation = std::sqrt(temperature);
     to_q_ = modes.basis * (deviation * modes.frequencies.cwiseInverse()).asDiagonal();
@@ -54,7 +54,9 @@ class gibbs_of_modes {
     standard_normals(seed, at, y);
     return {to_q_ * x, to_p_ * y};
   }
-  std::string description() const { return fmt::format("gibbs_of_modes(temperature={:.6g})", temperature_); }
+  std::string description() const {
+    return sentence("gibbs_of_modes(temperature={})", in_digits(temperature_, 6));
+  }
 
  private:
   double temperature_;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -26,7 +25,7 @@ std::optional<double> highest_frequency(const S& system) {
 template <System S>
 double step_of_frequency(const S& system, double z, const char* who) {
   if (const auto omega = highest_frequency(system)) return z / *omega;
-  throw std::invalid_argument(fmt::format(
+  throw std::invalid_argument(sentence(
       "{}: the step has no default, for {} tells no frequency_bands(); give one", who, describe(system)));
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
+#include "nysalt/in_digits.hpp"
 #include "nysalt/noises/counter_based.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 
 namespace nysalt {
@@ -26,7 +26,7 @@ class lennard_jones_law {
   lennard_jones_law(const lennard_jones<Space, Atoms>& system, double temperature)
       : rest_(cluster_at_rest(system)), temperature_(temperature) {
     if (!(temperature >= 0.0) || !std::isfinite(temperature)) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "lennard_jones_law: the temperature must be finite and not negative, got {}", temperature));
     }
     find_rigid_motions(system.space());
@@ -41,7 +41,7 @@ class lennard_jones_law {
     return {rest_, p};
   }
   std::string description() const {
-    return fmt::format("lennard_jones_law(temperature={:.6g})", temperature_);
+    return sentence("lennard_jones_law(temperature={})", in_digits(temperature_, 6));
   }
 
  private:

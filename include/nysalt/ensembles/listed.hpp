@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -24,12 +23,12 @@ class listed {
   phase_point<double, N> operator()(std::uint64_t, std::uint64_t n) const {
     if (n >= states_.size()) {
       throw std::out_of_range(
-          fmt::format("listed: start {} was asked for, {} are given", n + 1, states_.size()));
+          sentence("listed: start {} was asked for, {} are given", n + 1, states_.size()));
     }
     return states_[n];
   }
   std::size_t size() const { return states_.size(); }  ///< how many are given
-  std::string description() const { return fmt::format("listed({} states)", states_.size()); }
+  std::string description() const { return sentence("listed({} states)", states_.size()); }
 
  private:
   std::vector<phase_point<double, N>> states_;

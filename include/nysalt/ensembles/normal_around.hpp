@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -40,7 +39,7 @@ class normal_around {
     }
     return start;
   }
-  std::string description() const { return fmt::format("normal_around({}, {})", deviation_q_, deviation_p_); }
+  std::string description() const { return sentence("normal_around({}, {})", deviation_q_, deviation_p_); }
 
  private:
   phase_point<double, N> centre_;

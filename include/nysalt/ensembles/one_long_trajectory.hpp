@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,9 +12,11 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
+#include "nysalt/in_digits.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -28,6 +28,11 @@ struct long_trajectory_options {
   std::int64_t most_states = 100'000;  ///< that are kept, evenly thinned; at most 100000
   std::uint64_t seed = 1;              ///< of the start and the noise
 };
+
+namespace detail {
+/// Throws std::invalid_argument if the options cannot be, with the step that was found.
+void require_long_trajectory(const long_trajectory_options& options, double step);
+}  // namespace detail
 
 /// States picked at random, with repetition, from one trajectory of a system in its bath, by BAOAB from start
 /// 0 of another ensemble [li_lu_tao_ye_2023]. They depend on each other as far as the trajectory remembers:
@@ -44,7 +49,7 @@ class one_long_trajectory {
   one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})
       : options_(options), from_(from.description()) {
     step_ = options.step != 0.0 ? options.step : step_of_frequency(system, 0.1, "one_long_trajectory");
-    require();
+    detail::require_long_trajectory(options, step_);
     const auto steps = static_cast<std::int64_t>(options.length / step_);
     const auto first = static_cast<std::int64_t>(std::ceil(options.burn_in / step_));
     const std::int64_t every = (steps - first) / options.most_states + 1;
@@ -57,16 +62,17 @@ class one_long_trajectory {
     const auto end = integrate(stepper, sound_start(system, from, options.seed, 0), steps, keep, every);
     if (end.diverged_at) {
       throw std::runtime_error(
-          fmt::format("one_long_trajectory: it diverged at time {:.6g}: the motion of {} is not confined, or "
-                      "the step {:.6g} is too large",
-                      static_cast<double>(*end.diverged_at) * step_, describe(system), step_));
+          sentence("one_long_trajectory: it diverged at time {}: the motion of {} is not confined, or the "
+                   "step {} is too large",
+                   in_digits(static_cast<double>(*end.diverged_at) * step_, 6), describe(system),
+                   in_digits(step_, 6)));
     }
     if (kept.empty()) {
       throw std::invalid_argument(
-          fmt::format("one_long_trajectory: after a burn-in of {} a length of {} leaves no state to keep: "
-                      "take more states or less "
-                      "burn-in",
-                      options.burn_in, options.length));
+          sentence("one_long_trajectory: after a burn-in of {} a length of {} leaves no state to keep: "
+                   "take more states or less "
+                   "burn-in",
+                   options.burn_in, options.length));
     }
     states_ = std::make_shared<const std::vector<phase_point<double, N>>>(std::move(kept));
   }
@@ -83,22 +89,11 @@ class one_long_trajectory {
   }
 
   std::string description() const {
-    return fmt::format("one_long_trajectory(length={}, burn_in={}, step={:.6g}, seed={}, from {})",
-                       options_.length, options_.burn_in, step_, options_.seed, from_);
+    return sentence("one_long_trajectory(length={}, burn_in={}, step={}, seed={}, from {})", options_.length,
+                    options_.burn_in, in_digits(step_, 6), options_.seed, from_);
   }
 
  private:
-  void require() const {
-    const auto& o = options_;
-    const bool times = step_ > 0.0 && o.burn_in >= 0.0 && o.length > o.burn_in && o.length / step_ < 1e12;
-    if (times && o.most_states >= 1 && o.most_states <= 100'000) return;
-    throw std::invalid_argument(
-        fmt::format("one_long_trajectory: length {}, burn-in {}, step {} and {} states: cannot be; the step "
-                    "is positive, the "
-                    "burn-in shorter than the length, the states 1 to 100000",
-                    o.length, o.burn_in, step_, o.most_states));
-  }
-
   long_trajectory_options options_;
   std::string from_;
   double step_ = 0.0;

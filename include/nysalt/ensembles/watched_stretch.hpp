@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -11,14 +9,7 @@
 namespace nysalt {
 
 /// Mean over independent numbers and its standard error.
-inline discrepancy mean_over_chains(const std::vector<double>& x) {
-  const auto n = static_cast<double>(x.size());
-  double mean = 0.0;
-  double squares = 0.0;
-  for (const double value : x) mean += value / n;
-  for (const double value : x) squares += (value - mean) * (value - mean);
-  return {mean, std::sqrt(squares / (n - 1.0) / n)};
-}
+discrepancy mean_over_chains(const std::vector<double>& x);
 
 /// Chains over a stretch of time.
 struct watched_stretch {
@@ -36,18 +27,7 @@ struct watched_stretch {
 
   /// Longest of T Var(mean over T)/Var: the integrated autocorrelation time, if it is much shorter than T,
   /// and T if nothing is forgotten. Its relative error is sqrt(2/chains).
-  double tau() const {
-    double longest = 0.0;
-    for (std::size_t i = 0; i < watched_numbers; ++i) {
-      if (!counts(i)) continue;
-      const auto n = static_cast<double>(mean[i].size());
-      const discrepancy all = mean_over_chains(mean[i]);
-      const double variance = mean_over_chains(square[i]).mean - all.mean * all.mean;
-      const double of_means = all.standard_error * all.standard_error * n;
-      if (variance > 0.0) longest = std::max(longest, duration * of_means / variance);
-    }
-    return longest;
-  }
+  double tau() const;
 };
 
 }  // namespace nysalt

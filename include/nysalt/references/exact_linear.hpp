@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -11,6 +9,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/force.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -40,7 +39,7 @@ class exact_linear {
   void advance(const S& system, phase_point<double, S::dimension>& point, double t) const {
     if (const std::string other = describe(system); other != system_) {
       throw std::invalid_argument(
-          fmt::format("exact_linear: made for {}, it cannot advance {}; make one for that", system_, other));
+          sentence("exact_linear: made for {}, it cannot advance {}; make one for that", system_, other));
     }
     Eigen::VectorXd x = modes_.basis.transpose() * root_mass_.cwiseProduct(point.q);
     Eigen::VectorXd y = modes_.basis.transpose() * point.p.cwiseQuotient(root_mass_);
@@ -66,20 +65,9 @@ class exact_linear {
     const bath& its = system.bath();
     if (!its.acts()) return;
     throw std::invalid_argument(
-        fmt::format("exact_linear: the flow of {} is not known, as it is in a bath", system_));
+        sentence("exact_linear: the flow of {} is not known, as it is in a bath", system_));
   }
-  void require_modes() const {
-    const Eigen::Index n = root_mass_.size();
-    const bool fit = modes_.basis.rows() == n && modes_.basis.cols() == n && modes_.frequencies.size() == n;
-    // n products of numbers below 1, and as much again for how the basis was found.
-    if (fit &&
-        (modes_.basis.transpose() * modes_.basis - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <=
-            32.0 * static_cast<double>(n) * eps) {
-      return;
-    }
-    throw std::invalid_argument(fmt::format(
-        "exact_linear: modes() of {} must give {} orthonormal columns with a frequency each", system_, n));
-  }
+  void require_modes() const;
 
   /// Compares the force with -M^{1/2} U w^2 U^T M^{1/2} q at points in general position, of sizes so
   /// different that a term that is not linear cannot be small at all of them.
@@ -102,15 +90,14 @@ class exact_linear {
             32.0 * static_cast<double>(q.size()) * eps * squares.maxCoeff() * weighted.lpNorm<1>();
         for (Eigen::Index i = 0; i < q.size(); ++i) {
           if (std::abs(f[i] - expected[i]) <= rounding * root_mass_[i]) continue;  // also refuses NaN
-          throw std::invalid_argument(
-              fmt::format("exact_linear: the force of {} is not linear as modes() says, coordinate {} is off "
-                          "by {:.2e} of {:.2e} at a "
-                          "state of size {}; take fine_steps or odeint_reference",
-                          system_, i + 1, f[i] - expected[i], expected[i], length));
+          refuse_force(i, f[i], expected[i], length);
         }
       }
     }
   }
+
+  /// That of coordinate i, at a state of size `length`.
+  [[noreturn]] void refuse_force(Eigen::Index i, double its, double expected, double length) const;
 
   std::string system_;
   normal_modes modes_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,11 +8,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/in_digits.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/noises/finer_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -38,7 +38,7 @@ class fine_paths {
     const double ratio = t / step_ / static_cast<double>(parts);
     const double steps = std::round(ratio);
     if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
-      throw std::invalid_argument(fmt::format(
+      throw std::invalid_argument(sentence(
           "fine_paths: the time {} in {} equal parts, as the noise is wanted, is not a multiple of the fine "
           "step {}",
           t, parts, step_));
@@ -67,7 +67,9 @@ class fine_paths {
 
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }
-  std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
+  std::string description() const {
+    return sentence("{} with step {}", method_.name(), in_digits(step_, 12));
+  }
 
  private:
   /// Adds up what it hands out.
@@ -86,8 +88,7 @@ class fine_paths {
 
   fine_paths(double step, const M& method, int halvings) : step_(step), method_(method), halvings_(halvings) {
     if (!(step > 0.0) || !std::isfinite(step)) {
-      throw std::invalid_argument(
-          fmt::format("fine_paths: the step must be positive and finite, got {}", step));
+      throw std::invalid_argument(sentence("fine_paths: the step must be positive and finite, got {}", step));
     }
   }
 

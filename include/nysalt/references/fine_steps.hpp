@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/in_digits.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -21,8 +21,7 @@ class fine_steps {
   /// Throws std::invalid_argument unless the step is positive and finite.
   explicit fine_steps(double step, const M& method = M{}) : step_(step), method_(method) {
     if (!(step > 0.0) || !std::isfinite(step)) {
-      throw std::invalid_argument(
-          fmt::format("fine_steps: the step must be positive and finite, got {}", step));
+      throw std::invalid_argument(sentence("fine_steps: the step must be positive and finite, got {}", step));
     }
   }
 
@@ -34,7 +33,7 @@ class fine_steps {
     const double steps = std::round(ratio);
     if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
       throw std::invalid_argument(
-          fmt::format("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+          sentence("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
     }
     const auto fine = make_stepper(system, method_, t / steps);
     auto run = fine.open(x);
@@ -45,7 +44,9 @@ class fine_steps {
   double step() const { return step_; }        ///< of its method
   const M& method() const { return method_; }  ///< that takes the steps
   fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
-  std::string description() const { return fmt::format("{} with step {:.12g}", method_.name(), step_); }
+  std::string description() const {
+    return sentence("{} with step {}", method_.name(), in_digits(step_, 12));
+  }
 
  private:
   double step_;

@@ -2,18 +2,11 @@
 // A report as a value: written once, read as Markdown and as a page of HTML.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "nysalt/report/page_blocks.hpp"
-#include "nysalt/report/page_html.hpp"
-#include "nysalt/report/page_markdown.hpp"
 #include "nysalt/report/plot.hpp"
 #include "nysalt/report/table.hpp"
 
@@ -29,41 +22,29 @@ namespace nysalt {
 ///     write_file(folder / "report.html", report.html(folder));
 class page {
  public:
-  explicit page(std::string title) : title_(std::move(title)) {}  ///< empty but for its title
+  explicit page(std::string title);  ///< empty but for its title
 
   /// Begins a section.
-  void heading(std::string text) { blocks_.push_back(heading_block{2, std::move(text)}); }
+  void heading(std::string text);
   /// Begins a part of a section.
-  void subheading(std::string text) { blocks_.push_back(heading_block{3, std::move(text)}); }
+  void subheading(std::string text);
   /// A paragraph: a sentence or several.
-  void text(std::string paragraph) { blocks_.push_back(text_block{std::move(paragraph)}); }
+  void text(std::string paragraph);
   /// A list with a dot before each item.
-  void list(std::vector<std::string> items) { blocks_.push_back(list_block{std::move(items)}); }
+  void list(std::vector<std::string> items);
   /// A table; words of its cells are set as they are.
-  void table(nysalt::table its) { blocks_.push_back(table_block{std::move(its)}); }
+  void table(nysalt::table its);
   /// A command or an output, as it is.
-  void code(std::string text) { blocks_.push_back(code_block{std::move(text)}); }
+  void code(std::string text);
   /// Throws std::invalid_argument if the page has a picture of that name, as their files would be one, or if
   /// the name is none that draw() takes.
-  void picture(figure its, std::string caption) {
-    detail::require_plain(its.name);
-    if (std::ranges::find(figures_, its.name, &figure::name) != figures_.end()) {
-      throw std::invalid_argument(
-          fmt::format("page: two pictures are named {}: give each a name of its own", its.name));
-    }
-    blocks_.push_back(picture_block{its.name, std::move(caption)});
-    figures_.push_back(std::move(its));
-  }
+  void picture(figure its, std::string caption);
 
   /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which stands below again.
-  std::string markdown(const std::string& pictures = "") const {
-    return page_markdown(title_, blocks_, pictures);
-  }
+  std::string markdown(const std::string& pictures = "") const;
   /// One page that needs no other file, no script and no network: the pictures that draw() left in the
   /// folder stand in it. Where one is missing a sentence says so.
-  std::string html(const std::filesystem::path& pictures) const {
-    return page_html(title_, blocks_, pictures);
-  }
+  std::string html(const std::filesystem::path& pictures) const;
   /// The pictures, in the order of the page.
   const std::vector<figure>& figures() const { return figures_; }
 

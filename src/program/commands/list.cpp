@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../listing.hpp"
 
+#include <fmt/format.h>
+
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "nysalt/report/table.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -23,15 +22,7 @@ struct matrix_entry {
   Eigen::Index column;
   double value;
 };
-inline std::vector<matrix_entry> entries_of(const Eigen::MatrixXd& a) {
-  std::vector<matrix_entry> result;
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    for (Eigen::Index j = 0; j < a.cols(); ++j) {
-      if (a(i, j) != 0.0) result.push_back({static_cast<std::size_t>(i), j, a(i, j)});
-    }
-  }
-  return result;
-}
+std::vector<matrix_entry> entries_of(const Eigen::MatrixXd& a);
 
 /// The maps from q to w_k x_k and from p to y_k.
 struct weighted_modes {
@@ -52,7 +43,7 @@ weighted_modes modes_with_weights(const S& system) {
     const normal_modes modes = system.modes();
     if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n) {
       throw std::invalid_argument(
-          fmt::format("the state error needs {} modes of {}, each with a frequency", n, describe(system)));
+          sentence("the state error needs {} modes of {}, each with a frequency", n, describe(system)));
     }
     const Eigen::VectorXd weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
     result.to_x = entries_of(weights.asDiagonal() * modes.basis.transpose() * root_mass.asDiagonal());

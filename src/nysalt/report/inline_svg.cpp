@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// A picture's file as an element that can stand in a page beside others.
-#pragma once
+#include "inline_svg.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,10 +12,10 @@
 
 namespace nysalt {
 
-namespace detail {
+namespace {
 
 /// Whether url(#NAME) or href="#NAME" stands somewhere in it.
-inline bool is_used(std::string_view svg, const std::string& id) {
+bool is_used(std::string_view svg, const std::string& id) {
   const std::string use = "#" + id;
   for (std::size_t at = svg.find(use); at != std::string_view::npos; at = svg.find(use, at + 1)) {
     const std::size_t behind = at + use.size();
@@ -27,7 +27,7 @@ inline bool is_used(std::string_view svg, const std::string& id) {
 
 /// `prefix` before the name that the tag gives, if something uses it (else none is given), and before those
 /// that it uses.
-inline std::string with_own_ids(std::string tag, std::string_view svg, const std::string& prefix) {
+std::string with_own_ids(std::string tag, std::string_view svg, const std::string& prefix) {
   const std::size_t id = std::min(tag.find(" id=\""), tag.find(" id='"));
   if (id != std::string::npos) {
     const std::size_t from = id + std::string_view(" id='").size();
@@ -48,7 +48,7 @@ inline std::string with_own_ids(std::string tag, std::string_view svg, const std
 }
 
 /// Tags, and the text between them unless it is blank.
-inline std::vector<std::string_view> svg_pieces(std::string_view svg) {
+std::vector<std::string_view> svg_pieces(std::string_view svg) {
   std::vector<std::string_view> result;
   for (std::size_t at = 0; at < svg.size();) {
     const bool is_tag = svg[at] == '<';
@@ -63,7 +63,7 @@ inline std::vector<std::string_view> svg_pieces(std::string_view svg) {
 
 /// Without titles, which would pop up under the mouse ("gnuplot_plot_1"), and without groups of nothing,
 /// which are a third of what gnuplot writes.
-inline std::vector<std::string_view> without_empty(const std::vector<std::string_view>& pieces) {
+std::vector<std::string_view> without_empty(const std::vector<std::string_view>& pieces) {
   std::vector<std::string_view> result;
   bool in_title = false;
   for (const auto piece : pieces) {
@@ -79,13 +79,9 @@ inline std::vector<std::string_view> without_empty(const std::vector<std::string
   return result;
 }
 
-}  // namespace detail
+}  // namespace
 
-/// Without the prolog, which only a file may have, named for those who cannot see it, and with ids of its
-/// own: gnuplot gives the same ones to each picture, and the first in a page would serve all. `name` is that
-/// prefix, `label` is escaped already. Empty if there is no such file, or no whole svg element in it.
-inline std::string inline_svg(const std::filesystem::path& file, const std::string& name,
-                              const std::string& label) {
+std::string inline_svg(const std::filesystem::path& file, const std::string& name, const std::string& label) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const std::size_t from = text.find("<svg");
@@ -95,9 +91,8 @@ inline std::string inline_svg(const std::filesystem::path& file, const std::stri
   std::string result = "<svg role=\"img\" aria-label=\"" + label + "\"";
   const std::size_t head = svg.find('>');
   result += svg.substr(0, head);
-  for (const auto piece : detail::without_empty(detail::svg_pieces(svg.substr(head)))) {
-    result += piece.starts_with('<') ? detail::with_own_ids(std::string(piece), svg, name + "-")
-                                     : std::string(piece);
+  for (const auto piece : without_empty(svg_pieces(svg.substr(head)))) {
+    result += piece.starts_with('<') ? with_own_ids(std::string(piece), svg, name + "-") : std::string(piece);
     if (piece.starts_with("</")) result += '\n';
   }
   return result + "</svg>";

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
+#include "page_markdown.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "nysalt/report/escaped.hpp"
-#include "nysalt/report/page_blocks.hpp"
-#include "nysalt/report/plain_words.hpp"
+#include "escaped.hpp"
+#include "plain_words.hpp"
 
 namespace nysalt {
 
-namespace detail {
+namespace {
 
 /// The longest run of backquotes in it: a fence of code has more.
-inline std::size_t longest_backquotes(std::string_view text) {
+std::size_t longest_backquotes(std::string_view text) {
   std::size_t longest = 0;
   std::size_t run = 0;
   for (const char c : text) {
@@ -28,7 +28,7 @@ inline std::size_t longest_backquotes(std::string_view text) {
   return longest;
 }
 
-inline std::string markdown_sentence(std::string_view text) {
+std::string markdown_sentence(std::string_view text) {
   std::string result;
   for (const styled_words& its : plain_words(text)) {
     switch (its.is) {
@@ -72,14 +72,13 @@ struct markdown_of_block {
   }
 };
 
-}  // namespace detail
+}  // namespace
 
-/// See page::markdown().
-inline std::string page_markdown(const std::string& title, const std::vector<page_block>& blocks,
-                                 const std::string& pictures) {
-  std::string result = fmt::format("# {}\n", detail::markdown_sentence(title));
+std::string page_markdown(const std::string& title, const std::vector<page_block>& blocks,
+                          const std::string& pictures) {
+  std::string result = fmt::format("# {}\n", markdown_sentence(title));
   for (const auto& block : blocks) {
-    result += fmt::format("\n{}", std::visit(detail::markdown_of_block{pictures}, block));
+    result += fmt::format("\n{}", std::visit(markdown_of_block{pictures}, block));
   }
   return result;
 }

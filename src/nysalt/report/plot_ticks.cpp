@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which numbers stand beside a logarithmic axis.
-#pragma once
+#include "plot_ticks.hpp"
 
 #include <fmt/format.h>
 
@@ -10,24 +9,11 @@
 
 namespace nysalt::detail {
 
-/// Ends of an axis.
-struct axis_range {
-  double low;
-  double high;
-};
-
-/// At least from one to three times as much, about the middle: then it holds 1, 2 or 5 times a power of ten,
-/// as none of those is more than 2.5 times the next.
-inline axis_range at_least_threefold(axis_range its) {
-  constexpr double least = 3.0;
-  const double widen = std::sqrt(least / (its.high / its.low));
-  if (!(widen > 1.0)) return its;
-  return {its.low / widen, its.high * widen};
-}
+namespace {
 
 /// The numbers 1, 2 and 5 times powers of ten within; none where there are two decades or more, of which the
 /// powers of ten are numbers enough.
-inline std::vector<double> ticks_within(axis_range its) {
+std::vector<double> ticks_within(axis_range its) {
   std::vector<double> result;
   if (!(its.low > 0.0) || !(its.high < 100.0 * its.low)) return result;
   constexpr double rounding = 1e-9;
@@ -42,8 +28,16 @@ inline std::vector<double> ticks_within(axis_range its) {
   return result;
 }
 
-/// For gnuplot: those, or as it thinks best.
-inline std::string ticks_command(char axis, axis_range its) {
+}  // namespace
+
+axis_range at_least_threefold(axis_range its) {
+  constexpr double least = 3.0;
+  const double widen = std::sqrt(least / (its.high / its.low));
+  if (!(widen > 1.0)) return its;
+  return {its.low / widen, its.high * widen};
+}
+
+std::string ticks_command(char axis, axis_range its) {
   const auto ticks = ticks_within(its);
   if (ticks.empty()) return fmt::format("set {}tics autofreq\n", axis);
   std::string text;

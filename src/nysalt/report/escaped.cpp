@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// Text that says itself, whatever characters it has, in HTML and in Markdown.
-#pragma once
+#include "escaped.hpp"
 
 #include <cctype>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace nysalt {
 
-/// In the text of an element, or in an attribute between quotes.
-inline std::string html_escaped(std::string_view text) {
+std::string html_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -35,9 +34,7 @@ inline std::string html_escaped(std::string_view text) {
   return result;
 }
 
-/// Outside code: a backslash before what GitHub's Markdown would read; a line break becomes a blank. An
-/// underscore inside a word stays bare, as Markdown reads it so and names of methods have them.
-inline std::string markdown_escaped(std::string_view text) {
+std::string markdown_escaped(std::string_view text) {
   constexpr std::string_view read = "\\`*[]<>&|#~";
   const auto in_word = [&](std::size_t i) {
     return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;

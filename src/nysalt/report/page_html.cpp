@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: BSL-1.0
-#pragma once
+#include "page_html.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "nysalt/report/escaped.hpp"
-#include "nysalt/report/inline_svg.hpp"
-#include "nysalt/report/page_blocks.hpp"
-#include "nysalt/report/plain_words.hpp"
+#include "escaped.hpp"
+#include "inline_svg.hpp"
+#include "plain_words.hpp"
 
 namespace nysalt {
 
-namespace detail {
+namespace {
 
 /// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves; on paper no
 /// picture and no row breaks.
-inline constexpr std::string_view page_style = R"(
+constexpr std::string_view page_style = R"(
 body{font:16px/1.55 system-ui,sans-serif;color:#222;background:#fff}
 body{max-width:68rem;margin:2rem auto;padding:0 1rem}
 h1,h2,h3{line-height:1.25;margin:2rem 0 .6rem}
@@ -55,7 +53,7 @@ a{color:inherit}
 }
 )";
 
-inline std::string html_sentence(std::string_view text) {
+std::string html_sentence(std::string_view text) {
   std::string result;
   for (const styled_words& its : plain_words(text)) {
     const std::string inside = html_escaped(its.text);
@@ -77,7 +75,7 @@ inline std::string html_sentence(std::string_view text) {
 }
 
 /// A sentence without its marks, for attributes and for the title of the window.
-inline std::string html_plain(std::string_view text) {
+std::string html_plain(std::string_view text) {
   std::string result;
   for (const styled_words& its : plain_words(text)) result += html_escaped(its.text);
   return result;
@@ -119,7 +117,7 @@ struct html_of_block {
 };
 
 /// What a page of more than three sections has at its top.
-inline std::string html_contents(const std::vector<page_block>& blocks) {
+std::string html_contents(const std::vector<page_block>& blocks) {
   std::string items;
   int headings = 0;
   int sections = 0;
@@ -134,18 +132,17 @@ inline std::string html_contents(const std::vector<page_block>& blocks) {
   return sections > 3 ? fmt::format("<nav aria-label=\"Contents\">\n<ul>\n{}</ul>\n</nav>\n", items) : "";
 }
 
-}  // namespace detail
+}  // namespace
 
-/// See page::html().
-inline std::string page_html(const std::string& title, const std::vector<page_block>& blocks,
-                             const std::filesystem::path& pictures) {
+std::string page_html(const std::string& title, const std::vector<page_block>& blocks,
+                      const std::filesystem::path& pictures) {
   std::string result = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-      detail::html_plain(title), detail::page_style, detail::html_sentence(title));
-  result += detail::html_contents(blocks);
-  detail::html_of_block write{pictures};
+      html_plain(title), page_style, html_sentence(title));
+  result += html_contents(blocks);
+  html_of_block write{pictures};
   for (const auto& block : blocks) result += std::visit(write, block);
   return result + "</body>\n</html>\n";
 }

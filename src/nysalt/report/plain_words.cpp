@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// The little markup that the sentences of a report have: `` `code` ``, `**bold**` and `[text](link)`.
-#pragma once
+#include "plain_words.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,26 +9,17 @@
 
 namespace nysalt {
 
-/// Words of one style.
-struct styled_words {
-  /// How words are set.
-  enum class kind { plain, code, bold, link };
-  kind is = kind::plain;  ///< their style
-  std::string text;       ///< the words, without marks
-  std::string address{};  ///< of a link
-};
-
-namespace detail {
+namespace {
 
 /// http, https, or a place beside the page or in it: a report names no other scheme (javascript: runs).
-inline bool is_plain_address(std::string_view address) {
+bool is_plain_address(std::string_view address) {
   const auto colon = address.find(':');
   const bool relative = colon == std::string_view::npos || address.find('/') < colon;
   return relative || address.starts_with("http://") || address.starts_with("https://");
 }
 
 /// What stands behind the opening mark at `at`, and where it goes on; nowhere if nothing closes it.
-inline std::pair<styled_words, std::size_t> marked_words(std::string_view text, std::size_t at) {
+std::pair<styled_words, std::size_t> marked_words(std::string_view text, std::size_t at) {
   constexpr auto nowhere = std::string_view::npos;
   const auto enclosed = [&](std::string_view mark,
                             styled_words::kind kind) -> std::pair<styled_words, std::size_t> {
@@ -50,10 +39,9 @@ inline std::pair<styled_words, std::size_t> marked_words(std::string_view text, 
           end + 1};
 }
 
-}  // namespace detail
+}  // namespace
 
-/// The runs of words of a sentence. A mark that nothing closes stands for itself; marks do not nest.
-inline std::vector<styled_words> plain_words(std::string_view text) {
+std::vector<styled_words> plain_words(std::string_view text) {
   std::vector<styled_words> result;
   std::string plain;
   const auto flush = [&] {
@@ -61,7 +49,7 @@ inline std::vector<styled_words> plain_words(std::string_view text) {
   };
   for (std::size_t at = 0; at < text.size();) {
     if (text[at] == '`' || text[at] == '*' || text[at] == '[') {
-      auto [marked, next] = detail::marked_words(text, at);
+      auto [marked, next] = marked_words(text, at);
       if (next != std::string_view::npos) {
         flush();
         result.push_back(std::move(marked));

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/analysis/integrated_time.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+
+namespace nysalt {
+
+integrated_time integrated_autocorrelation_time(std::span<const double> rho) {
+  if (rho.size() < 2) throw std::invalid_argument("integrated_autocorrelation_time: there is no lag");
+  integrated_time result;
+  for (std::size_t k = 1; k < rho.size(); ++k) {
+    result.tau += 2.0 * rho[k];
+    result.memory += 2.0 * std::abs(rho[k]);
+    result.window = k;
+    result.enough = static_cast<double>(k) >= 5.0 * result.memory && result.tau > 0.0;
+    if (static_cast<double>(k) >= 5.0 * result.memory) break;
+  }
+  return result;
+}
+
+double effective_sample_size(double samples, const integrated_time& time) {
+  return time.enough ? samples / time.tau : std::nan("");
+}
+
+}  // namespace nysalt

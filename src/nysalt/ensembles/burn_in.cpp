@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/ensembles/burn_in.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace nysalt {
+
+void detail::require_burn_in(const burn_in_options& options) {
+  const auto sound = [](const char* what, double value) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    throw std::invalid_argument(fmt::format(
+        "gibbs: the {} of the burn-in must be finite and positive, or 0 to be found, got {}", what, value));
+  };
+  sound("friction", options.friction);
+  sound("step", options.step);
+  sound("length", options.length);
+  if (options.pilots >= 16 && options.pilots <= 100'000 && options.most_steps >= 1) return;
+  throw std::invalid_argument(
+      fmt::format("gibbs: {} pilots of at most {} steps: cannot be; take 16 to 100000", options.pilots,
+                  options.most_steps));
+}
+
+void detail::refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
+                                const burn_in_report& report) {
+  if (!found.shows()) return;
+  throw std::runtime_error(fmt::format(
+      "gibbs: after a burn-in of {:.6g} the {} {}: off by {:.3g} +- {:.3g} kT; burn in for longer",
+      report.length, watched_names[i], what, found.mean, found.standard_error));
+}
+
+}  // namespace nysalt

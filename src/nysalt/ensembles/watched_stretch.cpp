@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/ensembles/watched_stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace nysalt {
+
+discrepancy mean_over_chains(const std::vector<double>& x) {
+  const auto n = static_cast<double>(x.size());
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double value : x) mean += value / n;
+  for (const double value : x) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (n - 1.0) / n)};
+}
+
+double watched_stretch::tau() const {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < watched_numbers; ++i) {
+    if (!counts(i)) continue;
+    const auto n = static_cast<double>(mean[i].size());
+    const discrepancy all = mean_over_chains(mean[i]);
+    const double variance = mean_over_chains(square[i]).mean - all.mean * all.mean;
+    const double of_means = all.standard_error * all.standard_error * n;
+    if (variance > 0.0) longest = std::max(longest, duration * of_means / variance);
+  }
+  return longest;
+}
+
+}  // namespace nysalt

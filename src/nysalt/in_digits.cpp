@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/in_digits.hpp"
+
+#include <fmt/format.h>
+
+namespace nysalt {
+
+std::string in_digits(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
+
+}  // namespace nysalt

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/references/exact_linear.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace nysalt {
+
+void exact_linear::require_modes() const {
+  const Eigen::Index n = root_mass_.size();
+  const bool fit = modes_.basis.rows() == n && modes_.basis.cols() == n && modes_.frequencies.size() == n;
+  // n products of numbers below 1, and as much again for how the basis was found.
+  if (fit &&
+      (modes_.basis.transpose() * modes_.basis - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <=
+          32.0 * static_cast<double>(n) * eps) {
+    return;
+  }
+  throw std::invalid_argument(fmt::format(
+      "exact_linear: modes() of {} must give {} orthonormal columns with a frequency each", system_, n));
+}
+
+void exact_linear::refuse_force(Eigen::Index i, double its, double expected, double length) const {
+  throw std::invalid_argument(
+      fmt::format("exact_linear: the force of {} is not linear as modes() says, coordinate {} is off by "
+                  "{:.2e} of {:.2e} at a state of size {}; take fine_steps or odeint_reference",
+                  system_, i + 1, its - expected, expected, length));
+}
+
+}  // namespace nysalt

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/together.hpp"
+
+#include <exception>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/communicator.hpp"
+
+namespace nysalt {
+
+namespace {
+
+enum class failure : int { bad_argument, no_memory, other };
+
+failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::invalid_argument& its) {
+    text = its.what();
+    return failure::bad_argument;
+  } catch (const std::bad_alloc&) {
+    return failure::no_memory;
+  } catch (const std::exception& its) {
+    text = its.what();
+  } catch (...) {
+    text = "an unknown exception";
+  }
+  return failure::other;
+}
+
+}  // namespace
+
+void together(const communicator& ranks, const std::function<void()>& work) {
+  if (ranks.is_alone()) {
+    work();
+    return;
+  }
+  std::exception_ptr thrown;
+  try {
+    work();
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  const auto lowest = static_cast<int>(ranks.least(thrown ? ranks.rank() : ranks.size()));
+  if (lowest == ranks.size()) return;
+  std::string text;
+  auto kind = failure::other;
+  if (ranks.rank() == lowest) kind = describe_thrown(thrown, text);
+  broadcast(ranks, kind, lowest);
+  broadcast(ranks, text, lowest);
+  if (kind == failure::bad_argument) throw std::invalid_argument(text);
+  if (kind == failure::no_memory) throw std::bad_alloc();
+  throw std::runtime_error(text);
+}
+
+void on_first(const communicator& ranks, const std::function<void()>& work) {
+  struct meeting {
+    const communicator& ranks;
+    ~meeting() { ranks.meet(); }  // whether or not the work succeeds
+  };
+  together(ranks, [&] {
+    const meeting at_end{ranks};
+    if (ranks.is_first()) work();
+  });
+}
+
+}  // namespace nysalt
