@@ -136,7 +136,9 @@ template <System S>
 void directional_derivative(const S& system, const vector<double, S::dimension>& q,
                             const vector<double, S::dimension>& v, const vector<double, S::dimension>& f,
                             vector<double, S::dimension>& g) {
-  if constexpr (HasForceDerivative<S>) {
+  if constexpr (ErasedSystem<S>) {
+    system.directional_derivative(q, v, f, g);
+  } else if constexpr (HasForceDerivative<S>) {
     system.force_derivative(q, v, g);
   } else {
     auto at = q;
@@ -197,8 +199,9 @@ void force_of(const S& system, const vector<T, S::dimension>& q, vector<T, S::di
 /// f'(q) v of a field can be had over T.
 template <class S, class T, field F>
 concept ForceDerivativeOver = ForceOver<S, dual<T, 1>, F> ||
-    (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
-    (ErasedSystem<S> && HasForce<S, T>);
+                              (F == field::whole && (HasForceDerivative<S, T> ||
+                                                     (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
+                              (ErasedSystem<S> && HasForce<S, T>);
 
 /// Room for a force over dual numbers.
 template <class T, int N>
@@ -258,8 +261,7 @@ void black_box_along(const S& system, const vector<T, S::dimension>& q, const ve
 template <field F, class T, System S>
   requires ForceDerivativeOver<S, T, F>
 void force_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
-                 vector<T, S::dimension>& g, auto& room,
-                 double s = detail::part_of_displacement) {
+                 vector<T, S::dimension>& g, auto& room, double s = detail::part_of_displacement) {
   if constexpr (ErasedSystem<S>) {
     system.template kernels<T>().force_along(F, q, v, g, room, s);
   } else if constexpr (F == field::whole && HasForceDerivative<S, T>) {

@@ -23,10 +23,11 @@ class initial_states {
 
   /// Those of an ensemble(seed, n) with a description(), which is copied.
   template <class E>
-    requires(!std::same_as<E, initial_states>) && requires(const E& e) {
-      e(std::uint64_t{}, std::uint64_t{}).q;
-      { e.description() } -> std::convertible_to<std::string>;
-    }
+    requires(!std::same_as<E, initial_states>)
+  &&requires(const E& e) {
+    e(std::uint64_t{}, std::uint64_t{}).q;
+    { e.description() } -> std::convertible_to<std::string>;
+  }
   initial_states(const E& ensemble)  // NOLINT(google-explicit-constructor)
       : text_(ensemble.description()) {
     at_ = [ensemble](std::uint64_t seed, std::uint64_t n) -> state {
@@ -60,11 +61,12 @@ class initial_states {
       const auto all = several_(seed, first, std::min(count, lanes_in<T>));
       return gather<T, Eigen::Dynamic>(count, [&](int k) { return all[static_cast<std::size_t>(k)]; });
     }
-    return gather<T, Eigen::Dynamic>(
-        count, [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
+    return gather<T, Eigen::Dynamic>(count,
+                                     [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
   }
+  bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
   const std::string& description() const { return text_; }
-  bool is_dear() const { return is_dear_; }  ///< whether a state takes a simulation of its own
+  bool is_dear() const { return is_dear_; }    ///< whether a state takes a simulation of its own
   std::int64_t size() const { return size_; }  ///< how many there are
 
  private:

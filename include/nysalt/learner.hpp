@@ -7,9 +7,8 @@
 
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/make_problem.hpp"
-#include "nysalt/learning/require_valid.hpp"
-#include "nysalt/learning/sound_force.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/requirements.hpp"
 
 namespace nysalt {
 
@@ -52,24 +51,25 @@ struct learned {
 /// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss
 /// (or two of them), a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be
 /// trusted is returned with usable = false. Cost: some 20 to 80 passes over the data for each start, each a
-/// plain step with derivatives a pair; R carries the pairs, and changes no bit. Memory: two or three copies
+/// plain step with derivatives a pair. Memory: two or three copies
 /// of the data.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>, class... Own>
+template <SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
-fit learn(const run_time_family& family, const S& system, const flow_map_data<S::dimension>& data,
-          const flow_map_data<S::dimension>& held_out, const fit_options& options = {},
-          const own_loss<Own>&... own) {
-  require_valid(data, system);
-  if (options.check_force) require_sound_force(system, data);
-  return solve(make_learning_problem<S, R>(family, system, data, held_out, options, own...));
+fit learn(const run_time_family& family, const S& system, const flow_map_data& data,
+          const flow_map_data& held_out, const fit_options& options = {}, const own_loss<Own>&... own) {
+  if constexpr (sizeof...(Own) == 0) {
+    return detail::learn(family, system, data, held_out, options);
+  } else {
+    const auto other = detail::without_type(system, own...);
+    return detail::learn(family, system, data, held_out, options, &other);
+  }
 }
 
 /// The same for a family as a type, whose method is one too.
-template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>, class... Own>
+template <Family F, SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
-learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimension>& data,
-                 const flow_map_data<S::dimension>& held_out, const learn_options<F>& options = {},
-                 const own_loss<Own>&... own) {
+learned<F> learn(const F& family, const S& system, const flow_map_data& data, const flow_map_data& held_out,
+                 const learn_options<F>& options = {}, const own_loss<Own>&... own) {
   require_suited<F, S>();
   fit_options its{.coordinates = options.coordinates,
                   .loss = options.loss,
@@ -86,7 +86,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data<S::dimens
   if (options.classical_starts) {
     its.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());
   }
-  const auto [theta, summary] = learn<S, R>(as_data, system, data, held_out, its, own...);
+  const auto [theta, summary] = learn(as_data, system, data, held_out, its, own...);
   const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
   // A covariance loss asks no data, and has seen no energies.
   const auto energies = summary.is_of_data ? data.energies : std::nullopt;

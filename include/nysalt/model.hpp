@@ -35,8 +35,8 @@ template <int Lanes>
 class basic_model {
  public:
   static constexpr int dimension = Eigen::Dynamic;
-  static constexpr int lanes = Lanes;          ///< most trajectories side by side
-  static constexpr bool is_erased = true;      ///< what it can do is known while running
+  static constexpr int lanes = Lanes;      ///< most trajectories side by side
+  static constexpr bool is_erased = true;  ///< what it can do is known while running
   template <int Other>
   friend class basic_model;
 
@@ -116,6 +116,10 @@ class basic_model {
     return kernels<T>().potential(q);
   }
 
+  void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
+                              Eigen::VectorXd& g) const {
+    system_->directional_derivative(q, v, f, g);
+  }
   std::unique_ptr<detail::force_source> what_to_check() const { return system_->what_to_check(); }
 
  private:

@@ -49,9 +49,10 @@ class vector_list {
   /// So many vectors, their entries not set.
   vector_list(std::size_t count, Eigen::Index dimension) { resize(count, dimension); }
 
-  std::size_t size() const { return size_; }               ///< how many vectors
-  Eigen::Index dimension() const { return dimension_; }    ///< of each; 0 before there is one
-  void resize(std::size_t count, Eigen::Index dimension) {  ///< vectors that are there stay if the dimension does
+  std::size_t size() const { return size_; }             ///< how many vectors
+  Eigen::Index dimension() const { return dimension_; }  ///< of each; 0 before there is one
+  void resize(std::size_t count,
+              Eigen::Index dimension) {  ///< vectors that are there stay if the dimension does
     dimension_ = dimension;
     size_ = count;
     numbers_.resize(count * static_cast<std::size_t>(dimension));
@@ -128,7 +129,7 @@ class phase_points {
     for (const auto& x : points) push_back(x);
   }
 
-  std::size_t size() const { return columns_.size() / 2; }         ///< how many points
+  std::size_t size() const { return columns_.size() / 2; }  ///< how many points
   bool empty() const { return size() == 0; }
   Eigen::Index dimension() const { return columns_.dimension(); }  ///< degrees of freedom; 0 before a point
   void resize(std::size_t count, Eigen::Index dimension) { columns_.resize(2 * count, dimension); }

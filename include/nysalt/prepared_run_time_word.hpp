@@ -94,13 +94,12 @@ class prepared_word<run_time_word, C, N> {
       if (halves_meet_) end(system, y, cursor);
       look();
     };
-    const detail::watch<T> watched{
-        .q = &y.q,
-        .p = &y.p,
-        .first = first,
-        .every = every,
-        .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
-        .context = const_cast<void*>(static_cast<const void*>(&see))};
+    const detail::watch<T> watched{.q = &y.q,
+                                   .p = &y.p,
+                                   .first = first,
+                                   .every = every,
+                                   .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                                   .context = const_cast<void*>(static_cast<const void*>(&see))};
     take_steps(system, run_program_, loop_, last_, x, steps, cursor, watched);
   }
   /// What an open state is at its step. No evaluation.
@@ -141,17 +140,27 @@ class prepared_word<run_time_word, C, N> {
 
   static typename program_type::letter translated(const prepared_letter& l, int number) {
     using action = typename program_type::action;
-    typename program_type::letter result{.evaluates = l.evaluates, .number = number, .coefficient = l.prepared};
+    typename program_type::letter result{
+        .evaluates = l.evaluates, .number = number, .coefficient = l.prepared};
     result.gradient = l.gradient;
     if constexpr (N == Eigen::Dynamic) result.turn = l.turn.get();
     switch (l.letter) {
-      case drift::letter: result.what = action::drift; break;
+      case drift::letter:
+        result.what = action::drift;
+        break;
       case kick::letter:
-      case soft_kick::letter: result.what = action::kick; break;
+      case soft_kick::letter:
+        result.what = action::kick;
+        break;
       case gradient_kick::letter:
-      case soft_gradient_kick::letter: result.what = action::gradient_kick; break;
-      case rotation::letter: result.what = action::rotation; break;
-      default: break;
+      case soft_gradient_kick::letter:
+        result.what = action::gradient_kick;
+        break;
+      case rotation::letter:
+        result.what = action::rotation;
+        break;
+      default:
+        break;
     }
     return result;
   }
@@ -165,7 +174,8 @@ class prepared_word<run_time_word, C, N> {
       std::vector<typename program_type::letter> all;
       if (halves_meet_ && &letters != &plain_) all.push_back({.number = seam_of_steps});
       for (const prepared_letter& l : letters) all.push_back(translated(l, first++));
-      if (!all.empty() && has_noise && all.back().what == program_type::action::call && all.back().number >= 0) {
+      if (!all.empty() && has_noise && all.back().what == program_type::action::call &&
+          all.back().number >= 0) {
         all.back().number |= ends_step;
       } else if (has_noise) {
         all.push_back({.number = next_step});
@@ -283,7 +293,7 @@ class prepared_word<run_time_word, C, N> {
   std::vector<prepared_letter> loop_;
   std::vector<prepared_letter> last_;  // as loop_, and leaves the force where it is needed
   prepared_letter undo_;
-  program_type run_program_;    // the same for kernels
+  program_type run_program_;  // the same for kernels
   program_type plain_program_;
   noise_seam<C> seam_;
 };

@@ -59,7 +59,9 @@ concept System = std::copyable<S> &&
 
 /// What the system can do is known while running: see nysalt/model.hpp.
 template <class S>
-concept ErasedSystem = System<S> && requires { requires S::is_erased; };
+concept ErasedSystem = System<S> && requires {
+  requires S::is_erased;
+};
 
 /// V(q) can be evaluated over T.
 template <class S, class T>

@@ -83,7 +83,10 @@ class typed_reference final : public any_reference {
   class run final : public reference_run<T> {
    public:
     run(const S& system, const R& reference, double t)
-        : watched_(system), reference_(reference), t_(t), x_{make_vector<T>(system), make_vector<T>(system)} {}
+        : watched_(system),
+          reference_(reference),
+          t_(t),
+          x_{make_vector<T>(system), make_vector<T>(system)} {}
 
     std::int64_t advance(phase_point<T, Eigen::Dynamic>& x, int count, const path_place& at,
                          std::span<vector<T, Eigen::Dynamic>> xi) override {

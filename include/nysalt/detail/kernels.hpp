@@ -33,7 +33,7 @@ using lanes_with_slopes = dual<lanes, directions_at_a_time>;
 /// The scalars over which kernels are compiled.
 template <class T>
 concept Served = std::same_as<T, double> || std::same_as<T, lanes> || std::same_as<T, slopes> ||
-                 std::same_as<T, lanes_with_slopes>;
+    std::same_as<T, lanes_with_slopes>;
 
 /// The scalar of coefficients of steps over T: derivatives by theta are in both.
 template <class T>
@@ -134,6 +134,9 @@ class any_system : public kernels<double>,
   virtual std::unique_ptr<any_system> clone() const = 0;
   /// Force evaluations of this copy so far, of a black box: how many a derivative takes is known afterwards.
   virtual std::int64_t calls() const = 0;
+  /// g = f'(q) v as directional_derivative() has it, of a black box.
+  virtual void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                      const Eigen::VectorXd& f, Eigen::VectorXd& g) const = 0;
   virtual normal_modes modes() const = 0;
   /// Of the system in its bath, or without it.
   virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;

@@ -74,8 +74,7 @@ struct room_of_letters<T, Eigen::Dynamic> {
 
 /// The system is inlined wherever it is used below: with several users of its force g++ would not.
 template <field F, class S, class State, class T = typename State::scalar_type>
-[[gnu::flatten, gnu::noinline]] void take_steps(const S& system, State& x,
-                                                flow_room<T, S::dimension>& room,
+[[gnu::flatten, gnu::noinline]] void take_steps(const S& system, State& x, flow_room<T, S::dimension>& room,
                                                 const step_program<coefficient_of<T>>& letters,
                                                 std::int64_t steps, const callback& other,
                                                 const watch<T>& watched) {
@@ -284,7 +283,8 @@ class with_kernels : public Base {
     if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p));
     } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
-      return in_each_lane(p, p, [&](const auto& x) { return nysalt::kinetic_energy<double>(this->system(), x.p); });
+      return in_each_lane(p, p,
+                          [&](const auto& x) { return nysalt::kinetic_energy<double>(this->system(), x.p); });
     } else {
       refuse_kernel();
     }
@@ -363,7 +363,19 @@ class typed_system final : public kernels_of<S> {
  public:
   using kernels_of<S>::kernels_of;
 
-  std::unique_ptr<any_system> clone() const override { return std::make_unique<typed_system>(this->system()); }
+  std::unique_ptr<any_system> clone() const override {
+    return std::make_unique<typed_system>(this->system());
+  }
+  void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
+                              Eigen::VectorXd& g) const override {
+    if constexpr (BlackBoxForce<S>) {
+      constexpr int N = S::dimension;
+      nysalt::directional_derivative(this->system(), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
+                                     as_fixed<N>(g));
+    } else {
+      refuse_kernel();
+    }
+  }
   normal_modes modes() const override {
     if constexpr (HasModes<S>) {
       return this->system().modes();
@@ -372,7 +384,9 @@ class typed_system final : public kernels_of<S> {
     }
   }
   std::vector<frequency_band> frequency_bands(bool in_bath) const override {
-    if constexpr (requires { { this->system().alone() } -> HasFrequencyBands; }) {
+    if constexpr (requires {
+                    { this->system().alone() } -> HasFrequencyBands;
+                  }) {
       if (!in_bath) return this->system().alone().frequency_bands();
     }
     if constexpr (HasFrequencyBands<S>) {
@@ -421,8 +435,8 @@ model_facts facts_of(const S& system) {
   facts.has_potential = HasPotential<S, double>;
   facts.has_energy = HasEnergy<S>;
   facts.has_energy_over_slopes =
-      HasEnergy<S> && (serves<S, lanes_with_slopes> ? serves_energy<S, lanes_with_slopes>()
-                                                    : serves_energy<S, slopes>());
+      HasEnergy<S> &&
+      (serves<S, lanes_with_slopes> ? serves_energy<S, lanes_with_slopes>() : serves_energy<S, slopes>());
   facts.has_quadratic_kinetic = NystromSystem<S>;
   facts.has_modes = HasModes<S>;
   facts.has_quadratic_part = HasQuadraticPart<S>;

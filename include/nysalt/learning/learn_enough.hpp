@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "nysalt/learner.hpp"
-#include "nysalt/learning/extend_data.hpp"
 #include "nysalt/learning/until_enough.hpp"
 
 namespace nysalt {
@@ -25,9 +24,9 @@ template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R, class... O
 learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble, const R& reference,
                                data_options first, std::uint64_t held_out_seed, enough_options enough = {},
                                const learn_options<F>& options = {}, const own_loss<Own>&... own) {
-  flow_map_data<S::dimension> data;
-  flow_map_data<S::dimension> held_out;
-  const auto grow = [&](flow_map_data<S::dimension>& its, std::int64_t trajectories, std::uint64_t seed) {
+  flow_map_data data;
+  flow_map_data held_out;
+  const auto grow = [&](flow_map_data& its, std::int64_t trajectories, std::uint64_t seed) {
     data_options wanted = first;
     wanted.trajectories = trajectories;
     wanted.seed = seed;

@@ -4,17 +4,16 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <ranges>
 #include <string>
 #include <vector>
 
 #include "nysalt/derivatives/frequencies_at.hpp"
 #include "nysalt/derivatives/stability_window.hpp"
-#include "nysalt/quadratic_part.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/phase_points.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
@@ -38,17 +37,8 @@ class stability_guard {
   /// are no states.
   ///
   /// The first `typical` states tell what is met often; those after them were chosen as extreme.
-  template <SeparableSystem S>
-  stability_guard(const S& system, const std::ranges::range auto& states, bool rotations = true,
-                  std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max())
-      : steps_(steps) {
-    if constexpr (HasFrequencyBands<S>) declare(system.frequency_bands());
-    const auto count = static_cast<std::size_t>(std::ranges::distance(states));
-    look_along(frequencies_of_states(system, states), count, std::min(typical, count), NystromSystem<S>);
-    if constexpr (HasQuadraticPart<S> && ForceDerivativeOver<S, double, field::soft>) {
-      if (rotations && count > 0) watch_rotations(system, states);
-    }
-  }
+  stability_guard(const model& system, const phase_points& states, bool rotations = true,
+                  std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
   /// Whether there is no objection() to the word with these coefficients at this step.
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
@@ -117,36 +107,7 @@ class stability_guard {
   /// The modes of the quadratic part, under soft forces of frequencies up to the highest.
   void watch_modes(const std::vector<double>& frequencies, double highest);
 
-  template <class S>
-  void watch_rotations(const S& system, const std::ranges::range auto& states) {
-    const auto part = quadratic_part::of(system);
-    watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
-    const Eigen::Index n = size(system);
-    if (n > most_for_all_frequencies) {
-      description_ += "; pairs of modes are not looked at";
-      return;
-    }
-    // So that all pairs of modes of all states take some milliseconds.
-    constexpr Eigen::Index pairs_and_states = 4000;
-    const auto enough =
-        static_cast<std::size_t>(std::clamp<Eigen::Index>(2 * pairs_and_states / (n * n), 1, 16));
-    const auto count = static_cast<std::size_t>(std::ranges::distance(states));
-    const normal_modes modes = system.modes();
-    mean_soft_ = Eigen::MatrixXd::Zero(n, n);
-    std::size_t number = 0;
-    force_jacobian<field::soft, S> jacobian(system, states);
-    for (const auto& state : states) {
-      // Evenly spread: the k-th of those that are looked at is the state count * k / enough.
-      const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
-      ++number;
-      if (count > enough && !is_looked_at) continue;
-      const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
-      const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
-      soft_.push_back(modes.basis.transpose() * soft * modes.basis);
-      mean_soft_ += soft_.back();
-    }
-    mean_soft_ /= static_cast<double>(soft_.size());
-  }
+  void watch_rotations(const model& system, const phase_points& states);
 
   std::string unstable(const run_time_word& word, const std::vector<double>& coefficients, double step,
                        met which) const;

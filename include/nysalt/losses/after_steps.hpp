@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -12,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/counted.hpp"
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/losses/stretch_error.hpp"
 #include "nysalt/losses/stretches_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/sentence.hpp"
 #include "nysalt/stepper.hpp"
 #include "nysalt/together.hpp"
 
@@ -51,21 +49,21 @@ using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, st
 /// stretches; neither its lanes nor the threads change a bit of a sum.
 /// What a loss over data offers the learner: scalar, parameters(), share(), residuals(), and sums(theta,
 /// with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+template <Scalar R = detail::lanes>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
-  static constexpr int N = S::dimension;
+  static constexpr int N = Eigen::Dynamic;
 
  public:
   using scalar = R;  ///< carries the stretches
 
-  /// Refers to the system and to what the error refers to, and copies the data. Throws std::invalid_argument
+  /// Refers to what the error refers to, and copies the data. Throws std::invalid_argument
   /// if no trajectory is so long, or if the system is in a noisy bath and the data do not hold the noise that
   /// the letters O of the word need.
-  after_steps(const run_time_family& family, const S& system, const flow_map_data<N>& data,
-              stretch_error<S, R> error, const after_steps_options& options = {})
+  after_steps(const run_time_family& family, const model& system, const flow_map_data& data,
+              stretch_error<R> error, const after_steps_options& options = {})
       : family_(family),
-        system_(&system),
+        system_(system),
         error_(std::move(error)),
         step_(data.step),
         options_(options),
@@ -74,9 +72,9 @@ class after_steps {
     const std::int64_t stretches = data.share().ranks().total(std::ssize(starts_.pairs));
     if (options.steps < 1 || stretches == 0) {
       throw std::invalid_argument(
-          fmt::format("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
-                      "or fewer steps",
-                      options.steps));
+          sentence("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
+                   "or fewer steps",
+                   options.steps));
     }
     weight_ = 1.0 / static_cast<double>(stretches);
     parts_ = std::make_shared<const parts>(
@@ -98,9 +96,9 @@ class after_steps {
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }                ///< which trajectories this rank has
-  std::size_t residuals() const { return error_.residuals; }   ///< number of those of a stretch
-  const stretch_error<S, R>& error() const { return error_; }  ///< what they are
+  const shard& share() const { return share_; }               ///< which trajectories this rank has
+  std::size_t residuals() const { return error_.residuals; }  ///< number of those of a stretch
+  const stretch_error<R>& error() const { return error_; }    ///< what they are
   /// Force evaluations of all passes so far at this rank, as `counted` counts them for one stretch after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
@@ -114,14 +112,17 @@ class after_steps {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
+    const run_time_word& word = family_.letters;
+    const std::int64_t of_step =
+        detail::evaluations_of(system_, word.evaluations_of_plain_step, word.force_derivatives);
     const auto visit = [&](std::int64_t index) {
       const auto& part = (*parts_)[static_cast<std::size_t>(index)];
       if (part.entries.empty()) return;  // trajectories that are too short
-      const counted<S> watched(*system_);
+      const model watched = system_.separate();
       std::vector<stepper_type> steppers;
       for (const auto& c : coefficients) {
         steppers.emplace_back(watched, family_.letters, c, step_,
-                              noise_of_entries<R, N>{&part.entries, family_.letters.stochastic_letters});
+                              noise_of_entries<R>{&part.entries, family_.letters.stochastic_letters});
       }
       auto x = make_state(watched);
       residuals_of_stretch<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
@@ -146,7 +147,8 @@ class after_steps {
         }
       }
       result[trajectory] = sum * weight_;
-      const std::int64_t of_each = watched.evaluations / std::ssize(part.entries);
+      const std::int64_t of_each = is_black_box(watched) ? watched.calls() / std::ssize(part.entries)
+                                                         : std::ssize(steppers) * options_.steps * of_step;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
@@ -159,10 +161,10 @@ class after_steps {
   }
 
  private:
-  using stepper_type = stepper<counted<S>, run_time_word, C, noise_of_entries<R, N>>;
-  using parts = std::vector<stretches_in_lanes<R, N>>;
+  using stepper_type = stepper<model, run_time_word, C, noise_of_entries<R>>;
+  using parts = std::vector<stretches_in_lanes<R>>;
 
-  static flow_state<C, N> make_state(const counted<S>& system) {
+  static flow_state<C, N> make_state(const model& system) {
     return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
   }
 
@@ -207,26 +209,23 @@ class after_steps {
     }
   }
 
-  wanted_noise noise_wanted(const flow_map_data<N>& data) const {
-    if constexpr (HasBath<S>) {
-      const bath& its = system_->bath();
-      const run_time_word& word = family_.letters;
-      if (its.sigma() == 0.0 || word.stochastic_letters == 0) return {};
-      const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
-      if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
-        throw std::invalid_argument(
-            fmt::format("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
-                        "multiple: make them with noise_parts = {}",
-                        data.noise_parts, word.letters(), needed.parts, needed.parts));
-      }
-      return {needed.in_parts(data.noise_parts), its.friction() * data.step / data.noise_parts};
+  wanted_noise noise_wanted(const flow_map_data& data) const {
+    const bath& in = system_.bath();
+    const run_time_word& word = family_.letters;
+    if (in.sigma() == 0.0 || word.stochastic_letters == 0) return {};
+    const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
+    if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
+      throw std::invalid_argument(
+          sentence("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
+                   "multiple: make them with noise_parts = {}",
+                   data.noise_parts, word.letters(), needed.parts, needed.parts));
     }
-    return {};
+    return {needed.in_parts(data.noise_parts), in.friction() * data.step / data.noise_parts};
   }
 
   run_time_family family_;
-  const S* system_;
-  stretch_error<S, R> error_;
+  model system_;
+  stretch_error<R> error_;
   double step_;
   double weight_ = 1.0;  // of a stretch
   after_steps_options options_;
@@ -235,5 +234,8 @@ class after_steps {
   std::shared_ptr<const parts> parts_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;
 };
+
+extern template class after_steps<detail::lanes>;
+extern template class after_steps<double>;
 
 }  // namespace nysalt

@@ -70,12 +70,18 @@ void write_residuals(const Several& all, std::size_t count, T* r) {
 
 }  // namespace detail
 
+/// The scalar that carries stretches of S: packs where the system and its derivatives serve them.
+template <SeparableSystem S>
+using scalar_of_passes =
+    std::conditional_t<detail::serves<S, detail::lanes_with_slopes>, detail::lanes, double>;
+
 /// The residuals that a function returns, see own_loss. Throws std::invalid_argument if there are none; while
 /// it is asked, if there are not as many for one stretch as for another.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>, class Error>
-stretch_error<S, R> own_error(const S& system, const Error& error) {
-  using C = typename stretch_error<S, R>::scalar;
-  using point = typename stretch_error<S, R>::point;
+template <class R = void, SeparableSystem S, class Error>
+auto own_error(const S& system, const Error& error) {
+  using scalar = std::conditional_t<std::is_void_v<R>, scalar_of_passes<S>, R>;
+  using C = typename stretch_error<scalar>::scalar;
+  using point = phase_point<C, S::dimension>;
   constexpr bool is_asked_so = std::invocable<const Error&, const point&, const point&, const point&>;
   static_assert(is_asked_so,
                 "nysalt: an own loss is a function of (start, finish, wanted), each a `phase_point<T, N>` of "
@@ -96,13 +102,16 @@ stretch_error<S, R> own_error(const S& system, const Error& error) {
       count = static_cast<std::size_t>(error(zero, zero, zero).size());
       if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
     }
-    return {.residuals = count,
-            .of =
-                [error, count](const auto& start, const point& finish, const auto& wanted, C* r) {
-                  const auto its = error(start.template cast<C>(), finish, wanted.template cast<C>());
-                  detail::write_residuals(its, count, r);
-                },
-            .may_throw = true};
+    const auto own = [](const auto& x) { return point{x.q, x.p}; };
+    return stretch_error<scalar>{
+        .residuals = count,
+        .of =
+            [error, count, own](const auto& start, const auto& finish, const auto& wanted, C* r) {
+              const auto residuals =
+                  error(own(start.template cast<C>()), own(finish), own(wanted.template cast<C>()));
+              detail::write_residuals(residuals, count, r);
+            },
+        .may_throw = true};
   }
 }
 

@@ -8,8 +8,8 @@ namespace nysalt {
 
 /// r = Sigma^{-1/2} (K steps from the start - the data there); for K = 1 the paper's loss
 /// [li_lu_tao_ye_2023, equation (3.5)]. Refers to the metric, whose weights are estimates.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
-stretch_error<S, R> state_error(const metric<S::dimension>& measure) {
+template <Scalar R = detail::lanes>
+stretch_error<R> state_error(const metric& measure) {
   return {.residuals = static_cast<std::size_t>(measure.residuals()),
           .of = [its = &measure](const auto&, const auto& finish, const auto& wanted,
                                  auto* r) { its->residual(finish.q, finish.p, wanted, r); },
@@ -17,7 +17,7 @@ stretch_error<S, R> state_error(const metric<S::dimension>& measure) {
 }
 
 /// A metric that is gone by then cannot be referred to.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
-stretch_error<S, R> state_error(metric<S::dimension>&& measure) = delete;
+template <Scalar R = detail::lanes>
+stretch_error<R> state_error(metric&& measure) = delete;
 
 }  // namespace nysalt

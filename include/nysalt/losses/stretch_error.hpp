@@ -12,11 +12,11 @@ namespace nysalt {
 /// What a loss over data squares and adds up, of whatever kind: state_error(), energy_error(), own_error().
 /// The kind is no part of the type, as a pass over the data is dear to compile: one serves all kinds. It
 /// calls `of` once for each pack of stretches and each two parameters, which costs little beside their steps.
-template <SeparableSystem S, Scalar R = scalar_of_passes<S>>
+template <Scalar R = detail::lanes>
 struct stretch_error {
-  using scalar = dual<R, directions_at_a_time>;     ///< residuals with their derivatives
-  using data_point = phase_point<R, S::dimension>;  ///< states of the data, in the lanes of R
-  using point = phase_point<scalar, S::dimension>;  ///< a state that the method comes to
+  using scalar = dual<R, directions_at_a_time>;       ///< residuals with their derivatives
+  using data_point = phase_point<R, Eigen::Dynamic>;  ///< states of the data, in the lanes of R
+  using point = phase_point<scalar, Eigen::Dynamic>;  ///< a state that the method comes to
 
   std::size_t residuals;  ///< how many a stretch has
   /// Writes r[0..residuals) of the stretch from start, which the method ends at finish, and the data at

@@ -19,16 +19,11 @@
 
 namespace nysalt {
 
-/// What passes over data compute with: packs where the system serves them and their derivatives, else double.
-template <System S>
-using scalar_of_passes =
-    std::conditional_t<SystemOver<S, dual<scalar_of_lanes<lanes_of<S>>, directions_at_a_time>>,
-                       scalar_of_lanes<lanes_of<S>>, double>;
-
 /// Stretches of some consecutive trajectories, as many in each entry as R has lanes; the last one fills what
 /// is left of the last entry.
-template <Scalar R, int N>
+template <Scalar R>
 struct stretches_in_lanes {
+  static constexpr int N = Eigen::Dynamic;
   /// One stretch in each lane.
   struct entry {
     phase_point<R, N> start;          ///< where the stretches begin
@@ -43,11 +38,12 @@ struct stretches_in_lanes {
 
 /// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the
 /// entries.
-template <Scalar R, int N>
+template <Scalar R>
 struct noise_of_entries {
+  static constexpr int N = Eigen::Dynamic;
   static constexpr bool draws_freely = false;  ///< the numbers are those of the data
   /// Entry m has the noise of trajectory m.
-  const std::vector<typename stretches_in_lanes<R, N>::entry>* entries = nullptr;
+  const std::vector<typename stretches_in_lanes<R>::entry>* entries = nullptr;
   std::int64_t letters = 0;  ///< letters O of a step
 
   /// The numbers of one letter O of one step into xi; T carries R, or derivatives over it.
@@ -72,8 +68,7 @@ struct stretch_starts {
   std::vector<std::size_t> first_of{0};  ///< trajectory m has stretches first_of[m] .. first_of[m + 1] - 1
 
   /// Of all stretches of so many steps that fit into trajectories of the data.
-  template <int N>
-  stretch_starts(const flow_map_data<N>& data, std::size_t steps, bool overlap) {
+  stretch_starts(const flow_map_data& data, std::size_t steps, bool overlap) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       for (std::size_t pair = data.first_of[m]; pair + steps <= data.first_of[m + 1];
            pair += overlap ? 1 : steps) {
@@ -86,29 +81,30 @@ struct stretch_starts {
 
 namespace detail {
 
-template <Scalar R, int N>
-stretches_in_lanes<R, N> gather_stretches(const flow_map_data<N>& data, const stretch_starts& starts,
-                                          std::size_t steps, const wanted_noise& wanted,
-                                          std::size_t first_trajectory, std::size_t end_trajectory) {
+template <Scalar R>
+stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
+                                       std::size_t steps, const wanted_noise& wanted,
+                                       std::size_t first_trajectory, std::size_t end_trajectory) {
   constexpr std::size_t width = lanes_in<R>;
-  stretches_in_lanes<R, N> result{
+  stretches_in_lanes<R> result{
       first_trajectory, starts.first_of[first_trajectory], starts.first_of[end_trajectory], {}};
   const coarse_graining coarse(wanted.damping_of_part);
   const auto parts = static_cast<std::size_t>(data.noise_parts);
   for (std::size_t n = result.begin; n < result.end; n += width) {
     const auto pair = [&](std::size_t k) { return starts.pairs[std::min(n + k, result.end - 1)]; };
-    const auto in_lanes = [&](const std::vector<phase_point<double, N>>& states, std::size_t later) {
-      return gather<R, N>(lanes_in<R>,
-                          [&](int k) { return states[pair(static_cast<std::size_t>(k)) + later]; });
+    const auto in_lanes = [&](const phase_points& states, std::size_t later) {
+      return gather<R, Eigen::Dynamic>(lanes_in<R>, [&](int k) -> phase_point<double, Eigen::Dynamic> {
+        return states[pair(static_cast<std::size_t>(k)) + later];
+      });
     };
     result.entries.push_back({in_lanes(data.start, 0), in_lanes(data.finish, steps - 1), {}});
     for (std::size_t step = 0; step < steps; ++step) {
       for (const auto& [begin, end] : wanted.intervals.of_letters) {
-        vector<R, N> noise(data.start[0].size());
-        vector<double, N> of_one(noise.size());
+        vector<R, Eigen::Dynamic> noise(data.start.dimension());
+        Eigen::VectorXd of_one(noise.size());
         for (std::size_t k = 0; k < width; ++k) {
           const std::size_t first = (pair(k) + step) * parts + static_cast<std::size_t>(begin);
-          coarse.over(std::span(data.noise).subspan(first, static_cast<std::size_t>(end - begin)), of_one);
+          coarse.over(data.noise, first, static_cast<std::size_t>(end - begin), of_one);
           for (Eigen::Index i = 0; i < noise.size(); ++i) set_lane(noise[i], static_cast<int>(k), of_one[i]);
         }
         result.entries.back().noise.push_back(std::move(noise));
@@ -122,12 +118,11 @@ stretches_in_lanes<R, N> gather_stretches(const flow_map_data<N>& data, const st
 
 /// All stretches, in parts of whole trajectories that a thread can take: of a thousand or more, so that lanes
 /// are left idle for one in a hundred at most.
-template <Scalar R, int N>
-std::vector<stretches_in_lanes<R, N>> gather_stretches(const flow_map_data<N>& data,
-                                                       const stretch_starts& starts, std::size_t steps,
-                                                       const wanted_noise& wanted) {
+template <Scalar R>
+std::vector<stretches_in_lanes<R>> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
+                                                    std::size_t steps, const wanted_noise& wanted) {
   constexpr std::size_t enough = 1600;
-  std::vector<stretches_in_lanes<R, N>> result;
+  std::vector<stretches_in_lanes<R>> result;
   for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {
     while (end < data.trajectories() && starts.first_of[end] - starts.first_of[first] < enough) ++end;
     result.push_back(detail::gather_stretches<R>(data, starts, steps, wanted, first, end));

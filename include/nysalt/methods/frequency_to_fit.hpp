@@ -14,8 +14,9 @@ template <System S>
 double frequency_to_fit(const S& system) {
   double highest = 0.0;
   if constexpr (HasModes<S>) {
-    highest = system.modes().frequencies.maxCoeff();
-  } else {
+    if (has_modes(system)) return system.modes().frequencies.maxCoeff();
+  }
+  if constexpr (HasFrequencyBands<S>) {
     for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
   }
   return highest;

@@ -33,7 +33,7 @@ class coarse_graining {
   }
   /// sum <- a sum + xi.
   template <class T, int N>
-  void next(vector<T, N>& sum, const vector<T, N>& xi) const {
+  void next(vector<T, N>& sum, const auto& xi) const {
     for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] = sum[i] * decay_ + xi[i];
   }
   /// Scales the sum of n intervals; one or none is left as it is.
@@ -50,9 +50,14 @@ class coarse_graining {
   /// All intervals in one, in their order; 0 if there are none.
   template <class T, int N>
   void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
+    over(intervals, 0, intervals.size(), xi);
+  }
+  /// The same of `count` intervals of a list, from one on.
+  template <class T, int N>
+  void over(const auto& intervals, std::size_t from, std::size_t count, vector<T, N>& xi) const {
     first(xi);
-    for (const auto& one : intervals) next(xi, one);
-    last(xi, std::ssize(intervals));
+    for (std::size_t k = 0; k < count; ++k) next(xi, intervals[from + k]);
+    last(xi, static_cast<std::int64_t>(count));
   }
 
  private:

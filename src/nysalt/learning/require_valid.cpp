@@ -1,12 +1,84 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is said of data whose states are of another size.
 #include "nysalt/learning/require_valid.hpp"
 
-namespace nysalt::detail {
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
 
-void refuse_size(const char* what, std::size_t n, Eigen::Index its, Eigen::Index wanted) {
+#include "nysalt/sentence.hpp"
+#include "nysalt/together.hpp"
+
+namespace nysalt {
+
+namespace {
+
+[[noreturn]] void refuse_size(const char* what, std::size_t n, Eigen::Index found, Eigen::Index wanted) {
   throw std::invalid_argument(
-      sentence("{} {} of the data has not the dimension of the system: {} for {}", what, n, its, wanted));
+      sentence("{} {} of the data has not the dimension of the system: {} for {}", what, n, found, wanted));
 }
 
-}  // namespace nysalt::detail
+void require_valid_here(const flow_map_data& data, const model& system) {
+  const auto number_of = [&](std::size_t pair) { return data.first_pair() + pair; };
+  const auto trajectory_of = [&](std::size_t pair) {
+    return static_cast<std::size_t>(data.share().first()) + data.trajectory_of(pair);
+  };
+  if (data.system != describe(system)) {
+    throw std::invalid_argument(
+        sentence("the data are of {}, the system is {}", data.system, describe(system)));
+  }
+  const bool covers = !data.first_of.empty() && data.first_of.front() == 0 &&
+                      data.first_of.back() == data.pairs() &&
+                      std::is_sorted(data.first_of.begin(), data.first_of.end());
+  if (data.all_pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
+    throw std::invalid_argument(sentence("the data are not whole: {} starts, {} finishes, {} trajectories",
+                                         data.pairs(), data.finish.size(), data.trajectories()));
+  }
+  if (data.noise_parts < 0 ||
+      data.noise.size() != data.pairs() * static_cast<std::size_t>(data.noise_parts)) {
+    throw std::invalid_argument(sentence("the data are not whole: {} pairs with noise in {} parts hold {}",
+                                         data.pairs(), data.noise_parts, data.noise.size()));
+  }
+  if (data.step == 0.0 || !std::isfinite(data.step)) {
+    throw std::invalid_argument(sentence("the data cannot have the step {}", data.step));
+  }
+  for (std::size_t n = 0; n < data.noise.size(); ++n) {
+    const auto its = data.noise[n];
+    if (its.size() != size(system)) refuse_size("noise", n, its.size(), size(system));
+    for (Eigen::Index i = 0; i < its.size(); ++i) {
+      if (std::isfinite(its[i])) continue;
+      const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
+      throw std::invalid_argument(sentence(
+          "the data hold what is not finite: coordinate {} of noise {} is {}, in pair {} of trajectory {}",
+          i + 1, n, its[i], number_of(pair), trajectory_of(pair)));
+    }
+  }
+  const auto require_sound = [&](const char* what, std::size_t pair, const auto& x) {
+    if (x.q.size() != size(system)) refuse_size(what, pair, x.q.size(), size(system));
+    if (x.p.size() != size(system)) refuse_size(what, pair, x.p.size(), size(system));
+    if (is_finite(x)) return;
+    throw std::invalid_argument(
+        sentence("the data hold what is not finite: {} in the {} of pair {}, in trajectory {}",
+                 detail::not_finite_in(phase_point<double, Eigen::Dynamic>(x)), what, number_of(pair),
+                 trajectory_of(pair)));
+  };
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    require_sound("start", n, data.start[n]);
+    require_sound("finish", n, data.finish[n]);
+  }
+  for (const auto& [pair, finish] : data.finer) {
+    if (pair >= data.pairs()) {
+      throw std::invalid_argument(sentence(
+          "the data are not whole: a finer finish is of pair {}, but there are {}", pair, data.pairs()));
+    }
+    require_sound("finer finish", pair, finish);
+  }
+}
+
+}  // namespace
+
+void require_valid(const flow_map_data& data, const model& system) {
+  together(data.share().ranks(), [&] { require_valid_here(data, system); });
+}
+
+}  // namespace nysalt

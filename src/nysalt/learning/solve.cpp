@@ -19,6 +19,7 @@
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/together.hpp"
 
 namespace nysalt {
 
@@ -35,7 +36,7 @@ void fix(const fit_options& options, Eigen::VectorXd& theta) {
 }
 
 std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
-                                               const std::vector<Eigen::Index>& free) {
+                                        const std::vector<Eigen::Index>& free) {
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
   starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());

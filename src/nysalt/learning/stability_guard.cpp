@@ -15,6 +15,7 @@
 #include "nysalt/conservative_part.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/magnification.hpp"
+#include "nysalt/derivatives/stiffness_along.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
 #include "nysalt/served_letters.hpp"
@@ -41,6 +42,46 @@ double exceeded_often(std::vector<double> values, std::size_t states) {
 }
 
 }  // namespace
+
+stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
+                                 std::int64_t steps, std::size_t typical)
+    : steps_(steps) {
+  if (has_frequency_bands(system)) declare(system.frequency_bands());
+  look_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
+             has_quadratic_kinetic(system));
+  const bool has_soft_derivative = system.facts().over_double.H;
+  if (has_soft_derivative && rotations && states.size() > 0) watch_rotations(system, states);
+}
+
+void stability_guard::watch_rotations(const model& system, const phase_points& states) {
+  const auto part = quadratic_part::of(system);
+  watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
+  const Eigen::Index n = size(system);
+  if (n > most_for_all_frequencies) {
+    description_ += "; pairs of modes are not looked at";
+    return;
+  }
+  // So that all pairs of modes of all states take some milliseconds.
+  constexpr Eigen::Index pairs_and_states = 4000;
+  const auto enough =
+      static_cast<std::size_t>(std::clamp<Eigen::Index>(2 * pairs_and_states / (n * n), 1, 16));
+  const auto count = states.size();
+  const normal_modes modes = system.modes();
+  mean_soft_ = Eigen::MatrixXd::Zero(n, n);
+  std::size_t number = 0;
+  force_jacobian<field::soft, model> jacobian(system, states);
+  for (const auto& state : states) {
+    // Evenly spread: the k-th of those that are looked at is the state count * k / enough.
+    const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
+    ++number;
+    if (count > enough && !is_looked_at) continue;
+    const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
+    const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
+    soft_.push_back(modes.basis.transpose() * soft * modes.basis);
+    mean_soft_ += soft_.back();
+  }
+  mean_soft_ /= static_cast<double>(soft_.size());
+}
 
 bool stability_guard::admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
                              met which) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Trajectories of data that go to other ranks.
-#pragma once
+#include "redistribute.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,14 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/flow_map_data.hpp"
-
 namespace nysalt::detail {
+
+namespace {
 
 /// All doubles of trajectories begin .. end - 1 of this rank, by their places here: how many finer finishes
 /// there are and of which of these pairs, then states and noise.
-template <int N>
-std::vector<double> packed(const flow_map_data<N>& data, std::size_t begin, std::size_t end) {
+std::vector<double> packed(const flow_map_data& data, std::size_t begin, std::size_t end) {
   std::vector<double> numbers;
   const auto add = [&](const auto& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
   const auto add_state = [&](const auto& x) {
@@ -46,8 +45,7 @@ std::vector<double> packed(const flow_map_data<N>& data, std::size_t begin, std:
 }
 
 /// Puts them behind those that there are.
-template <int N>
-void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_data<N>& data) {
+void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_data& data) {
   const auto take = [&] {
     const double x = numbers.front();
     numbers = numbers.subspan(1);
@@ -55,12 +53,12 @@ void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_da
   };
   const auto take_count = [&] { return static_cast<std::size_t>(take()); };
   const auto take_vector = [&] {
-    const vector<double, N> x = Eigen::Map<const vector<double, N>>(numbers.data(), dimension);
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(numbers.data(), dimension);
     numbers = numbers.subspan(static_cast<std::size_t>(dimension));
     return x;
   };
   const auto take_state = [&] {
-    phase_point<double, N> x;
+    phase_point<double, Eigen::Dynamic> x;
     x.q = take_vector();
     x.p = take_vector();
     return x;
@@ -80,15 +78,13 @@ void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_da
   }
 }
 
-/// Each rank gets the trajectories that it has in `next`, a share of more, from who had them. Each message is
-/// waited for in one order that all ranks keep, so that none waits for ever. Cost: a message for each pair of
-/// ranks whose shares meet.
-template <int N>
-void hand_over(flow_map_data<N>& data, const shard& next, Eigen::Index dimension) {
+}  // namespace
+
+void redistribute(flow_map_data& data, const shard& next, Eigen::Index dimension) {
   const shard now = data.share();
   const communicator& ranks = next.ranks();
   if (ranks.is_alone()) return;
-  flow_map_data<N> kept;
+  flow_map_data kept;
   kept.first_of = {0};
   kept.noise_parts = data.noise_parts;
   for (int from = 0; from < ranks.size(); ++from) {
@@ -114,7 +110,7 @@ void hand_over(flow_map_data<N>& data, const shard& next, Eigen::Index dimension
         numbers.resize(static_cast<std::size_t>(length));
         ranks.receive(std::as_writable_bytes(std::span(numbers)), from);
       }
-      unpack<N>(numbers, dimension, kept);
+      unpack(numbers, dimension, kept);
     }
   }
   data.start = std::move(kept.start);

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/flow_map_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <span>
+#include <stdexcept>
+
+#include "learning/redistribute.hpp"
+#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/progress_of_share.hpp"
+#include "nysalt/together.hpp"
+
+namespace nysalt {
+
+std::size_t flow_map_data::trajectory_of(std::size_t pair) const {
+  return static_cast<std::size_t>(std::upper_bound(first_of.begin(), first_of.end(), pair) -
+                                  first_of.begin()) -
+         1;
+}
+
+namespace detail {
+
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+constexpr double numbers_in_memory = 1e9;
+
+/// Of one trajectory.
+double numbers_of_trajectory(const data_options& options, double steps, Eigen::Index dimension) {
+  return steps * (4.0 + options.noise_parts) * static_cast<double>(dimension);
+}
+
+/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane, of those from
+/// number options.first on; returns the force evaluations that they took.
+template <class T>
+std::int64_t follow_reference(const model& system, const auto& in_lanes, const initial_states& ensemble,
+                              const any_reference& reference, const data_options& options, std::int64_t first,
+                              int count, flow_map_data& data, std::vector<energy_range>& energies) {
+  constexpr int width = lanes_in<T>;
+  const auto place = [&](int k) { return static_cast<std::size_t>(first + k); };
+  const auto include_energies = [&](const auto& x) {
+    if (!has_energy(system)) return;
+    const T found = energy<T>(system, x);
+    for (int k = 0; k < count; ++k) energies[place(k)].include(lane(found, k));
+  };
+  const auto store = [&](phase_points& all, std::size_t pair, const auto& x, int k) {
+    const auto at = all[pair];
+    auto q = at.q;
+    auto p = at.p;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      q[i] = lane(x.q[i], k);
+      p[i] = lane(x.p[i], k);
+    }
+  };
+  const std::int64_t number = options.first + first;
+  auto x = sound_starts<T>(in_lanes, ensemble, options.seed, number, count);
+  include_energies(x);
+  std::array<std::optional<std::size_t>, width> lost;  // at which step a lane was not finite any more
+  const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
+  const auto parts = static_cast<std::size_t>(options.noise_parts);
+  std::vector<vector<T, Eigen::Dynamic>> noise(parts, make_vector<T>(system));
+  const auto flow = reference.prepare(system, options.step, std::type_identity<T>());
+  std::int64_t evaluations = 0;
+  path_place at{options.seed, static_cast<std::uint64_t>(number), 0};
+  for (std::size_t n = 0; n < steps; ++n, ++at.step) {
+    for (int k = 0; k < count; ++k) store(data.start, data.first_of[place(k)] + n, x, k);
+    evaluations += flow->advance(x, count, at, noise);
+    for (int k = 0; k < count; ++k) {
+      const std::size_t pair = data.first_of[place(k)] + n;
+      store(data.finish, pair, x, k);
+      for (std::size_t part = 0; part < parts; ++part) {
+        auto xi = data.noise[pair * parts + part];
+        for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(noise[part][i], k);
+      }
+    }
+    include_energies(x);
+    const auto sound = is_finite(x);
+    for (int k = 0; k < count; ++k) {
+      auto& of_lane = lost[static_cast<std::size_t>(k)];
+      if (!of_lane && !lane(sound, k)) of_lane = n + 1;
+    }
+  }
+  for (int k = 0; k < count; ++k) {
+    if (!lost[static_cast<std::size_t>(k)]) continue;
+    const std::size_t step = *lost[static_cast<std::size_t>(k)];
+    const state last = std::as_const(data.finish)[data.first_of[place(k)] + step - 1];
+    throw std::runtime_error(
+        fmt::format("flow_map_data: trajectory {} is not finite at step {} ({}): the reference ({}) diverged",
+                    number + k, step, not_finite_in(last), reference.description()));
+  }
+  return evaluations;
+}
+
+/// finish = that of the finer reference from the same start, for a few of all pairs.
+std::int64_t check_reference(const model& system, const any_reference& reference, const data_options& options,
+                             flow_map_data& data) {
+  constexpr std::size_t checks = 16;  // enough for the size of an error
+  const auto finer = reference.finer();
+  std::int64_t evaluations = 0;
+  std::unique_ptr<reference_run<double>> flow;
+  for (const std::size_t number : spread_pairs(data.all_pairs(), checks)) {
+    if (number < data.first_pair() || number >= data.first_pair() + data.pairs()) continue;
+    if (!flow) flow = finer->prepare(system, options.step, std::type_identity<double>());
+    const std::size_t pair = number - data.first_pair();
+    const std::size_t trajectory = data.trajectory_of(pair);
+    const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
+                        static_cast<std::int64_t>(pair - data.first_of[trajectory])};
+    state x = std::as_const(data.start)[pair];
+    evaluations += flow->advance(x, 1, at, {});
+    data.finer.emplace_back(pair, std::move(x));
+  }
+  return evaluations;
+}
+
+/// Trajectories begin .. begin + count - 1 of those of the options.
+flow_map_data make_some_pairs(const model& system, const initial_states& ensemble,
+                              const any_reference& reference, data_options options, const shard& all,
+                              std::int64_t begin, std::int64_t count) {
+  const std::int64_t steps = steps_of_each(options, size(system));
+  const auto of_trajectories = [&](std::int64_t m) { return static_cast<std::size_t>(m * steps); };
+  flow_map_data data;
+  data.shared = shared_pairs{all, of_trajectories(begin), of_trajectories(options.trajectories)};
+  for (std::int64_t m = 0; m <= count; ++m) data.first_of.push_back(of_trajectories(m));
+  data.start.resize(of_trajectories(count), size(system));
+  data.finish.resize(of_trajectories(count), size(system));
+  data.noise_parts = options.noise_parts;
+  data.noise.resize(data.pairs() * static_cast<std::size_t>(options.noise_parts), size(system));
+  std::vector<energy_range> energies(data.trajectories());
+  std::atomic<std::int64_t> evaluations = 0;
+  options.first += begin;
+  with_its_lanes(system, [&](const auto& in_lanes) {
+    constexpr int width = std::remove_cvref_t<decltype(in_lanes)>::lanes;
+    using T = scalar_of_lanes<width>;
+    const auto follow = [&](std::int64_t first, int n) {
+      evaluations +=
+          follow_reference<T>(system, in_lanes, ensemble, reference, options, first, n, data, energies);
+    };
+    for_each_block(count, width, options.threads, follow,
+                   progress_of_share(all.ranks(), count, options.trajectories, options.progress));
+  });
+  evaluations += check_reference(system, reference, options, data);
+  if (has_energy(system)) {
+    data.energies.emplace();
+    for (const auto& seen : energies) {
+      data.energies->include(seen.low);
+      data.energies->include(seen.high);
+    }
+  }
+  data.evaluations = evaluations;
+  return data;
+}
+
+/// What is counted and seen at one rank becomes that of all.
+void add_up(flow_map_data& data) {
+  const shard all = data.share();
+  if (all.ranks().is_alone()) return;
+  data.evaluations = all.ranks().total(data.evaluations);
+  if (!data.energies) return;
+  for (const energy_range& seen : in_order_of_ranks(all.ranks(), *data.energies)) {
+    if (seen.low > seen.high) continue;  // a rank without trajectories
+    data.energies->include(seen.low);
+    data.energies->include(seen.high);
+  }
+}
+
+/// The pairs of further trajectories behind those that there are.
+void append(flow_map_data& data, const flow_map_data& further) {
+  const std::size_t pairs = data.pairs();
+  data.start.append(further.start);
+  data.finish.append(further.finish);
+  data.noise.append(further.noise);
+  for (std::size_t m = 1; m < further.first_of.size(); ++m) {
+    data.first_of.push_back(pairs + further.first_of[m]);
+  }
+  for (const auto& [pair, finish] : further.finer) data.finer.emplace_back(pairs + pair, finish);
+}
+
+phase_points find_further_starts(const model& system, const initial_states& ensemble,
+                                 const data_options& options) {
+  return with_its_lanes(system, [&](const auto& in_lanes) -> phase_points {
+    return typical_and_energetic_starts(in_lanes, ensemble, options.seed,
+                                        options.first + options.trajectories, options.trajectories);
+  });
+}
+
+}  // namespace
+
+std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) {
+  if (!(options.step > 0.0) || !std::isfinite(options.step) || !std::isfinite(options.horizon)) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
+                    options.step, options.horizon));
+  }
+  const double steps = std::floor(options.horizon / options.step + 1e-9);
+  if (!(steps >= 1.0) || options.trajectories < 1 || options.first < 0) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: {} trajectories from number {} over {} hold no step of {}; at least one of each is "
+        "needed",
+        options.trajectories, options.first, options.horizon, options.step));
+  }
+  if (options.noise_parts < 0) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: noise in {} parts of a step cannot be", options.noise_parts));
+  }
+  if (options.trajectories / options.ranks->size() >
+      static_cast<std::int64_t>(numbers_in_memory / numbers_of_trajectory(options, steps, dimension))) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
+        options.trajectories, steps));
+  }
+  return static_cast<std::int64_t>(steps);
+}
+
+std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
+  std::mt19937_64 bits{1};
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t from = all / most * k + all % most * k / most;
+    const std::size_t to = all / most * (k + 1) + all % most * (k + 1) / most;
+    const double share = static_cast<double>(bits() >> 11U) * 0x1p-53;
+    if (from == to) continue;
+    result.push_back(from + static_cast<std::size_t>(share * static_cast<double>(to - from)));
+  }
+  return result;
+}
+
+flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
+                                 const std::shared_ptr<const any_reference>& reference,
+                                 const data_options& options) {
+  const auto began = std::chrono::steady_clock::now();
+  steps_of_each(options, size(system));
+  if (options.noise_parts > 0 && !reference->tells_noise()) {
+    throw std::invalid_argument(fmt::format(
+        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference->description()));
+  }
+  const shard all(options.trajectories, *options.ranks);
+  flow_map_data data;
+  together(all.ranks(), [&] {
+    data = make_some_pairs(system, ensemble, *reference, options, all, all.first(), all.count());
+  });
+  add_up(data);
+  data.further_starts = find_further_starts(system, ensemble, options);
+  if (options.ranks->is_alone()) data.shared.reset();
+  data.step = options.step;
+  data.system = describe(system);
+  data.ensemble = ensemble.description();
+  data.reference = reference->description();
+  data.seed = options.seed;
+  data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return data;
+}
+
+void extend_data(const model& system, const initial_states& ensemble,
+                 const std::shared_ptr<const any_reference>& reference, data_options options,
+                 flow_map_data& data) {
+  const std::int64_t there = data.share().total();
+  if (there >= options.trajectories) return;
+  if (there == 0) {
+    data = make_flow_map_data(system, ensemble, reference, options);
+    return;
+  }
+  const auto began = std::chrono::steady_clock::now();
+  const std::int64_t steps = steps_of_each(options, size(system));
+  const shard all(options.trajectories, *options.ranks);
+  redistribute(data, all, size(system));
+
+  data_options of_further = options;
+  of_further.first += there;
+  of_further.trajectories -= there;
+  const std::int64_t end = all.first() + all.count();
+  const std::int64_t begin = std::clamp(there, all.first(), end);
+  flow_map_data further;
+  together(all.ranks(), [&] {
+    further = make_some_pairs(system, ensemble, *reference, of_further, all, begin - there, end - begin);
+  });
+  add_up(further);
+  append(data, further);
+  if (data.energies && further.energies) {
+    data.energies->include(further.energies->low);
+    data.energies->include(further.energies->high);
+  }
+  data.further_starts = find_further_starts(system, ensemble, options);
+  data.evaluations += further.evaluations;
+  data.shared.reset();
+  if (!all.ranks().is_alone()) {
+    data.shared = shared_pairs{all, static_cast<std::size_t>(all.first() * steps),
+                               static_cast<std::size_t>(all.total() * steps)};
+  }
+  data.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+}  // namespace detail
+
+std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
+  options.trajectories = 1;
+  const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
+  return static_cast<std::int64_t>(detail::numbers_in_memory /
+                                   detail::numbers_of_trajectory(options, steps, dimension));
+}
+
+}  // namespace nysalt

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/learning/sound_force.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "nysalt/derivatives/force_source.hpp"
+#include "nysalt/learning/some_states.hpp"
+#include "nysalt/sentence.hpp"
+
+namespace nysalt {
+
+void require_sound_force(const model& system, const flow_map_data& data) {
+  const auto source = system.what_to_check();
+  if (!source) return;
+  constexpr std::size_t enough = 4;
+  std::vector<std::size_t> pairs;
+  for (std::size_t k = 0; k < std::min(enough, data.all_pairs()); ++k) {
+    pairs.push_back(data.all_pairs() * (2 * k + 1) / (2 * enough));
+  }
+  std::vector<Eigen::VectorXd> points;
+  std::vector<Eigen::VectorXd> momenta;
+  for (const auto& state : starts_of(data, size(system), pairs)) {
+    points.emplace_back(state.q);
+    momenta.emplace_back(state.p);
+  }
+  auto places = points;
+  auto all_momenta = momenta;
+  for (const auto& state : finishes_of(data, size(system), pairs)) {
+    places.emplace_back(state.q);
+    all_momenta.emplace_back(state.p);
+  }
+  const force_check found = detail::examine_force(*source, points, momenta, detail::lengths_of(places),
+                                                  detail::lengths_of(all_momenta));
+  if (found.passed()) return;
+  throw std::invalid_argument(sentence("learn: {} (system {}); mend it, or learn with check_force = false",
+                                       found.report(), describe(system)));
+}
+
+}  // namespace nysalt
