@@ -18,7 +18,7 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 
 /// Names of files without .hpp, and of folders with a slash; from the lowest layer to the highest.
 const std::vector<std::vector<std::string>> layers{
-    {"sentence", "scalar", "scalars/", "phase_point"},
+    {"sentence", "in_digits", "scalar", "scalars/", "phase_point"},
     {"system", "requirements", "force", "energy", "energy_range", "lanes", "bath", "noise", "noise_intervals",
      "quadratic_part", "stiffness_modes", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "conservative_part", "noise_seam", "prepared_word",
