@@ -139,7 +139,7 @@ class prepared_word<run_time_word, C, N> {
   static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
 
   static typename program_type::letter translated(const prepared_letter& l, int number) {
-    using action = typename program_type::action;
+    using detail::action;
     typename program_type::letter result{
         .evaluates = l.evaluates, .number = number, .coefficient = l.prepared};
     result.gradient = l.gradient;
@@ -174,8 +174,7 @@ class prepared_word<run_time_word, C, N> {
       std::vector<typename program_type::letter> all;
       if (halves_meet_ && &letters != &plain_) all.push_back({.number = seam_of_steps});
       for (const prepared_letter& l : letters) all.push_back(translated(l, first++));
-      if (!all.empty() && has_noise && all.back().what == program_type::action::call &&
-          all.back().number >= 0) {
+      if (!all.empty() && has_noise && all.back().what == detail::action::call && all.back().number >= 0) {
         all.back().number |= ends_step;
       } else if (has_noise) {
         all.push_back({.number = next_step});
@@ -196,7 +195,8 @@ class prepared_word<run_time_word, C, N> {
       if (number == next_step) return cursor.next();
       if (number == seam_of_steps) return cross(system, x, cursor);
       const auto k = static_cast<std::size_t>(number & ~ends_step);
-      apply(system, k < loop.size() ? loop[k] : last[k - loop.size()], x, cursor);
+      const prepared_letter& l = k < loop.size() ? loop[k] : last[k - loop.size()];
+      if constexpr (is_noisy<decltype(cursor)>) apply_noise(system, l.noise, l.number, cursor, x);
       if ((number & ends_step) != 0) cursor.next();
     };
     const detail::callback other{

@@ -39,19 +39,24 @@ concept Served = std::same_as<T, double> || std::same_as<T, lanes> || std::same_
 template <class T>
 using coefficient_of = std::conditional_t<is_dual<T>, T, double>;
 
-/// Letters of one step as data, with the step folded into the coefficients.
+/// What kernels do themselves; letters of the bath are called back.
+enum class action : std::uint8_t { drift, kick, gradient_kick, rotation, call };
+
+/// A letter as data, with the step folded into the coefficients.
+template <Scalar C>
+struct step_program_letter {
+  action what = action::call;
+  evaluation evaluates = evaluation::none;  ///< of the force, before it
+  int number = 0;                           ///< what is called back
+  C coefficient{0.0};
+  gradient_kick_coefficients<C> gradient{};
+  const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
+};
+
+/// Letters of one step as data.
 template <Scalar C>
 struct step_program {
-  /// What kernels do themselves; letters of the bath are called back.
-  enum class action : std::uint8_t { drift, kick, gradient_kick, rotation, call };
-  struct letter {
-    action what = action::call;
-    evaluation evaluates = evaluation::none;  ///< of the force, before it
-    int number = 0;                           ///< what is called back
-    C coefficient{0.0};
-    gradient_kick_coefficients<C> gradient{};
-    const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
-  };
+  using letter = step_program_letter<C>;
   std::vector<letter> loop;  ///< of a step that another one follows
   std::vector<letter> last;  ///< of a step after which the run may be looked at
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run

@@ -55,12 +55,16 @@ struct ornstein_uhlenbeck {
   template <System S, Scalar T, CoefficientOf<T> C>
   static void apply(const S& system, const prepared<C>& flow, const vector<T, S::dimension>& xi,
                     flow_state<T, S::dimension>& x) {
+    const C decay = flow.decay;
+    const C of_unit_mass = flow.deviation;
+    if constexpr (ErasedSystem<S>) {
+      if (system.has_unit_mass()) {
+        for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] = x.p[i] * decay + xi[i] * of_unit_mass;
+        return;
+      }
+    }
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       if constexpr (ErasedSystem<S>) {
-        if (system.has_unit_mass()) {
-          x.p[i] = x.p[i] * flow.decay + xi[i] * flow.deviation;
-          continue;
-        }
         const C deviation = flow.deviation * system.root_mass(i);
         x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
       } else if constexpr (HasInverseMass<S>) {
