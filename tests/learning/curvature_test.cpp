@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // The Hessian of the loss, and what follows from a Hessian.
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
 #include <limits>

@@ -10,6 +10,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/stability_guard.hpp"

@@ -2,6 +2,7 @@
 // Phase-fitted methods turn the oscillator exactly, and are the classical ones for small steps.
 #include "nysalt/methods/phase_fitted.hpp"
 
+#include <Eigen/QR>
 #include <boost/test/unit_test.hpp>
 
 #include <array>

@@ -20,6 +20,10 @@ namespace nysalt::detail {
 Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
                                    bool symmetric, double x);
 
+/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but those of rotations), so
+/// that a difference over a step of 1 is the derivative.
+Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x);
+
 /// How far a continuation came.
 struct phase_fitting {
   std::optional<Eigen::VectorXd> theta;  ///< at the z that was asked for; nothing: it ended before

@@ -78,10 +78,6 @@ Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<
   return defects;
 }
 
-namespace {
-
-/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but those of rotations), so
-/// that a difference over a step of 1 is the derivative.
 Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x) {
   auto coefficients = family.coefficients(theta);
   const auto defect = [&] { return defect_of_rotation(family.letters, coefficients, family.symmetric, x); };
@@ -95,6 +91,8 @@ Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::V
   }
   return by_coefficient * family.jacobian(theta);
 }
+
+namespace {
 
 /// The solution nearest to `nearest`, from a guess close to it: each iteration solves the linearised
 /// equations with the least distance. Nothing where that does not converge.
