@@ -2,7 +2,7 @@
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +39,11 @@ Eigen::MatrixXd potential_hessian(force_jacobian<F, S>& jacobian, const vector<d
   return 0.5 * (hessian + hessian.transpose());
 }
 
+/// A factor L of the symmetric A = L L^T; empty where A is not positive semidefinite.
+Eigen::MatrixXd factor_of(const Eigen::MatrixXd& A);
+/// Square roots of the eigenvalues of a symmetric matrix, from low to high; 0 where negative.
+std::vector<double> frequencies_of(const Eigen::MatrixXd& stiffness);
+
 /// A factor L of K''(p) = L L^T; empty where K''(p) is not positive semidefinite.
 template <System S>
 Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimension>& p) {
@@ -62,19 +67,15 @@ Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimensio
       for (Eigen::Index i = 0; i < n; ++i) hessian(i, j) = v[i].derivative[0];
     }
     if (!hessian.allFinite()) return {};
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (hessian + hessian.transpose()));
-    const Eigen::VectorXd& squares = solver.eigenvalues();
-    constexpr double rounding = 1e-12;  // a coordinate that runs at constant speed has none
-    if (squares.minCoeff() < -rounding * std::abs(squares.maxCoeff())) return {};
-    return solver.eigenvectors() * squares.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    return factor_of(0.5 * (hessian + hessian.transpose()));
   }
 }
 }  // namespace detail
 
 /// Frequencies of the linearised motion at (q, p), from low to high: square roots of the eigenvalues of
-/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws std::invalid_argument
-/// if a derivative is not finite. Cost: as many directional derivatives as there are degrees of freedom, and
-/// the eigenvalues of a matrix of that size.
+/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws
+/// std::invalid_argument if a derivative is not finite. Cost: as many directional derivatives as there are
+/// degrees of freedom, and the eigenvalues of a matrix of that size.
 template <SeparableSystem S>
   requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
       const S& system, force_jacobian<field::whole, S>& jacobian,
@@ -86,10 +87,7 @@ template <SeparableSystem S>
     if (!stiffness.allFinite()) {
       throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
-    std::vector<double> result;
-    for (const double x : solver.eigenvalues()) result.push_back(std::sqrt(std::max(0.0, x)));
-    return result;
+    return detail::frequencies_of(stiffness);
   }
 
 /// The same at a single state.
