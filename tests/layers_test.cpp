@@ -164,6 +164,19 @@ BOOST_AUTO_TEST_CASE(what_steps_needs_eigen_alone) {
   }
 }
 
+// What is dear to parse is for the sources in src/nysalt.
+BOOST_AUTO_TEST_CASE(derivatives_include_eigens_core_at_most) {
+  static const std::regex of_eigen(R"re(#\s*include\s*["<](Eigen/[^">]*)[">])re");
+  for (const auto& [path, text] : read_headers()) {
+    if (!path.starts_with("derivatives/") && path != "stiffness_modes.hpp") continue;
+    auto found = libraries_of(text);
+    found.merge(found_in(text, of_eigen));
+    found.erase("Eigen/Core");
+    for (const auto& library : found) BOOST_ERROR(path + " includes " + library);
+  }
+  BOOST_TEST(found_in("#include <Eigen/Dense>\n", of_eigen).contains("Eigen/Dense"));
+}
+
 BOOST_AUTO_TEST_CASE(a_library_is_found_wherever_it_is_included) {
   const texts files{{"a.hpp", "#include <vector>\n#include <Eigen/Core>\n#include \"nysalt/b.hpp\"\n"},
                     {"b.hpp", "# include <fmt/format.h>\n#include \"nysalt/a.hpp\"\n#include <mpi.h>\n"}};

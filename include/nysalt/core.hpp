@@ -45,8 +45,6 @@
 #include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
-#include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
-#include "nysalt/systems/with_quadratic_part.hpp"

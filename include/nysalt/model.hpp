@@ -120,6 +120,8 @@ class basic_model {
                               Eigen::VectorXd& g) const {
     system_->directional_derivative(q, v, f, g);
   }
+  /// K''(p), of a kinetic energy of the system's own.
+  Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
   std::unique_ptr<detail::force_source> what_to_check() const { return system_->what_to_check(); }
 
  private:
@@ -143,6 +145,9 @@ class basic_model {
   std::shared_ptr<const detail::model_facts> facts_;
   bool is_in_bath_ = true;
 };
+
+extern template class basic_model<default_lanes>;
+extern template class basic_model<1>;
 
 namespace detail {
 

@@ -50,3 +50,5 @@
 #include "nysalt/report/work_precision.hpp"
 #include "nysalt/report/write_file.hpp"
 #include "nysalt/shard.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"

@@ -2,13 +2,10 @@
 // The modes of a stiffness matrix.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <stdexcept>
 #include <string_view>
 
-#include "nysalt/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -16,33 +13,7 @@ namespace nysalt {
 /// Normal modes of q K q/2 with K symmetric, and masses: M^{-1/2} K M^{-1/2} = U diag(omega^2) U^T. Cost:
 /// O(N^3). Throws std::invalid_argument, in the name of who asks, unless K is square, finite and symmetric,
 /// and no eigenvalue is negative beyond rounding.
-inline normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
-                                    std::string_view who) {
-  const Eigen::Index n = stiffness.rows();
-  if (n == 0 || n != stiffness.cols() || n != inverse_masses.size()) {
-    throw std::invalid_argument(
-        sentence("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
-  }
-  if (!stiffness.allFinite()) {
-    throw std::invalid_argument(sentence("{}: the stiffness matrix is not finite", who));
-  }
-  if (stiffness != stiffness.transpose()) {
-    throw std::invalid_argument(sentence("{}: the stiffness matrix must be symmetric; use (K + K^T)/2", who));
-  }
-  const Eigen::VectorXd root = inverse_masses.cwiseSqrt();
-  const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
-  const double largest = std::max(0.0, solver.eigenvalues().maxCoeff());
-  // The solver's eigenvalues are off by up to about n eps |K|: below that, a frequency is zero.
-  const double rounding = 8.0 * static_cast<double>(n) * 2.2e-16 * std::max(largest, weighted.norm());
-  Eigen::VectorXd squares = solver.eigenvalues();
-  if (squares.minCoeff() < -rounding) {
-    throw std::invalid_argument(
-        sentence("{}: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded", who,
-                 squares.minCoeff()));
-  }
-  for (auto& square : squares) square = square <= rounding ? 0.0 : square;
-  return {solver.eigenvectors(), squares.cwiseSqrt()};
-}
+normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
+                             std::string_view who);
 
 }  // namespace nysalt

@@ -78,6 +78,24 @@ BOOST_AUTO_TEST_CASE(the_narrowest_hump_is_found) {
   BOOST_TEST(!where_larger(hump, 1.0 + 1e-8 + eps).has_value());
 }
 
+// Chebyshev's polynomial of degree n turns n - 1 times, and its Bernstein coefficients alternate.
+BOOST_AUTO_TEST_CASE(turns_are_counted) {
+  for (const int n : {2, 3, 6, 9, 12}) {
+    BOOST_TEST(chebyshev(n, -1.0, 1.0).turns(0.0) == n - 1);
+    BOOST_TEST(chebyshev(n, 1.0, 2.0).turns(0.0) == 0);
+  }
+  auto rounded = bernstein_polynomial(0.0, 1.0, 1.0);
+  rounded += eps * chebyshev(6, 0.0, 1.0);
+  BOOST_TEST(rounded.turns(1000.0 * eps) == 0);
+  // Two roots of the derivative, 1/4 and 3/4, in one interval; one in each half.
+  auto wave = 2.0 / 3.0 * with_roots(0.0, 1.0, {0.0, 0.0, 0.0});
+  wave += -1.0 * with_roots(0.0, 1.0, {0.0, 0.0});
+  wave += 0.375 * with_roots(0.0, 1.0, {0.0});
+  BOOST_TEST(wave.turns(0.0) == 2);
+  BOOST_TEST(wave.halves().first.turns(0.0) == 1);
+  BOOST_TEST(wave.halves().second.turns(0.0) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_no_number_is_within_nothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(where_larger(bernstein_polynomial(0.0, 1.0, nan), 1e300).has_value());

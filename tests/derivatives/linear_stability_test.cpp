@@ -2,8 +2,11 @@
 // Stability windows have the known ends.
 #include <boost/test/unit_test.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include "../laws/models.hpp"
 #include "../laws/stability_law.hpp"
+#include "nysalt/scalars/series.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -24,6 +27,66 @@ double two_stage_limit(double b1, double beta1) {
 /// A root of trace/2 = +-1 in z^2 errs by the trace's rounding over its slope, some ten operations; where
 /// two windows nearly touch, the slope vanishes. Relative 1e-13 leaves room for a slope of 1/50.
 const auto nearly = boost::test_tools::tolerance(1e-13);
+
+/// sum_k c[k] x^k, k <= 8.
+using polynomial = series<8>;
+
+/// q'' = -x q with the variable x of polynomials: what a stepper makes of it is the matrix of a word.
+struct variable_oscillator {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = -(q[0] * polynomial::variable());
+  }
+};
+
+polynomial half_trace_of(const tabulated& method) {
+  const variable_oscillator system;
+  const stepper<variable_oscillator, run_time_word> one(system, method.letters(), method.coefficients(), 1.0);
+  phase_point<polynomial, 1> from_q{vector<polynomial, 1>(polynomial(1.0)),
+                                    vector<polynomial, 1>(polynomial(0.0))};
+  phase_point<polynomial, 1> from_p{vector<polynomial, 1>(polynomial(0.0)),
+                                    vector<polynomial, 1>(polynomial(1.0))};
+  one.step(from_q);
+  one.step(from_p);
+  return (from_q.q[0] + from_p.p[0]) * 0.5;
+}
+
+/// Positive z where trace/2 passes +-1, by the eigenvalues of companion matrices: an oracle that has nothing
+/// in common with what finds the windows. Complex roots with a small imaginary part are left out.
+std::vector<double> ends_by_eigenvalues(const tabulated& method) {
+  std::vector<double> ends;
+  for (const double y : {-1.0, 1.0}) {
+    const auto all = (half_trace_of(method) - polynomial(y)).coefficient;
+    std::vector<double> c(all.begin() + (y > 0.0 ? 1 : 0), all.end());  // x = 0 is no end
+    double largest = 0.0;
+    for (const double a : c) largest = std::max(largest, std::abs(a));
+    while (std::abs(c.back()) <= 1e-18 * largest) c.pop_back();
+    const auto degree = static_cast<Eigen::Index>(c.size()) - 1;
+    if (degree < 1) continue;
+    Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
+    companion.diagonal(-1).setOnes();
+    for (Eigen::Index i = 0; i < degree; ++i)
+      companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
+    for (const auto& x : companion.eigenvalues()) {
+      if (x.real() > 0.0 && std::abs(x.imag()) <= 1e-9 * x.real()) ends.push_back(std::sqrt(x.real()));
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+/// Whether the windows have these ends, to a relative error of 1e-6: eigenvalues of companion matrices of
+/// degree 6 err by some 1e-9, and more where two are near.
+bool have_ends(const std::vector<stability_window>& windows, const std::vector<double>& expected) {
+  std::vector<double> ends;
+  for (const auto& [low, high] : windows) {
+    if (low > 0.0) ends.push_back(low);
+    ends.push_back(high);
+  }
+  return std::ranges::equal(ends, expected,
+                            [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); });
+}
 
 }  // namespace
 
@@ -102,4 +165,64 @@ BOOST_AUTO_TEST_CASE(a_word_that_only_drifts_has_no_window) {
 BOOST_AUTO_TEST_CASE(a_method_that_is_never_stable_has_the_limit_zero) {
   const auto windows = stability_windows(word<drift, kick>{}, std::array{1.0, -1.0});
   BOOST_TEST((windows.empty() || windows.front().low > 0.0));
+}
+
+BOOST_AUTO_TEST_CASE(windows_end_at_the_eigenvalues_of_companion_matrices) {
+  draws random;
+  int compared = 0;
+  for (int n = 0; n < 5; ++n) {
+    for (const auto& method : methods_as_data(random)) {
+      if (has_rotation(method.letters()) || method.letters().evaluations_of_plain_step > 7) continue;
+      if (method.name() == chin4a().name()) continue;  // it ends at a threefold root
+      const auto windows = stability_windows(method);
+      // Ends that are nearly one are no simple eigenvalues.
+      double nearest = windows.front().high;
+      for (std::size_t i = 1; i < windows.size(); ++i) {
+        nearest = std::min({nearest, windows[i].high - windows[i].low, windows[i].low - windows[i - 1].high});
+      }
+      const bool touches = !chart_stability(method.letters(), method.coefficients()).touching.empty();
+      if (touches || nearest < 1e-2) continue;
+      ++compared;
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << ", draw " << n) {
+        BOOST_TEST(have_ends(windows, ends_by_eigenvalues(method)));
+      }
+    }
+  }
+  BOOST_TEST(compared > 50);
+}
+
+// Wrong by a hundredth, without a gap, or with one too many: the oracle does not agree.
+BOOST_AUTO_TEST_CASE(wrong_windows_are_found_by_the_eigenvalues) {
+  const tabulated method(member<nystrom>({0.5, 0.4}));
+  const auto ends = ends_by_eigenvalues(method);
+  const auto windows = stability_windows(method);
+  BOOST_REQUIRE(windows.size() == 2U);
+  BOOST_TEST(have_ends(windows, ends));
+  BOOST_TEST(!have_ends({windows[0], {windows[1].low, 1.01 * windows[1].high}}, ends));
+  BOOST_TEST(!have_ends({{0.0, windows[1].high}}, ends));
+  BOOST_TEST(!have_ends({{0.0, 1.0}, {1.1, windows[0].high}, windows[1]}, ends));
+}
+
+// trace/2 + 1 = -(z^2 - 12)^3/864: values tell a threefold root to the third root of rounding only.
+BOOST_AUTO_TEST_CASE(a_threefold_root_is_known_as_well_as_others) {
+  BOOST_TEST(stability_limit(chin4a()) == std::sqrt(12.0), nearly);
+  BOOST_TEST(stability_windows(chin4a()).size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_number_has_no_window) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double wrong : {nan, std::numeric_limits<double>::infinity()}) {
+    BOOST_TEST(stability_windows(run_time_word("BAB"), {0.5, wrong, 0.5}).empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(letters_that_the_oscillator_lacks_are_refused) {
+  using error = std::invalid_argument;
+  const auto chart = [](const char* letters, const std::vector<double>& c) {
+    return chart_stability(run_time_word(letters), c);
+  };
+  BOOST_CHECK_THROW(chart("RSR", {0.5, 1.0, 0.5}), error);
+  BOOST_CHECK_THROW(chart("S", {1.0}), error);
+  BOOST_CHECK_THROW(chart("BAB", {0.5, 1.0}), error);
+  BOOST_TEST(chart("OBABO", {0.5, 0.5, 1.0, 0.5, 0.5}).windows.back().high == 2.0, nearly);
 }

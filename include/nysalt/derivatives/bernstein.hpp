@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,14 +27,13 @@ class bernstein_polynomial {
     const auto [least, most] = std::minmax_element(c_.begin(), c_.end());
     return {*least, *most};
   }
+  /// How often the differences of neighbouring coefficients change sign: the derivative has as many roots
+  /// inside the interval, or fewer by an even number [farouki_2012]. Differences within `rounding` of the
+  /// larger of both coefficients are left out.
+  int turns(double rounding) const;
 
   /// The sum, of the higher degree of both; b must be on the same interval.
-  bernstein_polynomial& operator+=(bernstein_polynomial b) {
-    while (c_.size() < b.c_.size()) elevate();
-    while (b.c_.size() < c_.size()) b.elevate();
-    for (std::size_t i = 0; i < c_.size(); ++i) c_[i] += b.c_[i];
-    return *this;
-  }
+  bernstein_polynomial& operator+=(bernstein_polynomial b);
   /// Multiplies the values by a.
   bernstein_polynomial& operator*=(double a) {
     for (double& c : c_) c *= a;
@@ -48,30 +45,11 @@ class bernstein_polynomial {
   bernstein_polynomial times_x() const { return times_linear(low_, high_); }  ///< x f(x), of one degree more
 
   /// On the lower and on the upper half of the interval [farouki_2012].
-  std::pair<bernstein_polynomial, bernstein_polynomial> halves() const {
-    auto lower = *this;
-    auto upper = *this;
-    lower.high_ = upper.low_ = std::midpoint(low_, high_);
-    for (std::size_t k = 0; k < c_.size(); ++k) {
-      lower.c_[k] = upper.c_[0];
-      for (std::size_t i = 0; i + k + 1 < c_.size(); ++i)
-        upper.c_[i] = std::midpoint(upper.c_[i], upper.c_[i + 1]);
-    }
-    return {lower, upper};
-  }
+  std::pair<bernstein_polynomial, bernstein_polynomial> halves() const;
 
  private:
   /// Times the line from a to b.
-  bernstein_polynomial times_linear(double a, double b) const {
-    auto result = *this;
-    result.c_.push_back(0.0);
-    const auto n = static_cast<double>(c_.size());
-    for (std::size_t i = 0; i <= c_.size(); ++i) {
-      const double part = static_cast<double>(i) / n;
-      result.c_[i] = (i < c_.size() ? (1.0 - part) * a * c_[i] : 0.0) + (i > 0 ? part * b * c_[i - 1] : 0.0);
-    }
-    return result;
-  }
+  bernstein_polynomial times_linear(double a, double b) const;
   void elevate() { c_ = times_linear(1.0, 1.0).c_; }
 
   double low_;
@@ -82,15 +60,6 @@ class bernstein_polynomial {
 /// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are told by their
 /// coefficients; those that cannot be told after 40 halvings only touch the bound.
 /// A polynomial that is not a number exceeds every bound.
-inline std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40) {
-  const auto is_within = [&](double value) { return -bound <= value && value <= bound; };
-  if (!is_within(f.at_low())) return f.low();
-  if (!is_within(f.at_high())) return f.high();
-  const auto [least, most] = f.bounds();
-  if ((is_within(least) && is_within(most)) || halvings == 0) return std::nullopt;
-  const auto [lower, upper] = f.halves();
-  if (const auto x = where_larger(lower, bound, halvings - 1)) return x;
-  return where_larger(upper, bound, halvings - 1);
-}
+std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40);
 
 }  // namespace nysalt

@@ -2,12 +2,11 @@
 // A check of what users write by hand.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <stdexcept>
 #include <vector>
 
 #include "nysalt/derivatives/force_source.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -29,20 +28,20 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
                         const std::vector<phase_point<double, S::dimension>>& seen = {}) {
   if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");
   if (momenta.size() != points.size()) {
-    throw std::invalid_argument(fmt::format("check_force: {} points with {} momenta; give it one for each",
-                                            points.size(), momenta.size()));
+    throw std::invalid_argument(sentence("check_force: {} points with {} momenta; give it one for each",
+                                         points.size(), momenta.size()));
   }
   for (std::size_t m = 0; m < points.size(); ++m) {
     for (const auto* x : {&points[m], &momenta[m]}) {
       if (x->size() == size(system)) continue;
-      throw std::invalid_argument(fmt::format("check_force: point {} has {} coordinates, the system {}",
-                                              m + 1, x->size(), size(system)));
+      throw std::invalid_argument(sentence("check_force: point {} has {} coordinates, the system {}", m + 1,
+                                           x->size(), size(system)));
     }
   }
   for (const auto& x : seen) {
     if (x.q.size() == size(system) && x.p.size() == size(system)) continue;
     throw std::invalid_argument(
-        fmt::format("check_force: a state has {} coordinates, the system {}", x.q.size(), size(system)));
+        sentence("check_force: a state has {} coordinates, the system {}", x.q.size(), size(system)));
   }
   const detail::force_source_of<S> source(system);
   const std::vector<Eigen::VectorXd> at(points.begin(), points.end());

@@ -24,7 +24,7 @@ class force_jacobian {
         v_(q_),
         f_(q_),
         g_(q_) {
-    if constexpr (differs) {
+    if (differs()) {
       std::vector<Eigen::VectorXd> points;
       for (const auto& state : states) points.push_back(state.q);
       if (!points.empty()) lengths_ = detail::lengths_of(points);
@@ -34,24 +34,29 @@ class force_jacobian {
   /// To the state where the next products are taken. Cost: a force, of a black box.
   void move_to(const vector<double, S::dimension>& q) {
     q_ = q;
-    if constexpr (differs) system_->force(q_, f_);
+    if constexpr (may_differ) {
+      if (differs()) system_->force(q_, f_);
+    }
   }
 
   /// f'(q) v. Cost: one directional derivative.
   const vector<double, S::dimension>& times(const vector<double, S::dimension>& v) {
-    if constexpr (differs) {
-      const double displacements = v.cwiseQuotient(lengths_).cwiseAbs().maxCoeff();
-      v_ = v / displacements;
-      directional_derivative(*system_, q_, v_, f_, g_);
-      g_ *= displacements;
-    } else {
-      force_along<F, double>(*system_, q_, v, g_, room_);
+    if constexpr (may_differ) {
+      if (differs()) {
+        const double displacements = v.cwiseQuotient(lengths_).cwiseAbs().maxCoeff();
+        v_ = v / displacements;
+        directional_derivative(*system_, q_, v_, f_, g_);
+        g_ *= displacements;
+        return g_;
+      }
     }
+    force_along<F, double>(*system_, q_, v, g_, room_);
     return g_;
   }
 
  private:
-  static constexpr bool differs = F == field::whole && derivative_calls<S> == 2;
+  static constexpr bool may_differ = F == field::whole && (ErasedSystem<S> || derivative_calls<S> == 2);
+  bool differs() const { return may_differ && calls_of_derivative(*system_) == 2; }
 
   const S* system_;
   lifted_room<double, S::dimension> room_;

@@ -2,7 +2,7 @@
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,13 @@ template <class S>
 concept HasDifferentiableVelocity = NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
     (HasKineticEnergy<S, double>&& HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
 
+/// Whether it can.
+template <System S>
+bool has_differentiable_velocity(const S& system) {
+  if constexpr (ErasedSystem<S>) return system.facts().has_differentiable_velocity;
+  return HasDifferentiableVelocity<S>;
+}
+
 /// V''(q), or that of the soft part, where the Jacobian of the force is taken.
 template <field F, System S>
 Eigen::MatrixXd potential_hessian(force_jacobian<F, S>& jacobian, const vector<double, S::dimension>& q) {
@@ -39,10 +46,23 @@ Eigen::MatrixXd potential_hessian(force_jacobian<F, S>& jacobian, const vector<d
   return 0.5 * (hessian + hessian.transpose());
 }
 
+/// A factor L of the symmetric A = L L^T; empty where A is not positive semidefinite.
+Eigen::MatrixXd factor_of(const Eigen::MatrixXd& A);
+/// Square roots of the eigenvalues of a symmetric matrix, from low to high; 0 where negative.
+std::vector<double> frequencies_of(const Eigen::MatrixXd& stiffness);
+
+inline Eigen::MatrixXd factor_of_kinetic(const Eigen::MatrixXd& hessian) {
+  if (!hessian.allFinite()) return {};
+  return factor_of(0.5 * (hessian + hessian.transpose()));
+}
+
 /// A factor L of K''(p) = L L^T; empty where K''(p) is not positive semidefinite.
 template <System S>
 Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimension>& p) {
   const Eigen::Index n = size(system);
+  if constexpr (ErasedSystem<S>) {
+    if (!has_quadratic_kinetic(system)) return factor_of_kinetic(system.kinetic_hessian(p));
+  }
   if constexpr (NystromSystem<S>) {
     Eigen::VectorXd root = Eigen::VectorXd::Ones(n);
     if constexpr (HasInverseMass<S>) {
@@ -61,20 +81,15 @@ Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimensio
       lifted[j] = D(p[j]);
       for (Eigen::Index i = 0; i < n; ++i) hessian(i, j) = v[i].derivative[0];
     }
-    if (!hessian.allFinite()) return {};
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (hessian + hessian.transpose()));
-    const Eigen::VectorXd& squares = solver.eigenvalues();
-    constexpr double rounding = 1e-12;  // a coordinate that runs at constant speed has none
-    if (squares.minCoeff() < -rounding * std::abs(squares.maxCoeff())) return {};
-    return solver.eigenvectors() * squares.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    return factor_of_kinetic(hessian);
   }
 }
 }  // namespace detail
 
 /// Frequencies of the linearised motion at (q, p), from low to high: square roots of the eigenvalues of
-/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws std::invalid_argument
-/// if a derivative is not finite. Cost: as many directional derivatives as there are degrees of freedom, and
-/// the eigenvalues of a matrix of that size.
+/// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws
+/// std::invalid_argument if a derivative is not finite. Cost: as many directional derivatives as there are
+/// degrees of freedom, and the eigenvalues of a matrix of that size.
 template <SeparableSystem S>
   requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
       const S& system, force_jacobian<field::whole, S>& jacobian,
@@ -86,10 +101,7 @@ template <SeparableSystem S>
     if (!stiffness.allFinite()) {
       throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
-    std::vector<double> result;
-    for (const double x : solver.eigenvalues()) result.push_back(std::sqrt(std::max(0.0, x)));
-    return result;
+    return detail::frequencies_of(stiffness);
   }
 
 /// The same at a single state.
@@ -132,7 +144,7 @@ template <SeparableSystem S>
 frequencies_along frequencies_of_states(const S& system, const std::ranges::range auto& states) {
   frequencies_along result;
   if constexpr (detail::HasDifferentiableVelocity<S> && ForceDerivativeOver<S, double, field::whole>) {
-    if (size(system) <= most_for_all_frequencies) {
+    if (size(system) <= most_for_all_frequencies && detail::has_differentiable_velocity(system)) {
       result.are_complete = true;
       force_jacobian<field::whole, S> jacobian(system, states);
       for (const auto& state : states) result.of_state.push_back(frequencies_at(system, jacobian, state));
@@ -140,7 +152,7 @@ frequencies_along frequencies_of_states(const S& system, const std::ranges::rang
     }
   }
   if constexpr (NystromSystem<S>) {
-    if (std::ranges::empty(states)) return result;
+    if (std::ranges::empty(states) || !has_quadratic_kinetic(system)) return result;
     for (const double square : stiffness_along(system, states).highest_of_state) {
       result.of_state.push_back({std::sqrt(std::max(0.0, square))});
     }

@@ -2,8 +2,6 @@
 // How stiff, and how unstable, the forces on a system are along its motion.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +14,7 @@
 #include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
 #include "nysalt/force.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
@@ -65,7 +64,7 @@ template <field F = field::whole, NystromSystem S>
       };
       const auto ends = ends_of_spectrum(multiply, start);
       if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
-        throw std::invalid_argument(fmt::format(
+        throw std::invalid_argument(sentence(
             "stiffness_along: the force has no finite derivative at state {}; leave it out", found.states));
       }
       found.lowest = std::min(found.lowest, ends.lowest);

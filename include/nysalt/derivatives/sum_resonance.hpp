@@ -4,13 +4,9 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
 #include <vector>
 
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
 
@@ -20,28 +16,7 @@ namespace nysalt {
 /// 0 with a = tr M and b = (a^2 - tr M^2)/2. Two modes that K couples grow where theta_1 + theta_2 is near 2
 /// pi k: there eigenvalues of opposite Krein signature meet [hairer_lubich_wanner_2006, section XIII].
 /// Infinite where a coefficient is not finite. Cost: four steps on two oscillators.
-inline double growth_of_pair(const run_time_word& word, const std::vector<double>& coefficients,
-                             const Eigen::Array2d& theta, const Eigen::Matrix2d& k) {
-  const auto times_k = [&](const Eigen::Array2d& x) -> Eigen::Array2d { return (k * x.matrix()).array(); };
-  Eigen::Matrix4d step;
-  for (Eigen::Index j = 0; j < 4; ++j) {
-    Eigen::Array2d q = Eigen::Array2d::Zero();
-    Eigen::Array2d p = Eigen::Array2d::Zero();
-    (j < 2 ? q : p)[j % 2] = 1.0;
-    step_on_oscillator(word, coefficients, theta, times_k, q, p);
-    step.col(j) << q, p;
-  }
-  if (!step.allFinite()) return std::numeric_limits<double>::infinity();
-  const double a = step.trace();
-  const double b = 0.5 * (a * a - (step * step).trace());
-  const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * a * a - b + 2.0));
-  double growth = 0.0;
-  for (const double sign : {1.0, -1.0}) {
-    const std::complex<double> half = 0.5 * (0.5 * a + sign * root);  // of y
-    const std::complex<double> lambda = half + std::sqrt(half * half - 1.0);
-    growth = std::max(growth, std::abs(std::log(std::abs(lambda))));
-  }
-  return growth;
-}
+double growth_of_pair(const run_time_word& word, const std::vector<double>& coefficients,
+                      const Eigen::Array2d& theta, const Eigen::Matrix2d& k);
 
 }  // namespace nysalt

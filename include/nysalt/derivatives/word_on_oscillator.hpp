@@ -6,21 +6,12 @@
 
 #include "nysalt/derivatives/bernstein.hpp"
 #include "nysalt/run_time_word.hpp"
-#include "nysalt/step_on_oscillator.hpp"
 
 namespace nysalt {
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
-inline bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
-                                       double theta, double low, double high) {
-  const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };
-  const bernstein_polynomial one(low, high, 1.0);
-  const bernstein_polynomial zero(low, high, 0.0);
-  auto qq = one, pq = zero, qp = zero, pp = one;
-  step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
-  step_on_oscillator(word, coefficients, theta, times_k, qp, pp);
-  return 0.5 * (qq += pp);
-}
+bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
+                                double theta, double low, double high);
 
 }  // namespace nysalt

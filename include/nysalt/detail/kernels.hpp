@@ -171,6 +171,7 @@ struct model_facts {
   bool has_energy = false;              ///< over double
   bool has_energy_over_slopes = false;  ///< over what carries derivatives by theta, in lanes or not
   bool has_quadratic_kinetic = false;
+  bool has_differentiable_velocity = false;
   bool has_modes = false;
   bool has_quadratic_part = false;
   bool has_bands = false;

@@ -504,6 +504,9 @@ model_facts facts_of(const S& system) {
       HasEnergy<S> &&
       (serves<S, lanes_with_slopes> ? serves_energy<S, lanes_with_slopes>() : serves_energy<S, slopes>());
   facts.has_quadratic_kinetic = NystromSystem<S>;
+  facts.has_differentiable_velocity =
+      NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
+      (HasKineticEnergy<S, double> && HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
   facts.has_modes = HasModes<S>;
   facts.has_quadratic_part = HasQuadraticPart<S>;
   facts.has_bands = HasFrequencyBands<S>;

@@ -37,6 +37,8 @@ struct series {
     return *this;
   }
 
+  series& operator*=(const series& b) { return *this = *this * b; }
+
   friend series operator+(series a, const series& b) { return a += b; }
   friend series operator-(series a, const series& b) { return a -= b; }
   friend series operator-(const series& a) { return a * -1.0; }

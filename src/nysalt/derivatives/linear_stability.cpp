@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/derivatives/linear_stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "nysalt/derivatives/bernstein.hpp"
+#include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/scalars/dense_polynomial.hpp"
+#include "nysalt/scalars/dual.hpp"
+#include "nysalt/scalars/series.hpp"
+#include "nysalt/served_letters.hpp"
+#include "nysalt/step_on_oscillator.hpp"
+
+namespace nysalt {
+
+namespace {
+
+using detail::dense_polynomial;
+
+constexpr int most_evaluations = 64;
+
+/// The system q'' = -q, which says what letters the oscillator serves.
+struct oscillator {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = -q[0];
+  }
+};
+
+/// The 2 x 2 matrix of one step in (q, z p), with entries in the ring of T; times_x multiplies by x = z^2.
+template <class T>
+struct oscillator_matrix {
+  T qq, pq, qp, pp;
+
+  oscillator_matrix(const run_time_word& word, const std::vector<double>& c, const T& zero, const T& one,
+                    const auto& times_x)
+      : qq(one), pq(zero), qp(zero), pp(one) {
+    step_on_oscillator(word, c, 0.0, times_x, qq, pq);
+    step_on_oscillator(word, c, 0.0, times_x, qp, pp);
+  }
+};
+
+/// trace/2 of a word on the oscillator as a function of x = z^2.
+class trace_of_word {
+ public:
+  trace_of_word(const run_time_word& word, const std::vector<double>& c) : word_(word), c_(c) {
+    const auto sum_of = [&](const std::vector<double>& coefficients, double sign) {
+      const auto times = [&](const dense_polynomial& a) { return sign * a.times_x(); };
+      oscillator_matrix<dense_polynomial> m(word, coefficients, {{0.0}}, {{1.0}}, times);
+      return 0.5 * (m.qq += m.pp);
+    };
+    auto magnitudes = c;
+    for (double& x : magnitudes) x = std::abs(x);
+    polynomial_ = sum_of(c, 1.0);
+    magnitude_ = sum_of(magnitudes, -1.0);  // no term cancels another
+  }
+
+  /// The coefficients of the derivative, those that are rounding set to zero, up to the last that is not.
+  std::vector<double> slope() const {
+    std::vector<double> result;
+    std::size_t terms = 0;
+    const auto& c = polynomial_.coefficient;
+    for (std::size_t k = 1; k < c.size(); ++k) {
+      const bool vanishes = std::abs(c[k]) <= rounding() * magnitude_.coefficient[k];
+      result.push_back(vanishes ? 0.0 : static_cast<double>(k) * c[k]);
+      if (!vanishes) terms = k;
+    }
+    result.resize(terms);
+    return result;
+  }
+
+  oscillator_matrix<double> matrix(double x) const {
+    return {word_, c_, 0.0, 1.0, [x](double y) { return x * y; }};
+  }
+  double operator()(double x) const {
+    const auto m = matrix(x);
+    return (m.qq + m.pp) * 0.5;
+  }
+  bool rises_at(double x) const {
+    using D = dual<double, 1>;
+    const D variable = D::variable(x, 0);
+    const oscillator_matrix<D> m(word_, c_, D(0.0), D(1.0), [&](const D& y) { return variable * y; });
+    return (m.qq + m.pp).derivative[0] > 0.0;
+  }
+  /// Values and derivatives at x: the k-th coefficient is the k-th derivative over k!.
+  series<3> expansion_at(double x) const {
+    using T = series<3>;
+    T moving(x);
+    moving += T::variable();
+    const oscillator_matrix<T> m(word_, c_, T(0.0), T(1.0), [&](const T& y) { return moving * y; });
+    return (m.qq + m.pp) * 0.5;
+  }
+  bernstein_polynomial on(double low, double high) const { return half_trace(word_, c_, 0.0, low, high); }
+
+  /// Relative, of sums without cancellation: each letter rounds twice, and is passed by two columns and both
+  /// of its operands.
+  double rounding() const {
+    return 8.0 * static_cast<double>(word_.slots) * std::numeric_limits<double>::epsilon();
+  }
+  /// Within this of +-1 an extremum at x touches it: a bound of the rounding, which of long words is far too
+  /// large, or what a table of ten digits leaves open.
+  double tolerance(double x) const { return std::min(rounding() * magnitude_.tail(0, x), 1e-10); }
+
+ private:
+  const run_time_word& word_;
+  const std::vector<double>& c_;
+  dense_polynomial polynomial_;
+  dense_polynomial magnitude_;
+};
+
+/// Where a condition that holds at a and not at b, or the other way about, ends: the last number before.
+double bisect(const auto& holds, double a, double b) {
+  const bool at_a = holds(a);
+  for (double m = std::midpoint(a, b); m != a && m != b; m = std::midpoint(a, b)) {
+    (holds(m) == at_a ? a : b) = m;
+  }
+  return a;
+}
+
+/// Of a root x of trace/2 = y that may be threefold, as where methods of order four end, and is then known to
+/// the third root of rounding only: the inflection beside it, a simple root of the second derivative, if
+/// values and slope there are those of a threefold root; else x.
+double sharpened(const trace_of_word& trace, double x, double y) {
+  double inflection = x;
+  for (int i = 0; i < 3; ++i) {  // Newton's method from 1e-5 beside: 1e-10, 1e-20
+    const auto c = trace.expansion_at(inflection).coefficient;
+    inflection -= c[2] / (3.0 * c[3]);
+  }
+  const double rounding = trace.tolerance(inflection);
+  const auto [value, slope, bend, twist] = trace.expansion_at(inflection).coefficient;
+  const bool is_threefold = std::abs(value - y) <= rounding && std::abs(slope) * inflection <= rounding;
+  return is_threefold ? inflection : x;
+}
+
+/// Beyond this no root of sum_k c[k] x^k lies: 2 max |c_{n-k}/c_n|^{1/k} [fujiwara_1916].
+double root_bound(const std::vector<double>& c) {
+  const std::size_t n = c.size() - 1;
+  double bound = 0.0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    bound = std::max(bound, std::pow(std::abs(c[n - k] / c[n]), 1.0 / static_cast<double>(k)));
+  }
+  return 2.0 * bound;
+}
+
+/// An end of pieces on each of which trace/2 is monotone, or outside of -2..2.
+struct piece_end {
+  double x;
+  bool is_extremum;
+};
+
+/// The ends of the pieces of 0..last, both among them. An interval with at most one change of sign among the
+/// differences of its Bernstein coefficients has an extremum where the slopes at its ends differ in sign, and
+/// no other; with more it is halved. The coefficients are found anew on each half: halves of coefficients
+/// would keep the rounding of the whole interval, where the polynomial may be 1e15 times as large.
+std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree, double last) {
+  struct interval {
+    double low, high;
+    bool rises_at_low, rises_at_high;
+  };
+  std::vector<piece_end> ends{{0.0, false}, {last, false}};
+  std::vector<interval> level{{0.0, last, trace.rises_at(0.0), trace.rises_at(last)}};
+  while (!level.empty()) {
+    std::vector<interval> several;  // extrema, perhaps
+    for (const auto& one : level) {
+      const auto f = trace.on(one.low, one.high);
+      const auto [least, most] = f.bounds();
+      if (least > 2.0 || most < -2.0) {
+        ends.push_back({one.low, false});
+        ends.push_back({one.high, false});
+        continue;
+      }
+      // Closer than sqrt(eps) of x, extrema differ in value by less than rounding.
+      const bool is_small = one.high - one.low <= 0x1p-26 * one.high;
+      const bool ends_differ = one.rises_at_low != one.rises_at_high;
+      // One turn and equal slopes: an extremum so near to an end that rounding hides its side.
+      if (f.turns(trace.rounding()) > (ends_differ ? 1 : 0) && !is_small) {
+        several.push_back(one);
+      } else if (ends_differ) {
+        ends.push_back({bisect([&](double x) { return trace.rises_at(x); }, one.low, one.high), true});
+      }
+    }
+    // A polynomial turns less often than its degree: more intervals than that show rounding.
+    level.clear();
+    if (several.size() > degree) break;
+    for (const auto& one : several) {
+      const double middle = std::midpoint(one.low, one.high);
+      const bool rises = trace.rises_at(middle);
+      level.push_back({one.low, middle, one.rises_at_low, rises});
+      level.push_back({middle, one.high, rises, one.rises_at_high});
+    }
+  }
+  std::sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  // A double root of the slope may look like two. In 1e-6 of x, values between two extrema change by its
+  // cube.
+  for (std::size_t i = 0; i + 1 < ends.size();) {
+    const bool is_pair = ends[i].is_extremum && ends[i + 1].is_extremum;
+    if (is_pair && ends[i + 1].x - ends[i].x <= 1e-6 * ends[i].x) {
+      ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(i),
+                 ends.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+    } else {
+      ++i;
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
+stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients) {
+  if (has_rotation(word)) {
+    throw std::invalid_argument(fmt::format(
+        "the word {} is exact on the oscillator at any step: only its soft part can make it unstable",
+        word.letters()));
+  }
+  if (word.evaluations_of_plain_step > most_evaluations) {
+    throw std::invalid_argument(fmt::format("stability is known for words of at most {} evaluations, not {}",
+                                            most_evaluations, word.evaluations_of_plain_step));
+  }
+  require_served<oscillator, double>(word, oscillator{});
+  word.require_one_for_each_slot(coefficients);
+  const trace_of_word half_trace(word, coefficients);
+  const auto slope = half_trace.slope();
+  if (slope.empty()) return {};  // no letter moves the oscillator
+
+  // Beyond its last extremum trace/2 leaves [-1, 1] for good.
+  double last = 2.0 * std::max(1.0, root_bound(slope));
+  while (std::abs(half_trace(last)) < 2.0) last *= 2.0;
+  const auto pieces = pieces_of(half_trace, slope.size(), last);
+
+  std::vector<double> edges{0.0};
+  double at_a = 1.0;
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+    const double a = pieces[i].x;
+    const double b = pieces[i + 1].x;
+    double at_b = half_trace(b);
+    if (pieces[i + 1].is_extremum && std::abs(std::abs(at_b) - 1.0) <= half_trace.tolerance(b)) {
+      at_b = std::copysign(1.0, at_b);
+      edges.push_back(b);
+    }
+    const auto [least, most] = std::minmax({at_a, at_b});
+    for (const double y : {-1.0, 1.0}) {
+      if (!(least < y && y < most)) continue;
+      edges.push_back(sharpened(half_trace, bisect([&](double x) { return half_trace(x) < y; }, a, b), y));
+    }
+    at_a = at_b;
+  }
+  std::sort(edges.begin(), edges.end());
+
+  stability_chart chart;
+  auto& windows = chart.windows;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double low = edges[i];
+    const double high = edges[i + 1];
+    if (!(std::abs(half_trace(std::midpoint(low, high))) < 1.0)) continue;
+    const auto m = half_trace.matrix(low);
+    const double z = std::sqrt(low);
+    // Where the trace is known to e, what is off the diagonal of +-I errs by sqrt(2 e).
+    const bool identity =
+        std::max(std::abs(m.qp) * z, std::abs(m.pq) / z) < std::sqrt(2.0 * half_trace.tolerance(low));
+    const bool adjoins = !windows.empty() && windows.back().high == low;
+    if (adjoins && identity) {
+      windows.back().high = high;
+      chart.touching.push_back(z);
+    } else {
+      windows.push_back({low, high});
+    }
+  }
+  for (auto& window : windows) window = {std::sqrt(window.low), std::sqrt(window.high)};
+  return chart;
+}
+
+}  // namespace nysalt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/stiffness_modes.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "nysalt/sentence.hpp"
+
+namespace nysalt {
+
+normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
+                             std::string_view who) {
+  const Eigen::Index n = stiffness.rows();
+  if (n == 0 || n != stiffness.cols() || n != inverse_masses.size()) {
+    throw std::invalid_argument(
+        sentence("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
+  }
+  if (!stiffness.allFinite()) {
+    throw std::invalid_argument(sentence("{}: the stiffness matrix is not finite", who));
+  }
+  if (stiffness != stiffness.transpose()) {
+    throw std::invalid_argument(sentence("{}: the stiffness matrix must be symmetric; use (K + K^T)/2", who));
+  }
+  const Eigen::VectorXd root = inverse_masses.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness * root.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
+  const double largest = std::max(0.0, solver.eigenvalues().maxCoeff());
+  // The solver's eigenvalues are off by up to about n eps |K|: below that, a frequency is zero.
+  const double rounding = 8.0 * static_cast<double>(n) * 2.2e-16 * std::max(largest, weighted.norm());
+  Eigen::VectorXd squares = solver.eigenvalues();
+  if (squares.minCoeff() < -rounding) {
+    throw std::invalid_argument(
+        sentence("{}: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded", who,
+                 squares.minCoeff()));
+  }
+  for (auto& square : squares) square = square <= rounding ? 0.0 : square;
+  return {solver.eigenvectors(), squares.cwiseSqrt()};
+}
+
+}  // namespace nysalt
