@@ -29,6 +29,11 @@ template <class S>
 inline constexpr bool is_model = false;
 template <int Lanes>
 inline constexpr bool is_model<basic_model<Lanes>> = true;
+
+/// In the library there is one, for its own default_lanes: a program that is compiled for a processor with
+/// other lanes does not link, and the linker names both this function and the lanes that are missing.
+template <int Lanes>
+void library_is_compiled_for();
 }  // namespace detail
 
 template <int Lanes>
@@ -45,7 +50,9 @@ class basic_model {
     requires(!detail::is_model<S> && SeparableSystem<S>)
   basic_model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(std::make_shared<detail::typed_system<S>>(system)),
-        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {}
+        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {
+    detail::library_is_compiled_for<default_lanes>();
+  }
 
   /// The same with another number of lanes.
   template <int Other>

@@ -7,6 +7,10 @@ namespace nysalt {
 
 namespace detail {
 void refuse_kernel() { throw std::logic_error("model: the system does not serve this function"); }
+
+template <int Lanes>
+void library_is_compiled_for() {}
+template void library_is_compiled_for<default_lanes>();
 }  // namespace detail
 
 template <int Lanes>

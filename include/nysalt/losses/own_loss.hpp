@@ -2,8 +2,6 @@
 // A loss of the user's: one function.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <concepts>
@@ -36,7 +34,7 @@ struct own_loss {
   Error error;       ///< error(start, finish, wanted): the residuals
 
   /// As of the library's losses, such as "place:5".
-  std::string description() const { return fmt::format("{}:{}", name, steps); }
+  std::string description() const { return name + ":" + std::to_string(steps); }
 };
 /// Deduced from its three parts.
 template <class Error>
@@ -61,9 +59,9 @@ void write_residuals(const T& one, std::size_t, T* r) {
 template <class Several, class T>
 void write_residuals(const Several& all, std::size_t count, T* r) {
   if (static_cast<std::size_t>(all.size()) != count) {
-    throw std::invalid_argument(fmt::format(
-        "an own loss returns {} residuals for one stretch, and {} for another: return as many for each",
-        count, all.size()));
+    throw std::invalid_argument("an own loss returns " + std::to_string(count) +
+                                " residuals for one stretch, and " + std::to_string(all.size()) +
+                                " for another: return as many for each");
   }
   std::copy(all.begin(), all.end(), r);
 }

@@ -1,0 +1,58 @@
+# The compiled library: each source once, as an object that may stand anywhere in memory, and of the objects
+# libnysalt.a (nysalt::nysalt) and libnysalt.so (nysalt::shared).
+
+# nysalt_nysalt or nysalt_shared. In the project of others both are made when something asks for them.
+function(add_library_of component)
+  set(library nysalt_${component})
+  set(kind STATIC)
+  if(component STREQUAL "shared")
+    set(kind SHARED)
+  endif()
+  set(if_asked_for EXCLUDE_FROM_ALL)
+  if(NYSALT_INSTALL)
+    set(if_asked_for "")
+  endif()
+  add_library(${library} ${kind} ${if_asked_for} $<TARGET_OBJECTS:nysalt_objects>)
+  set_target_properties(${library} PROPERTIES OUTPUT_NAME nysalt LINKER_LANGUAGE CXX
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+endfunction()
+
+# What the library and those who use it must be compiled with alike.
+function(agree_with_users library)
+  # Eigen's own vectors round differently from machine to machine, and our hot loops do without them; what
+  # Eigen allocates must still be aligned as packs want it, by the library and by those who use it.
+  target_compile_definitions(${library} PUBLIC EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=64)
+  # The number of lanes is part of the interface: detail::library_is_compiled_for says so to the linker.
+  foreach(flag IN LISTS nysalt_native_flags)
+    target_compile_options(${library} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:${flag}>)
+  endforeach()
+endfunction()
+
+function(compile_library)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/nysalt/*.cpp)
+  add_library(nysalt_objects OBJECT EXCLUDE_FROM_ALL ${sources})
+  # Of the shared library users see names of nysalt, and nothing of what it has of Eigen and others: a list for
+  # the linker says so, and not the compiler, as the static library is made of the same objects.
+  set_target_properties(nysalt_objects PROPERTIES POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET default VISIBILITY_INLINES_HIDDEN OFF)
+  target_link_libraries(nysalt_objects PRIVATE nysalt_core nysalt_warnings)
+  target_precompile_headers(nysalt_objects PRIVATE cmake/precompiled.hpp)
+  foreach(need IN LISTS nysalt_library_needs)
+    if(need IN_LIST nysalt_components)
+      continue()
+    endif()
+    target_link_libraries(nysalt_objects PRIVATE ${nysalt_target_of_${need}})
+    if(need IN_LIST nysalt_nysalt_needs)
+      target_link_libraries(nysalt_nysalt PRIVATE ${nysalt_target_of_${need}})
+      target_link_libraries(nysalt_shared PRIVATE ${nysalt_target_of_${need}})
+    endif()
+  endforeach()
+  foreach(library IN ITEMS objects nysalt shared)
+    agree_with_users(nysalt_${library})
+  endforeach()
+  if(UNIX AND NOT APPLE)
+    set(exported ${PROJECT_SOURCE_DIR}/cmake/exported.map)
+    target_link_options(nysalt_shared PRIVATE LINKER:--version-script=${exported})
+    set_target_properties(nysalt_shared PROPERTIES LINK_DEPENDS ${exported})
+  endif()
+endfunction()
