@@ -53,6 +53,6 @@ if(TARGET nysalt::nysalt)
   list(JOIN nysalt_native_flags " " native)
   string(STRIP "${definitions} ${native}" flags)
   add_pkg_config(nysalt "${PROJECT_DESCRIPTION}" "nysalt-core = ${PROJECT_VERSION}" "${flags}"
-    "-L\${libdir} -lnysalt" "-lceres -lglog -ltbb -lfmt")
+    "-L\${libdir} -lnysalt" "-lceres -ltbb -lfmt")
   add_pkg_config(nysalt-learn "${PROJECT_DESCRIPTION}: the learner" "nysalt = ${PROJECT_VERSION}" "" "" "")
 endif()

@@ -24,6 +24,14 @@ nysalt_describe(TBB TBB::tbb 2021 "oneTBB 2021 (Debian: libtbb-dev, or set TBB_D
 nysalt_describe(Ceres Ceres::ceres 2.1 "Ceres 2.1 (Debian: libceres-dev, or set Ceres_DIR)")
 nysalt_describe(MPI MPI::MPI_CXX 3.1 "an MPI 3.1 for C++ (Debian: libopenmpi-dev, or set MPI_HOME)")
 
+# What is linked for a package.
+function(nysalt_library_of package result)
+  set(${result} ${nysalt_target_of_${package}} PARENT_SCOPE)
+  if(package STREQUAL "Ceres")
+    set(${result} nysalt::ceres PARENT_SCOPE)
+  endif()
+endfunction()
+
 # In a function, so that what the packages set does not reach who looks for nysalt.
 function(nysalt_look_for package)
   set(options "")
@@ -35,6 +43,28 @@ function(nysalt_look_for package)
   endif()
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # Ceres tells of what it looks for, QUIET or not
   find_package(${package} ${nysalt_version_of_${package}} QUIET ${options})
+endfunction()
+
+# nysalt::ceres, the shared library of Ceres where there is one. Debian's package names the static one, which holds
+# functions of Eigen that are compiled for 16 bytes of alignment, and ours are for 64: in one program the linker takes
+# either for both, and memory would be given back as what it is not. The shared one keeps its own to itself.
+function(nysalt_take_shared_ceres)
+  if(NOT TARGET Ceres::ceres OR TARGET nysalt::ceres)
+    return()
+  endif()
+  add_library(nysalt::ceres INTERFACE IMPORTED)
+  get_target_property(type Ceres::ceres TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    get_target_property(static Ceres::ceres LOCATION)
+    cmake_path(REPLACE_EXTENSION static LAST_ONLY ${CMAKE_SHARED_LIBRARY_SUFFIX} OUTPUT_VARIABLE shared)
+    if(EXISTS ${shared})
+      get_target_property(includes Ceres::ceres INTERFACE_INCLUDE_DIRECTORIES)
+      set_target_properties(nysalt::ceres PROPERTIES
+        INTERFACE_INCLUDE_DIRECTORIES "${includes}" INTERFACE_LINK_LIBRARIES ${shared})
+      return()
+    endif()
+  endif()
+  set_target_properties(nysalt::ceres PROPERTIES INTERFACE_LINK_LIBRARIES Ceres::ceres)
 endfunction()
 
 # Looks for all that a component needs, and names what is not there; `missing` is empty if all is. What the
@@ -55,6 +85,9 @@ function(nysalt_look_for_needs_of component missing)
       list(APPEND names "${nysalt_name_of_${need}}")
     elseif(NOT "${${need}_VERSION}" STREQUAL "" AND ${need}_VERSION VERSION_LESS ${nysalt_version_of_${need}})
       list(APPEND names "${nysalt_name_of_${need}}, not the ${${need}_VERSION} that was found before")
+    endif()
+    if(need STREQUAL "Ceres")
+      nysalt_take_shared_ceres()
     endif()
   endforeach()
   list(JOIN names " and " names)

@@ -16,6 +16,12 @@ function(require_match text pattern)
   endif()
 endfunction()
 
+function(require_no_match text pattern)
+  if("${text}" MATCHES "${pattern}")
+    message(FATAL_ERROR "'${pattern}' should not be in:\n${text}")
+  endif()
+endfunction()
+
 # Whether a text has the path, and not as the end of another.
 function(names_path text path result)
   string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" path "${path}")

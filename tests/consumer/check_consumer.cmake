@@ -1,9 +1,9 @@
-# Uses nysalt as others do: installs it below FOLDER, as BUILD does too, then configures, builds and runs the
-# projects that stand beside this file, rightly and wrongly. MPI says whether there is one.
+# Uses nysalt as others do: installs below FOLDER what BUILD has built, then configures, builds and runs the projects
+# that stand beside this file, rightly and wrongly. MPI says whether there is one, PROCESSOR what its kind is.
 
 cmake_minimum_required(VERSION 3.25)
 load_cache(${BUILD} READ_WITH_PREFIX its_
-  CMAKE_CXX_COMPILER CMAKE_GENERATOR CMAKE_HOME_DIRECTORY CMAKE_MAKE_PROGRAM CMAKE_PREFIX_PATH)
+  CMAKE_CXX_COMPILER CMAKE_GENERATOR CMAKE_HOME_DIRECTORY CMAKE_MAKE_PROGRAM CMAKE_PREFIX_PATH NYSALT_NATIVE)
 set(nysalt ${its_CMAKE_HOME_DIRECTORY})
 cmake_path(CONVERT "${its_CMAKE_PREFIX_PATH};$ENV{CMAKE_PREFIX_PATH}" TO_NATIVE_PATH_LIST prefixes)
 set(ENV{CMAKE_PREFIX_PATH} "${prefixes}")
@@ -25,7 +25,7 @@ function(try_to_configure name)
     COMMAND ${CMAKE_COMMAND} -S ${source} -B ${FOLDER}/${name} -G ${its_CMAKE_GENERATOR}
       -U *_DIR -U CMAKE_DISABLE_* -D CMAKE_MAKE_PROGRAM=${its_CMAKE_MAKE_PROGRAM}
       -D CMAKE_CXX_COMPILER=${its_CMAKE_CXX_COMPILER}
-      -D CMAKE_PREFIX_PATH=${FOLDER}/installed ${ARGN})
+      -D CMAKE_PREFIX_PATH=${FOLDER}/${installed} ${ARGN})
   string(REGEX REPLACE "[ \n]+" " " sentences "${output}")  # CMake breaks lines
   foreach(result code output sentences)
     set(${result} "${${result}}" PARENT_SCOPE)
@@ -56,48 +56,57 @@ function(build_and_run name)
     -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp -P ${nysalt}/tests/check_example.cmake)
 endfunction()
 
-# The libraries that the program loads, straight or through others, and where it names Ceres: a static Ceres is
-# in no list of libraries.
+# The libraries that the program loads, straight or through others.
 function(inspect name)
   set(program ${FOLDER}/${name}/${name})
   file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${program} RESOLVED_DEPENDENCIES_VAR libraries)
   list(TRANSFORM libraries REPLACE ".*/" "")
-  file(STRINGS ${program} symbols REGEX "N5ceres" LIMIT_COUNT 1)
   set(libraries "${libraries}" PARENT_SCOPE)
-  set(symbols "${symbols}" PARENT_SCOPE)
 endfunction()
 
-function(require_no_match text pattern)
-  if("${text}" MATCHES "${pattern}")
-    message(FATAL_ERROR "'${pattern}' should not be in:\n${text}")
-  endif()
-endfunction()
+# What is built, as a user installs it.
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/installed --component nysalt_development)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/installed --component nysalt_library)
+set(installed installed)
 
-# nysalt itself, configured where there is Eigen alone: what is installed is the same, and knows nothing of where
-# it was made.
+# nysalt itself, configured where there is Eigen alone, or without its library: what is installed then is the same
+# as far as it goes, has nothing compiled, and knows nothing of where it was made.
 set(eigen_alone "")
 foreach(package IN ITEMS Boost fmt TBB Ceres MPI)
   list(APPEND eigen_alone -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 set(no_ceres -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
 refuses("benchmarks need Ceres 2.1 (Debian: libceres-dev, or set Ceres_DIR)" nysalt ${no_ceres})
+refuses("benchmarks need the library: NYSALT_BUILD_LIBRARY" nysalt -D NYSALT_BUILD_LIBRARY=OFF)
 refuses("nysalt needs Eigen 3.4 (Debian: libeigen3-dev, or set Eigen3_DIR)" nysalt
-  -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
-configure(nysalt ${eigen_alone}
-  -D NYSALT_BUILD_TESTS=OFF -D NYSALT_BUILD_EXAMPLES=OFF -D NYSALT_BUILD_PROGRAMS=OFF)
-run(${CMAKE_COMMAND} --install ${FOLDER}/nysalt --prefix ${FOLDER}/installed)
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/of_all --component nysalt_development)
-file(GLOB_RECURSE files RELATIVE ${FOLDER}/installed ${FOLDER}/installed/*)
-file(GLOB_RECURSE others RELATIVE ${FOLDER}/of_all ${FOLDER}/of_all/*)
+  -D NYSALT_BUILD_LIBRARY=ON -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON)
+set(headers_alone -D NYSALT_BUILD_TESTS=OFF -D NYSALT_BUILD_EXAMPLES=OFF -D NYSALT_BUILD_PROGRAMS=OFF)
+configure(nysalt ${eigen_alone} ${headers_alone})
+require_match("${sentences}" "component nysalt needs Boost 1.74, [^)]*\\) and fmt 9 [^)]*\\) and oneTBB .*is left out")
+run(${CMAKE_COMMAND} --install ${FOLDER}/nysalt --prefix ${FOLDER}/of_eigen)
+configure(nysalt ${headers_alone} -D NYSALT_BUILD_LIBRARY=OFF)
+run(${CMAKE_COMMAND} --install ${FOLDER}/nysalt --prefix ${FOLDER}/of_headers)
+file(GLOB_RECURSE files RELATIVE ${FOLDER}/of_eigen ${FOLDER}/of_eigen/*)
+file(GLOB_RECURSE others RELATIVE ${FOLDER}/of_headers ${FOLDER}/of_headers/*)
 if(NOT files STREQUAL others)
-  message(FATAL_ERROR "what is installed depends on what is found:\n${files}\n${others}")
+  message(FATAL_ERROR "without a library, what is installed depends on what is found:\n${files}\n${others}")
 endif()
+require_match("${files}" "/nysalt/core\\.hpp;.*/nysalt-core\\.cmake;.*/nysalt-odeint\\.cmake;.*/nysalt-core\\.pc")
+require_no_match("${files}" "libnysalt|nysalt-(nysalt|shared|learn|mpi)|/nysalt/(nysalt|learner)\\.hpp")
 foreach(file IN LISTS files)
-  file(READ ${FOLDER}/installed/${file} text)
-  file(READ ${FOLDER}/of_all/${file} other)
+  file(READ ${FOLDER}/of_eigen/${file} text)
+  file(READ ${FOLDER}/installed/${file} other)
   if(NOT text STREQUAL other)
     message(FATAL_ERROR "${file} depends on what is found")
   endif()
+endforeach()
+file(GLOB_RECURSE files RELATIVE ${FOLDER}/installed ${FOLDER}/installed/*)
+require_match("${files}" "/libnysalt\\.a;.*/libnysalt\\.so;.*/libnysalt\\.so\\.0\\.[0-9]+;")
+foreach(file IN LISTS files)
+  if(file MATCHES "libnysalt")
+    continue()
+  endif()
+  file(READ ${FOLDER}/installed/${file} text)
   names_path("${text}" "${nysalt}/" it_does)
   if(it_does)
     message(FATAL_ERROR "${file} names a path below ${nysalt}")
@@ -106,23 +115,84 @@ endforeach()
 
 # With Eigen alone there is core, and its headers read nothing else.
 set(theirs "/include/(fmt|boost|oneapi|tbb|ceres|glog)/|/mpi\\.h")
+set(installed of_eigen)
 configure(core ${eigen_alone})
 build_and_run(core)
 require_match("${output}" "/nysalt/core\\.hpp.*/Eigen/Core")
 require_no_match("${output}" "${theirs}")
+refuses("nysalt's component nysalt is not installed" integrate -D COMPONENTS=nysalt)
+set(installed installed)
 
-# Who integrates has nothing of Ceres; who learns does, which shows that it would be seen.
-configure(integrate ${no_ceres})
+# No header of nysalt reads others. Who links the shared library needs Eigen alone; what it shows of itself are names
+# of nysalt.
+configure(shared ${eigen_alone})
+build_and_run(shared)
+require_match("${output}" "/nysalt/learner\\.hpp.*/nysalt/nysalt\\.hpp")
+require_no_match("${output}" "${theirs}")
+inspect(shared)
+require_match("${libraries}" "libceres.*;libnysalt\\.so\\.0\\.[0-9]+;")
+find_program(nm nm)
+if(nm)
+  file(GLOB_RECURSE library ${FOLDER}/installed/libnysalt.so)
+  run(${nm} -DC --defined-only ${library})
+  require_match("${output}" " void nysalt::detail::library_is_compiled_for<[0-9]+>\\(\\)\n")
+  string(REGEX REPLACE "[^\n]* _ZN(K|)6nysalt[^\n]*\n" "" output "${output}")  # which nm cannot read
+  string(REGEX REPLACE "[^\n]* (typeinfo[a-z ]*|vtable|VTT|guard variable) for nysalt::[^\n]*\n" "" output "${output}")
+  string(REGEX REPLACE "[^\n]*nysalt::[^\n]*\n" "" output "${output}")
+  if(NOT output STREQUAL "")
+    message(FATAL_ERROR "libnysalt.so exports what is not of nysalt:\n${output}")
+  endif()
+endif()
+
+# The static one needs what it is made with, to link.
+refuses("nysalt's component nysalt needs Ceres 2.1" integrate ${no_ceres} -D COMPONENTS=nysalt)
+configure(integrate -D COMPONENTS=nysalt)
 build_and_run(integrate)
-require_match("${output}" "${theirs}")
+require_no_match("${output}" "${theirs}")
 inspect(integrate)
 require_match("${libraries}" "libtbb")
-require_no_match("${libraries};${symbols}" "ceres|glog")
+require_no_match("${libraries}" "libnysalt")
 configure(learn)
 build_and_run(learn)
 inspect(learn)
-require_match("${libraries}" "libceres|libglog")
-require_match("${symbols}" "ceres")
+require_match("${libraries}" "libceres")
+
+# A program for another processor, with other lanes, does not link, and the linker says why.
+if(PROCESSOR MATCHES "x86_64|AMD64")
+  set(other haswell)
+  if(its_NYSALT_NATIVE)
+    set(other x86-64)
+  endif()
+  configure(other_lanes -D PROCESSOR=${other})
+  foreach(library IN ITEMS nysalt shared)
+    execute_process(COMMAND ${CMAKE_COMMAND} --build ${FOLDER}/other_lanes --target with_${library}
+      RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(code EQUAL 0)
+      message(FATAL_ERROR "a program for ${other} links to the ${library} library")
+    endif()
+    require_match("${output}" "undefined [^\n]*nysalt::detail::library_is_compiled_for<[0-9]+>\\(\\)")
+  endforeach()
+endif()
+
+# What a user pays for a first program, and for one of core alone. No limit is set: it is told.
+find_program(python python3 REQUIRED)
+file(REMOVE ${FOLDER}/costs.txt)
+configure(first_program -D CMAKE_BUILD_TYPE=Release -D SOURCE=${nysalt}/examples/first_steps.cpp
+  "-DLAUNCHER=${python}\\;${nysalt}/bench/compile_time/cost.py\\;${FOLDER}/costs.txt")
+run(${CMAKE_COMMAND} --build ${FOLDER}/first_program -j 1)
+foreach(pair IN ITEMS first_program:${nysalt}/examples/first_steps.cpp
+    core_program:${CMAKE_CURRENT_LIST_DIR}/core/main.cpp)
+  string(REPLACE ":" ";" pair ${pair})
+  list(GET pair 0 program)
+  list(GET pair 1 source)
+  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/first_program/${program} -D SOURCE=${source}
+    -P ${nysalt}/tests/check_example.cmake)
+endforeach()
+file(STRINGS ${FOLDER}/costs.txt costs)
+foreach(cost IN LISTS costs)
+  require_match("${cost}" ": [0-9.]+ s CPU, [0-9]+ MB$")
+  message("compiling ${cost}")
+endforeach()
 
 # Boost's headers are enough for odeint.
 configure(odeint -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_TBB=ON ${no_ceres}
@@ -137,22 +207,23 @@ require_match("${sentences}" "nysalt::core compiles with [^ ]*:-ffp-contract=off
 require_no_match("${sentences}" "nysalt::core compiles with [^ ]*;-")  # to what language it may be
 require_match("${sentences}" "nysalt::core brings nysalt::core;Eigen3::Eigen;")
 require_match("${sentences}" "nysalt::nysalt brings [^ ]*;TBB::tbb;")
-require_no_match("${sentences}" "nysalt::nysalt brings [^ ]*([Cc]eres|glog)")
-require_match("${sentences}" "nysalt::learn brings [^ ]*;Ceres::ceres;[^ ]*glog")
+require_match("${sentences}" "nysalt::shared brings nysalt::shared;nysalt::core;Eigen3::Eigen;")
+require_match("${sentences}" "nysalt::learn brings nysalt::learn;nysalt::nysalt;[^ ]*;nysalt::ceres;[^ ]*ceres")
 configure(link_interface -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
 require_match("${sentences}"
   "component nysalt needs fmt 9 \\(Debian: libfmt-dev, or set fmt_DIR\\), and is left out")
 require_match("${sentences}" "component mpi needs fmt 9 [^)]*\\) and an MPI 3.1 [^)]*\\), and is left out")
+require_match("${sentences}" "nysalt::shared brings")
 require_match("${sentences}" "nysalt::odeint brings nysalt::odeint;nysalt::core;Boost::headers;")
 require_no_match("${sentences}" "nysalt::(nysalt|learn|mpi) brings")
 
 # With one there is that, and what it stands on.
 configure(link_interface -D COMPONENTS=core)
-require_no_match("${sentences}" "nysalt::(nysalt|learn|odeint|mpi) brings")
+require_no_match("${sentences}" "nysalt::(nysalt|shared|learn|odeint|mpi) brings")
 configure(link_interface -D COMPONENTS=learn)
 require_match("${sentences}" "nysalt::nysalt brings")
-require_no_match("${sentences}" "nysalt::(odeint|mpi) brings")
-refuses("nysalt has no component 'lern': there are core, nysalt, learn, odeint, mpi" link_interface
+require_no_match("${sentences}" "nysalt::(shared|odeint|mpi) brings")
+refuses("nysalt has no component 'lern': there are core, nysalt, shared, learn, odeint, mpi" link_interface
   -D COMPONENTS=lern)
 refuses("component learner is now called learn, and its target nysalt::learn" link_interface
   -D COMPONENTS=learner)
@@ -173,7 +244,7 @@ if(CMAKE_VERSION VERSION_LESS 4)  # which knows policies so old no more
   set(promised "nysalt_(CONFIG|CONSIDERED_[A-Z]+|DIR|FOUND|NOT_FOUND_MESSAGE|VERSION[A-Z_]*)")
   configure(old)
   require_match("${sentences}" "looks for nysalt -- found: 1 ;")
-  set(components "nysalt_(core|nysalt|learn|odeint|mpi)_FOUND")
+  set(components "nysalt_(core|nysalt|shared|learn|odeint|mpi)_FOUND")
   require_match("${sentences}" "left behind: ((${promised}|${components});)+ ")
   require_match("${sentences}" "nysalt_learn_FOUND;")
   configure(old -D COMPONENTS=learn -D CERES=2.1)
@@ -184,45 +255,56 @@ if(CMAKE_VERSION VERSION_LESS 4)  # which knows policies so old no more
   require_match("${sentences}" "left behind: ((${promised}|nysalt_learn_FOUND);)+ ")
 endif()
 
-# Without CMake: the same flags, from wherever the tree stands.
+# Without CMake: the same flags, from wherever the tree stands, and either library.
 find_program(pkg_config pkg-config)
 if(pkg_config)
   file(RENAME ${FOLDER}/installed ${FOLDER}/moved)
-  set(ENV{PKG_CONFIG_PATH} ${FOLDER}/moved/share/pkgconfig:$ENV{PKG_CONFIG_PATH})
+  file(GLOB_RECURSE folder ${FOLDER}/moved/nysalt.pc)
+  cmake_path(GET folder PARENT_PATH folder)
+  set(ENV{PKG_CONFIG_PATH} ${folder}:$ENV{PKG_CONFIG_PATH})
+  cmake_path(GET folder PARENT_PATH folder)
   set(main ${CMAKE_CURRENT_LIST_DIR}/integrate/main.cpp)
   run(${pkg_config} --cflags --libs nysalt-learn)
-  require_match("${output}" "-ffp-contract=off -fno-tree-slp-vectorize.*-lceres.*-lglog")
-  run(sh -c "\"$0\" -std=c++20 \"$1\" -o \"$2\" $(\"$3\" --cflags --libs nysalt)"
-    ${its_CMAKE_CXX_COMPILER} ${main} ${FOLDER}/by_pkg_config ${pkg_config})
-  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/by_pkg_config -D SOURCE=${main}
-    -P ${nysalt}/tests/check_example.cmake)
+  require_match("${output}"
+    "-ffp-contract=off -fno-tree-slp-vectorize.* -DEIGEN_DONT_VECTORIZE.* -DEIGEN_MAX_ALIGN_BYTES=64.* -lnysalt")
+  require_no_match("${output}" "-l(ceres|tbb|fmt)")
+  run(${pkg_config} --cflags --libs nysalt-core)
+  require_no_match("${output}" "-lnysalt")
+  set(ENV{LD_LIBRARY_PATH} ${folder}:$ENV{LD_LIBRARY_PATH})
+  foreach(linked IN ITEMS "--libs nysalt" "--static --libs nysalt | sed s/-lnysalt/-l:libnysalt.a/")
+    run(sh -c "\"$0\" -std=c++20 \"$1\" -o \"$2\" $(\"$3\" --cflags nysalt) $(\"$3\" ${linked})"
+      ${its_CMAKE_CXX_COMPILER} ${main} ${FOLDER}/by_pkg_config ${pkg_config})
+    run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/by_pkg_config -D SOURCE=${main}
+      -P ${nysalt}/tests/check_example.cmake)
+  endforeach()
   file(RENAME ${FOLDER}/moved ${FOLDER}/installed)
 endif()
 # Folders that are not below the prefix are named as they are.
 function(require_include_dir folder option)
-  configure(nysalt -U CMAKE_INSTALL_*DIR -D CMAKE_INSTALL_PREFIX=/there -D ${option})
+  configure(nysalt ${headers_alone} -U CMAKE_INSTALL_*DIR -D CMAKE_INSTALL_PREFIX=/there -D ${option})
   file(READ ${FOLDER}/nysalt/nysalt-core.pc text)
   require_match("${text}" "\nincludedir=${folder}\n")
 endfunction()
 require_include_dir(/elsewhere CMAKE_INSTALL_INCLUDEDIR=/elsewhere)
-require_include_dir(/there/include CMAKE_INSTALL_DATADIR=/elsewhere)
+require_include_dir(/there/include CMAKE_INSTALL_LIBDIR=/elsewhere)
 
-# nysalt as a subdirectory builds nothing, changes nothing around it and is not installed with it, but if asked.
+# nysalt as a subdirectory builds nothing that is not asked for, changes nothing around it and is not installed
+# with it, but if asked.
 configure(subdirectory -D NYSALT=${nysalt})
 build_and_run(subdirectory)
 run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
 require_no_match("${files}" "of_others")
-configure(subdirectory -D NYSALT=${nysalt} -D NYSALT_INSTALL=ON)
+configure(subdirectory -D NYSALT=${nysalt} -D NYSALT_INSTALL=ON -D NYSALT_BUILD_LIBRARY=OFF)
 run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
-require_match("${files}" "of_others/include;of_others/share")
-refuses("nysalt has more than headers here: ${nysalt}/examples" subdirectory
+require_match("${files}" "of_others/include;of_others/lib")
+refuses("nysalt builds more than is asked for: ${nysalt}/examples" subdirectory
   -D NYSALT=${nysalt} -D NYSALT_BUILD_EXAMPLES=ON)
 
 # So it does from an archive, which needs no more than this.
 run(${CMAKE_COMMAND} -E chdir ${nysalt}
-  ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include)
+  ${CMAKE_COMMAND} -E tar czf ${FOLDER}/nysalt.tar.gz CMakeLists.txt cmake include src/nysalt)
 configure(fetch -D NYSALT=${FOLDER}/nysalt.tar.gz)
 
 foreach(change

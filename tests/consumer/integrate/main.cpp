@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// Eight oscillators on two threads, which take TBB.
-#include <fmt/format.h>
-
+// Eight oscillators on two threads.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "nysalt/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
@@ -19,7 +18,7 @@ int main() {
                                        vector<double, 1>(0.0)};
     bounded[static_cast<std::size_t>(m)] = !integrate(system, verlet{}, 0.1, start, 1000).diverged_at;
   });
-  fmt::print("{} of 8 are bounded\n", std::count(bounded.begin(), bounded.end(), true));
+  std::printf("%d of 8 are bounded\n", static_cast<int>(std::count(bounded.begin(), bounded.end(), true)));
 }
 
 // Expected output:

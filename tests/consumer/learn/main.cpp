@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// The least of (theta - 2)^2, by what searches for the learner. Learning itself takes half a minute to
-// compile; examples/ does that.
+// The least of (theta - 2)^2, by what searches for the learner. first_program/ learns.
 #include "nysalt/learning/minimise.hpp"
 
-#include <fmt/format.h>
+#include <cstdio>
 
 int main() {
   using namespace nysalt;
@@ -13,7 +12,7 @@ int main() {
   };
   const auto anywhere = [](const Eigen::VectorXd&) { return true; };
   const minimum found = minimise(loss, anywhere, Eigen::VectorXd::Zero(1), {0}, 10);
-  fmt::print("theta = {:.4f}, {}\n", found.theta[0], found.converged ? "converged" : "not converged");
+  std::printf("theta = %.4f, %s\n", found.theta[0], found.converged ? "converged" : "not converged");
 }
 
 // Expected output:
