@@ -93,6 +93,7 @@ endif()
 # What Python writes beside its sources goes with the package: dpkg runs these two, which call Debian's tools
 # for that (here: others of their names, that tell).
 file(GLOB scripts RELATIVE ${FOLDER}/control ${FOLDER}/control/*/p*)
+set(its_scripts libnysalt${abi}/postinst libnysalt${abi}/postrm)  # which tell the loader
 if(PYTHON)
   require_equal("scripts of packages" "${scripts}" "${its_scripts};python3-nysalt/postinst;python3-nysalt/prerm")
   foreach(pair IN ITEMS postinst:py3compile prerm:py3clean)
