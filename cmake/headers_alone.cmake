@@ -1,7 +1,7 @@
 # The target headers_alone compiles each header alone. What many of them include themselves is precompiled for
 # those, and for those only: it must not help a header that forgot it.
 
-set(dear_includes Eigen/Core Eigen/Eigenvalues fmt/format.h)
+set(dear_includes Eigen/Core Eigen/Eigenvalues)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86|AMD64")
   list(APPEND dear_includes immintrin.h)
 endif()
@@ -17,6 +17,19 @@ foreach(component IN LISTS nysalt_components)
     endforeach()
     list(APPEND all_components nysalt_${component})
   endif()
+endforeach()
+
+# What users compile reads Eigen and the standard library alone: others are the library's own affair.
+foreach(component IN ITEMS core nysalt)
+  foreach(header IN LISTS headers_of_${component})
+    cmake_path(RELATIVE_PATH header BASE_DIRECTORY include OUTPUT_VARIABLE header)
+    find_includes(${header} all)
+    list(FILTER all INCLUDE REGEX "^(fmt|boost|oneapi|tbb|ceres|glog)/")
+    if(all)
+      list(JOIN all ", " all)
+      message(SEND_ERROR "${header} includes ${all}, which those who use nysalt need not have: a source must")
+    endif()
+  endforeach()
 endforeach()
 
 # In groups that include the same of what is dear.
