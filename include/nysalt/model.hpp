@@ -64,6 +64,15 @@ class basic_model {
     result.is_in_bath_ = false;
     return result;
   }
+  /// The system alone in another bath; its frequency_bands() are those that it has without one.
+  basic_model in(const nysalt::bath& other) const {
+    basic_model result = alone();
+    auto facts = std::make_shared<detail::model_facts>(*result.facts_);
+    facts->in = other;
+    if (other.acts()) facts->description = facts->description_alone + " in " + other.description();
+    result.facts_ = std::move(facts);
+    return result;
+  }
   /// With a copy of the system of its own, for a thread whose system may change while it computes.
   basic_model separate() const {
     basic_model result = *this;
