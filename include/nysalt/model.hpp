@@ -131,7 +131,8 @@ class basic_model {
   }
   /// K''(p), of a kinetic energy of the system's own.
   Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
-  std::unique_ptr<detail::force_source> what_to_check() const { return system_->what_to_check(); }
+  /// By the system's own kick.
+  void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const { system_->own_kick(q, p, c); }
 
  private:
   void with_one_slope(field of, const vector<dual<double, 1>, dimension>& q,

@@ -41,24 +41,15 @@ void require_served(const W& word, const S& system) {
     detail::require_letters<S, T, W>(std::make_index_sequence<W::length>{});
   } else {
     for (const char letter : word.letters()) {
-      if constexpr (ErasedSystem<S>) {
-        const auto& served = system.facts().template over<T>();
-        const bool is_served = letter == rotation::letter             ? served.R
-                               : letter == soft_kick::letter          ? served.S
-                               : letter == gradient_kick::letter      ? served.G
-                               : letter == soft_gradient_kick::letter ? served.H
-                                                                      : true;
-        if (is_served) continue;
-        throw std::invalid_argument(
-            sentence("the word {} cannot step {}: {}", word.letters(), describe(system),
-                     letter == gradient_kick::letter ? detail::needs_quadratic_kinetic
-                                                     : detail::needs_quadratic_part));
-      }
       detail::with_letter(letter, known_letters{}, [&](auto flow) {
         using L = decltype(flow);
-        if constexpr (!L::template serves<S, T>) {
-          throw std::invalid_argument(
-              sentence("the word {} cannot step {}: {}", word.letters(), describe(system), L::needs));
+        if constexpr (requires { L::needs; }) {
+          bool is_served = L::template serves<S, T>;
+          if constexpr (ErasedSystem<S>) is_served = system.facts().template serves<T>(letter);
+          if (!is_served) {
+            throw std::invalid_argument(
+                sentence("the word {} cannot step {}: {}", word.letters(), describe(system), L::needs));
+          }
         }
       });
     }

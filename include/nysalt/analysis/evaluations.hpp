@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "nysalt/counted.hpp"
 #include "nysalt/conservative_part.hpp"
+#include "nysalt/counted.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
@@ -35,16 +35,16 @@ std::int64_t evaluations_of_run(const S& system, const M& method, double step, s
     }
     return watched.calls() + std::max<std::int64_t>(steps - 2, 0) * (watched.calls() - before_last);
   } else {
-  const counted<S> watched(system);
-  const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise
-  auto run = stepper.open(start);
-  std::int64_t before_last = watched.evaluations;
-  for (std::int64_t n = 0; n < std::min<std::int64_t>(steps, 2); ++n) {
-    before_last = watched.evaluations;
-    stepper.advance(run, 1);  // the first may find no force at hand
-  }
-  const std::int64_t of_a_step = watched.evaluations - before_last;
-  return watched.evaluations + std::max<std::int64_t>(steps - 2, 0) * of_a_step;
+    const counted<S> watched(system);
+    const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise
+    auto run = stepper.open(start);
+    std::int64_t before_last = watched.evaluations;
+    for (std::int64_t n = 0; n < std::min<std::int64_t>(steps, 2); ++n) {
+      before_last = watched.evaluations;
+      stepper.advance(run, 1);  // the first may find no force at hand
+    }
+    const std::int64_t of_a_step = watched.evaluations - before_last;
+    return watched.evaluations + std::max<std::int64_t>(steps - 2, 0) * of_a_step;
   }
 }
 

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "nysalt/analysis/joined_measures.hpp"
@@ -31,8 +31,9 @@ template <class R, class S, class T>
 struct find_flow : std::type_identity<std::monostate> {};
 template <class R, class S, class T>
   requires IsPrepared<R, S, T>
-struct find_flow<R, S, T>
-    : std::type_identity<decltype(std::declval<const R&>().template prepare<T>(std::declval<const S&>(), 1.0))> {};
+struct find_flow<R, S, T> : std::type_identity<decltype(std::declval<const R&>().template prepare<T>(
+                                std::declval<const S&>(), 1.0))> {
+};
 template <class R, class S, class T>
 using prepared_flow = typename find_flow<R, S, T>::type;
 }  // namespace detail
