@@ -69,11 +69,10 @@ void require_force(const own_functions& its) {
 
 std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
                                                   const program::surroundings& in) {
-  using model = program::bundled_model<own_hamiltonian, own_starts>;
   const program::json parameters{{"name", functions->name}};
   constexpr double fine_angle = 0.05;  // calls of Python are dear, and what this leaves of error is measured
   const program::model_facts facts{parameters, functions->frequency, "energy", fine_angle};
-  return std::make_unique<model>(own_hamiltonian(functions), in, own_starts(functions), facts);
+  return program::make_bundled(own_hamiltonian(functions), in, own_starts(functions), facts);
 }
 
 void examine(own_functions& its) {

@@ -37,7 +37,53 @@ concept QuadraticFlow = requires {
   requires L::reads_modes;
 };
 
+/// What the words that a letter stands in split H into; `any` of a letter that belongs to all of them.
+enum class splitting {
+  any,
+  kinetic_and_potential,   ///< K and V: A, B, G
+  quadratic_part_and_rest  ///< K with the quadratic part of V, and the rest of V: R, S, H
+};
+
+/// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, as letters act on it over a
+/// step of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes,
+/// a matrix; theta is a number, or an array of two.
+template <class Theta, class TimesK>
+struct split_stiffness {
+  const Theta& theta;     ///< frequency of the quadratic part
+  const TimesK& times_k;  ///< the rest
+
+  /// Minus the force at x, whole or soft.
+  template <field F, class P>
+  P times(const P& x) const {
+    P result = times_k(x);
+    if constexpr (F == field::whole) result += theta * theta * x;
+    return result;
+  }
+};
+
 namespace detail {
+/// `any` where a letter declares none.
+template <class L>
+constexpr splitting splitting_of() {
+  if constexpr (requires { L::splits; }) {
+    return L::splits;
+  } else {
+    return splitting::any;
+  }
+}
+
+/// What R, S and H need of a system, for refusals while running and while compiling.
+inline constexpr const char* needs_quadratic_part =
+    "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
+    "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "
+    "are learned or H is among them";
+template <bool is_served>
+constexpr void require_quadratic_part() {
+  static_assert(is_served,
+                "nysalt: the letters R, S, H need a system that declares a quadratic part: modes() and "
+                "soft_force(q, f), see nysalt/system.hpp");
+}
+
 /// The least of systems, on which a letter can be tried.
 struct free_particle {
   static constexpr int dimension = 1;
@@ -70,6 +116,14 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 ///   evaluate_and_apply(system, prepared, state, room)
 /// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
 /// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
+///
+/// A letter among known_letters states besides, for what is said of words as data:
+///   splits             what its words split H into (`any` if a letter does not say)
+///   needs              the sentence for who does not serve it, and require_served<S, T>(), the same while
+///                      compiling; both of letters that not every system serves
+///   invertible         with all coefficients negated it is its inverse
+///   same_order_as      the letter of K and V in whose place it obeys the same order conditions
+///   on_oscillator(stiffness, c, q, p)   its action on an oscillator, unless it is of the bath
 template <class L>
 concept Flow = requires {
   { L::letter } -> std::convertible_to<char>;

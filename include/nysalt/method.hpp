@@ -122,7 +122,8 @@ stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const 
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
   }
-  if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) {  // known before only of a type-level method
+  if (method.requires_quadratic_kinetic &&
+      !has_quadratic_kinetic(system)) {  // known before only of a type-level method
     throw std::invalid_argument(
         sentence("the order of {} needs a quadratic kinetic energy, but {} has one of its own", method.name(),
                  describe(system)));

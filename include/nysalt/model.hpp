@@ -71,6 +71,15 @@ class basic_model {
     result.is_in_bath_ = false;
     return result;
   }
+  /// The system alone in another bath; its frequency_bands() are those that it has without one.
+  basic_model in(const nysalt::bath& other) const {
+    basic_model result = alone();
+    auto facts = std::make_shared<detail::model_facts>(*result.facts_);
+    facts->in = other;
+    if (other.acts()) facts->description = facts->description_alone + " in " + other.description();
+    result.facts_ = std::move(facts);
+    return result;
+  }
   /// With a copy of the system of its own, for a thread whose system may change while it computes.
   basic_model separate() const {
     basic_model result = *this;
@@ -129,7 +138,8 @@ class basic_model {
   }
   /// K''(p), of a kinetic energy of the system's own.
   Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
-  std::unique_ptr<detail::force_source> what_to_check() const { return system_->what_to_check(); }
+  /// By the system's own kick.
+  void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const { system_->own_kick(q, p, c); }
 
  private:
   void with_one_slope(field of, const vector<dual<double, 1>, dimension>& q,

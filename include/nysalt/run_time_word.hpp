@@ -21,7 +21,8 @@
 
 namespace nysalt {
 
-/// Every flow that a word can name by its letter at run time.
+/// Every flow that a word can name by its letter at run time: what is said of letters elsewhere is asked of
+/// these.
 using known_letters =
     std::tuple<drift, kick, gradient_kick, rotation, soft_kick, soft_gradient_kick, ornstein_uhlenbeck>;
 
@@ -47,8 +48,10 @@ class run_time_word {
   explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
     if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
+    bool is_of_k_and_v = false;
     std::vector<bool> reads;
     std::vector<bool> moves;
+    std::vector<bool> is_of_bath;
     for (std::size_t i = 0; i < length; ++i) {
       const bool is_known = detail::with_letter(letters_[i], known_letters{}, [&](auto flow) {
         first_slots_.push_back(slots);
@@ -57,25 +60,30 @@ class run_time_word {
         if (flow.reads != field::none) this->reads = flow.reads;
         reads.push_back(flow.reads != field::none);
         moves.push_back(flow.moves_q);
+        is_of_bath.push_back(StochasticFlow<decltype(flow)>);
+        is_of_k_and_v = is_of_k_and_v || flow.splits == splitting::kinetic_and_potential;
+        rotates_ = rotates_ || flow.splits == splitting::quadratic_part_and_rest;
+        reads_modes = reads_modes || QuadraticFlow<decltype(flow)>;
         if (i == 0) additive = flow.additive;
       });
       if (!is_known) {
         throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}",
-                                             letters_, letters_[i], all_known()));
+                                             letters_, letters_[i], listed([](auto) { return true; })));
       }
     }
-    if (detail::mixes_splittings(letters_)) {
-      throw std::invalid_argument(
-          sentence("the word {} mixes letters: A, B, G split H into K and V, and R, S, H into its "
-                   "quadratic part and the "
-                   "rest; take those of one splitting",
-                   letters_));
+    if (is_of_k_and_v && rotates_) {
+      const auto letters_of = [](splitting of_h) {
+        return listed([=](auto flow) { return flow.splits == of_h; });
+      };
+      throw std::invalid_argument(sentence(
+          "the word {} mixes letters: {} split H into K and V, and {} into its quadratic part and the "
+          "rest; take those of one splitting",
+          letters_, letters_of(splitting::kinetic_and_potential),
+          letters_of(splitting::quadratic_part_and_rest)));
     }
     merges = length > 1 && letters_.front() == letters_.back() && additive;
-    halves_meet = length > 1 && letters_.front() == ornstein_uhlenbeck::letter &&
-                  letters_.back() == ornstein_uhlenbeck::letter;
-    stochastic_letters =
-        static_cast<int>(std::count(letters_.begin(), letters_.end(), ornstein_uhlenbeck::letter));
+    halves_meet = length > 1 && is_of_bath.front() && is_of_bath.back();
+    stochastic_letters = static_cast<int>(std::count(is_of_bath.begin(), is_of_bath.end(), true));
     if (stochastic_letters == static_cast<int>(length)) {
       throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
@@ -103,6 +111,8 @@ class run_time_word {
   }
 
   const std::string& letters() const { return letters_; }  ///< as they were given
+  /// Its letters are those of a quadratic part and the rest, R, S or H.
+  bool rotates() const { return rotates_; }
   /// Where a step of an open run begins: 1 if letter 0 merges with the last.
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
   /// Which letters evaluate the force, in a plain step and in an open run.
@@ -112,6 +122,7 @@ class run_time_word {
   std::size_t slots = 0;          ///< how many coefficients
   field reads = field::none;      ///< the force that its letters read
   int force_derivatives = 0;      ///< f'(q) v in a step, one evaluation each
+  bool reads_modes = false;       ///< it has a letter R
   bool merges;                    ///< last and first letter are applied as one
   bool halves_meet;               ///< first and last letter are of the bath
   int stochastic_letters;         ///< how many letters are of the bath
@@ -120,14 +131,18 @@ class run_time_word {
   int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
 
  private:
-  static std::string all_known() {
+  /// The known letters of which `is_meant` holds.
+  static std::string listed(const auto& is_meant) {
     std::string all;
-    std::apply([&](auto... flow) { ((all += all.empty() ? "" : ", ", all += flow.letter), ...); },
-               known_letters{});
+    const auto add = [&](auto flow) {
+      if (is_meant(flow)) (all += all.empty() ? "" : ", ") += flow.letter;
+    };
+    std::apply([&](auto... flow) { (add(flow), ...); }, known_letters{});
     return all;
   }
 
   std::string letters_;
+  bool rotates_ = false;
   std::vector<std::size_t> first_slots_;
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };

@@ -224,6 +224,11 @@ template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
 
+/// A potential from which all else comes by automatic differentiation can contradict nothing.
+template <class S>
+inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
+                                           HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
+
 /// Whether H can be evaluated.
 template <System S>
 constexpr bool has_energy(const S& system) {

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -76,14 +75,6 @@ struct evaluation_plan {
 
 }  // namespace detail
 
-namespace detail {
-/// A, B, G split H into K + V; R, S, H into (K + quadratic part of V) + rest.
-constexpr bool mixes_splittings(std::string_view letters) {
-  return letters.find_first_of("ABG") != std::string_view::npos &&
-         letters.find_first_of("RSH") != std::string_view::npos;
-}
-}  // namespace detail
-
 /// A method by its letters, as a type. They act from left to right: word<kick, drift, kick> is velocity
 /// Verlet.
 ///
@@ -110,15 +101,18 @@ struct word {
 
   /// The force that its letters read.
   static constexpr field reads = std::max({L::reads...});
-  /// Its letters are of one splitting of H: A, B, G or R, S, H. Others do not compile.
-  static constexpr bool has_one_splitting = [] {
-    constexpr std::array all{L::letter...};
-    return !detail::mixes_splittings({all.data(), all.size()});
-  }();
+  /// One of its letters is of this splitting of H alone.
+  static constexpr bool holds(splitting of_h) { return ((detail::splitting_of<L>() == of_h) || ...); }
+  /// Its letters are those of a quadratic part and the rest, R, S or H.
+  static constexpr bool rotates() { return holds(splitting::quadratic_part_and_rest); }
+  /// Its letters are of one splitting of H. Others do not compile.
+  static constexpr bool has_one_splitting = !(holds(splitting::kinetic_and_potential) && rotates());
   static_assert(
       has_one_splitting,
       "nysalt: the letters A, B, G split H into K and V, and R, S, H into its quadratic part and the "
       "rest: a word has those of one splitting");
+
+  static constexpr bool reads_modes = (QuadraticFlow<L> || ...);  ///< it has a letter R
 
   /// Last and first letter of successive steps are applied as one.
   static constexpr bool merges = [] {

@@ -74,10 +74,7 @@ json document_of(const learned_scheme& learned, const bundled_system& system,
 }  // namespace
 
 lesson::lesson(const learn_command& command, const common_settings& common)
-    : command_(command),
-      common_(common),
-      system_(make_system(command.system)),
-      steps_(steps_of(command)) {
+    : command_(command), common_(common), system_(make_system(command.system)), steps_(steps_of(command)) {
   require_sound(command.learning, "--");
   if (command.enough) {
     require_positive("--enough", *command.enough);

@@ -193,8 +193,7 @@ scheme scheme_in(const json& document, const reader& read) {
 
 /// "A adds up to 1, B adds up to 0.9": drifts or rotations, and kicks of any kind; a method needs both.
 std::string sums_of(const run_time_word& word, const std::vector<double>& coefficients) {
-  const bool is_split = has_rotation(word) || word.reads == field::soft;
-  std::map<std::string, double> sums{{is_split ? "R" : "A", 0.0}, {is_split ? "S" : "B", 0.0}};
+  std::map<std::string, double> sums{{word.rotates() ? "R" : "A", 0.0}, {word.rotates() ? "S" : "B", 0.0}};
   for (std::size_t i = 0; i < word.length; ++i) {
     std::string letter(1, word.letters()[i]);
     if (letter[0] == bath_letter) continue;

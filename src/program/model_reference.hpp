@@ -2,12 +2,15 @@
 // What a bundled system is compared with: its exact flow, or small steps, in a bath along paths.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 
-#include "chosen_reference.hpp"
-#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/detail/any_reference.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -34,11 +37,15 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
 }
 
 /// Of a system with frequencies up to `frequency`; a fine step goes through `angle` of the fastest motion.
-template <class S>
 class model_reference {
  public:
-  model_reference(const in_bath<S>& system, double frequency, double angle)
-      : system_(&system), frequency_(frequency), angle_(angle) {}
+  model_reference(const bath& in, double frequency, double angle, bool has_exact_flow,
+                  std::shared_ptr<const detail::any_reference> exact)
+      : bath_(&in),
+        frequency_(frequency),
+        angle_(angle),
+        has_exact_flow_(has_exact_flow),
+        exact_(std::move(exact)) {}
 
   /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
   /// The error of srkn11b is rounding then. BAOAB errs along a noisy path to first order in the step: where
@@ -47,24 +54,29 @@ class model_reference {
     if (is_exact() && !asked) return std::nullopt;
     constexpr double fine_steps_in_bath = 200.0;  // as in the paper, at its step .02
     const double most = angle_ / fastest();
-    const bool is_noisy = system_->bath().acts();
+    const bool is_noisy = bath_->acts();
     return fine_step_within(step, asked, is_noisy ? std::min(most, step / fine_steps_in_bath) : most,
                             std::max(parts, 1));
   }
 
-  chosen_reference<S> at(double step, std::optional<double> asked, int parts) const {
+  detail::reference_value at(double step, std::optional<double> asked, int parts) const {
     const auto fine = fine_step(step, asked, parts);
-    if (system_->bath().acts()) return chosen_reference<S>(fine_paths<>(*fine));
-    if constexpr (has_exact_flow<S>) {
-      if (!fine) return chosen_reference<S>(exact_linear(*system_));
+    if (!fine) return detail::reference_value(exact_);
+    const auto described = [&](const tabulated& method) {
+      return fmt::format("{} with step {:.12g}", method.name(), *fine);
+    };
+    if (bath_->acts()) {
+      const tabulated method(baoab{});
+      return detail::reference_value(detail::small_steps_on_paths(method, *fine, 0, described(method)));
     }
-    return chosen_reference<S>(fine_steps<>(*fine));
+    const tabulated method(srkn11b{});
+    return detail::reference_value(detail::small_steps(method, *fine, described(method)));
   }
 
   /// To rank methods by errors far above rounding: srkn11b at ten times the step leaves little more, and what
   /// it leaves is measured. Nothing where the usual one is wanted.
   std::optional<double> fine_step_for_ranking(double step) const {
-    if (is_exact() || system_->bath().acts()) return std::nullopt;
+    if (is_exact() || bath_->acts()) return std::nullopt;
     constexpr double angle = 0.05;
     return fine_step_within(step, {}, angle / fastest());
   }
@@ -76,14 +88,16 @@ class model_reference {
     return fine_step_within(step, asked, std::min(angle / fastest(), 0.1 * step));
   }
 
-  double fastest() const { return std::max(frequency_, system_->bath().friction()); }
+  double fastest() const { return std::max(frequency_, bath_->friction()); }
 
  private:
-  bool is_exact() const { return has_exact_flow<S> && !system_->bath().acts(); }
+  bool is_exact() const { return has_exact_flow_ && !bath_->acts(); }
 
-  const in_bath<S>* system_;
+  const bath* bath_;
   double frequency_;
   double angle_;
+  bool has_exact_flow_;
+  std::shared_ptr<const detail::any_reference> exact_;
 };
 
 }  // namespace nysalt::program

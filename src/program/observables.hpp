@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bundled_model.hpp"
 #include "did_you_mean.hpp"
-#include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/energy.hpp"
 #include "refusal.hpp"
@@ -18,16 +18,16 @@ namespace nysalt::program {
 
 /// As people read them: families of names once.
 template <System S>
-std::vector<std::string> observable_names(const S& system) {
+std::vector<std::string> observable_names(const S& system, const stiff_springs& springs) {
   std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy", "kinetic_temperature"};
   const auto range = [&](const char* stem, Eigen::Index last) {
     names.push_back(last == 1 ? fmt::format("{}1", stem) : fmt::format("{0}1..{0}{1}", stem, last));
   };
   range("q", size(system));
   range("p", size(system));
-  if constexpr (HasStiffEnergies<S>) {
+  if (springs.pairs > 0) {
     names.insert(names.begin(), "stiff_energy");
-    range("stiff_energy_", system.pairs());
+    range("stiff_energy_", springs.pairs);
   }
   return names;
 }
@@ -44,7 +44,9 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
 
 /// Of the trajectory in each lane of T. Throws refusal, listing the names, if there is none of that name.
 template <class T, System S>
-std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system, const std::string& name) {
+std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system,
+                                                                 const stiff_springs& springs,
+                                                                 const std::string& name) {
   using state = phase_point<T, S::dimension>;
   if (name == "energy") return [&system](const state& x) { return energy<T>(system, x); };
   if (name == "kinetic_energy") {
@@ -56,13 +58,20 @@ std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system
   if (name == "potential_energy") return [&system](const state& x) { return system.potential(x.q); };
   if (const auto i = index_after(name, "q", size(system))) return [i](const state& x) { return x.q[i - 1]; };
   if (const auto i = index_after(name, "p", size(system))) return [i](const state& x) { return x.p[i - 1]; };
-  if constexpr (HasStiffEnergies<S>) {
-    if (name == "stiff_energy") return [&system](const state& x) { return system.stiff_energy(x); };
-    if (const auto j = index_after(name, "stiff_energy_", system.pairs())) {
-      return [&system, j](const state& x) { return system.stiff_energy(x, j - 1); };
-    }
+  if (springs.pairs > 0) {
+    const auto spring_energy = [&springs](Eigen::Index j) {
+      return [&springs, j](const state& x) {
+        if constexpr (std::is_same_v<T, double>) {
+          return springs.energy(x, j);
+        } else {
+          return springs.energy_in_lanes(x, j);
+        }
+      };
+    };
+    if (name == "stiff_energy") return spring_energy(-1);
+    if (const auto j = index_after(name, "stiff_energy_", springs.pairs)) return spring_energy(j - 1);
   }
-  const auto known = observable_names(system);
+  const auto known = observable_names(system, springs);
   // Of a numbered one the number may be wrong: "q1..q6" says which there are.
   const bool is_numbered = !name.empty() && name.back() >= '0' && name.back() <= '9';
   refuse("unknown observable '{}' of {}: {}", name, describe(system),

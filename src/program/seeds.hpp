@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// One seed from the user, and apart from each other: what is learned from, judged on, tested with, and, of what
-// won a test, measured with.
+// One seed from the user, and apart from each other: what is learned from, judged on, tested with, and, of
+// what won a test, measured with.
 #pragma once
 
 #include <cstdint>

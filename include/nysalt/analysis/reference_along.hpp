@@ -9,6 +9,9 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "nysalt/analysis/joined_measures.hpp"
@@ -17,6 +20,23 @@
 #include "nysalt/sentence.hpp"
 
 namespace nysalt {
+
+namespace detail {
+/// A reference that is prepared once for many samples.
+template <class R, class S, class T>
+concept IsPrepared = requires(const R& reference, const S& system) {
+  reference.template prepare<T>(system, 1.0);
+};
+template <class R, class S, class T>
+struct find_flow : std::type_identity<std::monostate> {};
+template <class R, class S, class T>
+  requires IsPrepared<R, S, T>
+struct find_flow<R, S, T> : std::type_identity<decltype(std::declval<const R&>().template prepare<T>(
+                                std::declval<const S&>(), 1.0))> {
+};
+template <class R, class S, class T>
+using prepared_flow = typename find_flow<R, S, T>::type;
+}  // namespace detail
 
 /// What measures read along a reference, a stretch of samples at a time; one trajectory in each lane. In a
 /// bath the noise of that stretch is kept for those who follow.
@@ -49,7 +69,12 @@ class reference_along {
     // A letter O that ends the step before the stretch is still to come.
     if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
     for (std::int64_t i = 0; i < samples; ++i) {
-      advance_lanes(*system_, *reference_, x_, step, count_, at_, std::span(noise_));
+      if constexpr (detail::IsPrepared<R, S, T>) {
+        if (!flow_) flow_ = reference_->template prepare<T>(*system_, step);
+        flow_->advance(x_, count_, at_, noise_);
+      } else {
+        advance_lanes(*system_, *reference_, x_, step, count_, at_, std::span(noise_));
+      }
       for (const auto& xi : noise_) path_->add(xi);
       ++at_.step;
       const auto here = std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
@@ -123,6 +148,7 @@ class reference_along {
   path_type* path_;
   std::vector<vector<T, S::dimension>> noise_;
   std::vector<T> numbers_;
+  [[no_unique_address]] detail::prepared_flow<R, S, T> flow_;
   std::array<std::optional<failure>, lanes_of<S>> failures_{};
   std::vector<std::array<double, lanes_of<S>>> signs_;  // of the scale of each measure
 };

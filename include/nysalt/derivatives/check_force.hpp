@@ -2,13 +2,18 @@
 // A check of what users write by hand.
 #pragma once
 
-#include <stdexcept>
 #include <vector>
 
-#include "nysalt/derivatives/force_source.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/derivatives/force_check.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/phase_points.hpp"
 
 namespace nysalt {
+
+namespace detail {
+force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
+                        const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen);
+}  // namespace detail
 
 /// Compares force with -grad V, kick with force, soft_force with the force less the quadratic part (up to 64
 /// coordinates), and force_derivative with differences of the force, and looks at the symmetry of f'(q), at
@@ -25,34 +30,8 @@ namespace nysalt {
 template <SeparableSystem S>
 force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points,
                         const std::vector<vector<double, S::dimension>>& momenta,
-                        const std::vector<phase_point<double, S::dimension>>& seen = {}) {
-  if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");
-  if (momenta.size() != points.size()) {
-    throw std::invalid_argument(sentence("check_force: {} points with {} momenta; give it one for each",
-                                         points.size(), momenta.size()));
-  }
-  for (std::size_t m = 0; m < points.size(); ++m) {
-    for (const auto* x : {&points[m], &momenta[m]}) {
-      if (x->size() == size(system)) continue;
-      throw std::invalid_argument(sentence("check_force: point {} has {} coordinates, the system {}", m + 1,
-                                           x->size(), size(system)));
-    }
-  }
-  for (const auto& x : seen) {
-    if (x.q.size() == size(system) && x.p.size() == size(system)) continue;
-    throw std::invalid_argument(
-        sentence("check_force: a state has {} coordinates, the system {}", x.q.size(), size(system)));
-  }
-  const detail::force_source_of<S> source(system);
-  const std::vector<Eigen::VectorXd> at(points.begin(), points.end());
-  const std::vector<Eigen::VectorXd> with(momenta.begin(), momenta.end());
-  std::vector<Eigen::VectorXd> places = at;
-  std::vector<Eigen::VectorXd> all_momenta = with;
-  for (const auto& x : seen) {
-    places.emplace_back(x.q);
-    all_momenta.emplace_back(x.p);
-  }
-  return detail::examine_force(source, at, with, detail::lengths_of(places), detail::lengths_of(all_momenta));
+                        const phase_points& seen = {}) {
+  return detail::check_force(system, {points.begin(), points.end()}, {momenta.begin(), momenta.end()}, seen);
 }
 /// The same numbers as points and as momenta.
 template <SeparableSystem S>

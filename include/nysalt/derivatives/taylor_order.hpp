@@ -76,9 +76,8 @@ template <Word W>
 taylor_orders taylor_order(const W& word, const typename W::template coefficients<double>& coefficients) {
   std::string letters = word.letters();
   for (char& letter : letters) {
-    if (letter == rotation::letter) letter = drift::letter;
-    if (letter == soft_kick::letter) letter = kick::letter;
-    if (letter == soft_gradient_kick::letter) letter = gradient_kick::letter;
+    detail::with_letter(letter, known_letters{},
+                        [&](auto flow) { letter = decltype(flow)::same_order_as::letter; });
   }
   const run_time_word split(letters);
   const std::vector<double> as_data(coefficients.begin(), coefficients.end());

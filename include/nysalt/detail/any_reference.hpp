@@ -114,6 +114,34 @@ class typed_reference final : public any_reference {
   R reference_;
 };
 
+/// A reference of models, as a value.
+class reference_value {
+ public:
+  explicit reference_value(std::shared_ptr<const any_reference> held) : held_(std::move(held)) {}
+
+  /// Refers to the model.
+  template <class T>
+  std::unique_ptr<reference_run<T>> prepare(const model& system, double t) const {
+    return held_->prepare(system, t, std::type_identity<T>());
+  }
+  template <class T>
+  std::unique_ptr<reference_run<T>> prepare(const basic_model<1>& system, double t) const {
+    return prepare<T>(model(system), t);
+  }
+  template <class S, Scalar T>
+    requires is_model<S>
+  void advance(const S& system, phase_point<T, Eigen::Dynamic>& x, double t, const path_place& at,
+               std::span<vector<T, Eigen::Dynamic>> xi) const {
+    prepare<T>(system, t)->advance(x, lanes_in<T>, at, xi);
+  }
+  reference_value finer() const { return reference_value(held_->finer()); }
+  std::string description() const { return held_->description(); }
+  const std::shared_ptr<const any_reference>& held() const { return held_; }
+
+ private:
+  std::shared_ptr<const any_reference> held_;
+};
+
 template <class R>
 inline constexpr bool is_fine_steps = false;
 template <class M>
@@ -126,8 +154,8 @@ inline constexpr bool is_fine_paths<fine_paths<M>> = true;
 /// The library's own step words as data; any other keeps its type.
 template <SeparableSystem S, Reference<S> R>
 std::shared_ptr<const any_reference> reference_of(const S& system, const R& reference) {
-  if constexpr (std::derived_from<R, any_reference>) {
-    return reference.shared();
+  if constexpr (std::same_as<R, reference_value>) {
+    return reference.held();
   } else if constexpr (is_fine_steps<R>) {
     return small_steps(tabulated(reference.method()), reference.step(), reference.description());
   } else if constexpr (is_fine_paths<R>) {

@@ -128,8 +128,6 @@ class kernels {
   virtual T energy(const column& q, const column& p) const = 0;
 };
 
-class force_source;
-
 /// A system without its type.
 class any_system : public kernels<double>,
                    public kernels<lanes>,
@@ -145,16 +143,8 @@ class any_system : public kernels<double>,
   virtual normal_modes modes() const = 0;
   /// Of the system in its bath, or without it.
   virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;
-  /// What a check of the force asks; nothing where there is nothing that could be wrong.
-  virtual std::unique_ptr<force_source> what_to_check() const = 0;
-};
-
-/// The letters that a system serves over a scalar, beside A, B and O.
-struct letters_served {
-  bool R = false;
-  bool S = false;
-  bool G = false;
-  bool H = false;
+  /// p += c force(q) by the system's own kick.
+  virtual void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const = 0;
 };
 
 /// What is known of a system while running; concepts tell the same of its type.
@@ -175,20 +165,31 @@ struct model_facts {
   bool has_modes = false;
   bool has_quadratic_part = false;
   bool has_bands = false;
+  bool has_soft_force = false;
+  bool has_own_kick = false;
+  bool has_own_derivative = false;
+  bool has_own_velocity = false;
+  bool has_own_kinetic_energy = false;
+  bool has_potential_over_slopes = false;
+  bool has_kinetic_energy_over_slopes = false;
+  bool has_velocity_over_slopes = false;
+  bool may_be_wrong = false;  ///< force_may_be_wrong
   bool is_black_box = false;
   int derivative_calls = 1;
   const char* derivative_source = "";
-  letters_served over_double{};
-  letters_served over_lanes{};
-  letters_served over_slopes{};
-  letters_served over_lanes_with_slopes{};
+  /// The letters that the system serves, over each scalar.
+  std::string letters_over_double{};
+  std::string letters_over_lanes{};
+  std::string letters_over_slopes{};
+  std::string letters_over_lanes_with_slopes{};
 
   template <Served T>
-  const letters_served& over() const {
-    if constexpr (std::same_as<T, double>) return over_double;
-    if constexpr (std::same_as<T, lanes>) return over_lanes;
-    if constexpr (std::same_as<T, slopes>) return over_slopes;
-    if constexpr (std::same_as<T, lanes_with_slopes>) return over_lanes_with_slopes;
+  bool serves(char letter) const {
+    const std::string& letters = std::same_as<T, double>   ? letters_over_double
+                                 : std::same_as<T, lanes>  ? letters_over_lanes
+                                 : std::same_as<T, slopes> ? letters_over_slopes
+                                                           : letters_over_lanes_with_slopes;
+    return letters.find(letter) != std::string::npos;
   }
 };
 

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "nysalt/counted.hpp"
-#include "nysalt/derivatives/force_source.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/noise_seam.hpp"
+#include "nysalt/run_time_word.hpp"
 
 namespace nysalt::detail {
 
@@ -283,6 +283,10 @@ class with_kernels : public Base {
   using column = vector<T, Eigen::Dynamic>;
   using C = coefficient_of<T>;
   static constexpr bool serves = detail::serves<S, T>;
+  static constexpr bool serves_kinetic = [] {
+    if constexpr (serves) return HasKineticEnergy<S, T>;
+    return false;
+  }();
   static constexpr bool serves_potential = [] {
     if constexpr (serves) return HasPotential<S, T>;
     return false;
@@ -346,7 +350,9 @@ class with_kernels : public Base {
     }
   }
   T kinetic_energy(const column& p) const final {
-    if constexpr (serves_energy<S, T>()) {
+    if constexpr (serves_kinetic) {
+      return this->system().kinetic_energy(as_fixed<N>(p));
+    } else if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p));
     } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
       return in_each_lane(p, p,
@@ -461,23 +467,22 @@ class typed_system final : public kernels_of<S> {
       return {};
     }
   }
-  std::unique_ptr<force_source> what_to_check() const override {
-    if constexpr (force_may_be_wrong<S>) {
-      return std::make_unique<force_source_of<S>>(this->system());
+  void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
+    if constexpr (HasKick<S, double>) {
+      this->system().kick(as_fixed<S::dimension>(q), as_fixed<S::dimension>(p), c);
     } else {
-      return nullptr;
+      refuse_kernel();
     }
   }
 };
 
 template <class S, class T>
-letters_served served_over() {
-  letters_served result;
+std::string letters_served() {
+  std::string result;
   if constexpr (serves<S, T>) {
-    result.R = rotation::serves<S, T>;
-    result.S = soft_kick::serves<S, T>;
-    result.G = gradient_kick::serves<S, T>;
-    result.H = soft_gradient_kick::serves<S, T>;
+    std::apply([&]<class... L>(
+                   const L&...) { ((L::template serves<S, T> ? void(result += L::letter) : void()), ...); },
+               known_letters{});
   }
   return result;
 }
@@ -510,13 +515,22 @@ model_facts facts_of(const S& system) {
   facts.has_modes = HasModes<S>;
   facts.has_quadratic_part = HasQuadraticPart<S>;
   facts.has_bands = HasFrequencyBands<S>;
+  facts.has_soft_force = HasSoftForce<S>;
+  facts.has_own_kick = HasKick<S, double>;
+  facts.has_own_derivative = HasForceDerivative<S>;
+  facts.has_own_velocity = HasVelocity<S, double>;
+  facts.has_own_kinetic_energy = HasKineticEnergy<S, double>;
+  facts.has_potential_over_slopes = HasPotential<S, slopes>;
+  facts.has_kinetic_energy_over_slopes = HasKineticEnergy<S, slopes>;
+  facts.has_velocity_over_slopes = HasVelocity<S, slopes>;
+  facts.may_be_wrong = force_may_be_wrong<S>;
   facts.is_black_box = BlackBoxForce<S>;
   facts.derivative_calls = derivative_calls<S>;
   facts.derivative_source = derivative_source<S>();
-  facts.over_double = served_over<S, double>();
-  facts.over_lanes = served_over<S, lanes>();
-  facts.over_slopes = served_over<S, slopes>();
-  facts.over_lanes_with_slopes = served_over<S, lanes_with_slopes>();
+  facts.letters_over_double = letters_served<S, double>();
+  facts.letters_over_lanes = letters_served<S, lanes>();
+  facts.letters_over_slopes = letters_served<S, slopes>();
+  facts.letters_over_lanes_with_slopes = letters_served<S, lanes_with_slopes>();
   return facts;
 }
 

@@ -9,6 +9,7 @@
 #include "nysalt/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -21,16 +22,18 @@ class burn_in_chains {
  public:
   static constexpr int dimension = S::dimension;  ///< of the system
   /// BAOAB on the system in its bath.
-  using stepper_type = stepper<in_bath<S>, baoab::word, double, counter_noise>;
+  using method_type = std::conditional_t<ErasedSystem<S>, tabulated, baoab>;
+  using stepper_type = stepper<detail::bathed_system<S>, typename method_type::word, double, counter_noise>;
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const S& alone, double temperature, double friction, double step, std::uint64_t seed)
-      : system_(alone, bath::of_temperature(friction, temperature)),
-        stepper_(make_stepper(system_, baoab{}, step, counter_noise(seed, noise_purpose::burn_in))) {}
+      : system_(detail::put_in_bath(alone, bath::of_temperature(friction, temperature))),
+        stepper_(
+            make_stepper(system_, method_type(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
 
-  const in_bath<S>& system() const { return system_; }                 ///< the system in the chains' bath
+  const detail::bathed_system<S>& system() const { return system_; }   ///< the system in the chains' bath
   double step() const { return stepper_.step_size(); }                 ///< h of BAOAB
   double temperature() const { return system_.bath().temperature(); }  ///< kT, an energy
 
@@ -54,7 +57,7 @@ class burn_in_chains {
   }
 
  private:
-  in_bath<S> system_;
+  detail::bathed_system<S> system_;
   stepper_type stepper_;
 };
 

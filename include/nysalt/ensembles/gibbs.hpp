@@ -38,7 +38,7 @@ class gibbs {
   /// Throws std::invalid_argument if the bath has no temperature or that is zero, if an option cannot be, or
   /// if there is neither a step nor frequency_bands(); std::runtime_error if chains diverge, do not become
   /// stationary, or a check fails.
-  gibbs(const in_bath<S>& system, E from, const burn_in_options& options = {})
+  gibbs(const detail::bathed_system<S>& system, E from, const burn_in_options& options = {})
       : alone_(system.alone()),
         from_(std::move(from)),
         temperature_(detail::temperature_to_sample(system.bath())) {

@@ -15,6 +15,7 @@
 #include "nysalt/in_digits.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/sentence.hpp"
 
@@ -57,8 +58,9 @@ class one_long_trajectory {
     const auto keep = [&](std::int64_t n, double, const phase_point<double, N>& x) {
       if (n >= first) kept.push_back(x);
     };
-    const auto stepper =
-        make_stepper(system, baoab{}, step_, counter_noise(options.seed, noise_purpose::burn_in));
+    using method_type = std::conditional_t<ErasedSystem<S>, tabulated, baoab>;
+    const auto stepper = make_stepper(system, method_type(baoab{}), step_,
+                                      counter_noise(options.seed, noise_purpose::burn_in));
     const auto end = integrate(stepper, sound_start(system, from, options.seed, 0), steps, keep, every);
     if (end.diverged_at) {
       throw std::runtime_error(

@@ -13,6 +13,7 @@ namespace nysalt {
 template <System S>
 Eigen::VectorXd slowest_mode(const S& system) {
   Eigen::VectorXd weights;
+  if (!has_modes(system)) return weights;
   if constexpr (HasModes<S>) {
     const normal_modes modes = system.modes();
     Eigen::Index slowest = 0;

@@ -14,6 +14,9 @@ struct drift {
   static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = true;
   static constexpr bool additive = true;
+  static constexpr splitting splits = splitting::kinetic_and_potential;
+  static constexpr bool invertible = true;
+  using same_order_as = drift;
 
   template <System S, Scalar T>
   static constexpr bool serves = true;
@@ -41,6 +44,11 @@ struct drift {
     } else {
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * c;
     }
+  }
+
+  template <class P>
+  static void on_oscillator(const auto&, const double* c, P& q, const P& p) {
+    q += c[0] * p;
   }
 };
 

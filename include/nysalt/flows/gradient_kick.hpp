@@ -28,11 +28,29 @@ struct gradient_kick_of {
   static constexpr int force_derivatives = 1;
   static constexpr bool moves_q = false;
   static constexpr bool additive = false;  // to take it back would cost an evaluation
+  static constexpr splitting splits =
+      Field == field::soft ? splitting::quadratic_part_and_rest : splitting::kinetic_and_potential;
+  static constexpr bool invertible = true;
+  using same_order_as = gradient_kick_of<field::whole>;
+  static constexpr const char* needs =
+      Field == field::soft
+          ? detail::needs_quadratic_part
+          : "the letter G needs a quadratic kinetic energy, and a force that can be differentiated";
 
   template <System S, Scalar T>
   static constexpr bool serves =
       Field == field::soft ? HasQuadraticPart<S>&& ForceDerivativeOver<S, T, Field>
                            : HasQuadraticKinetic<S>&& ForceDerivativeOver<S, T, Field>;
+  template <System S, Scalar T>
+  static constexpr void require_served() {
+    if constexpr (Field == field::soft) {
+      detail::require_quadratic_part<serves<S, T>>();
+    } else {
+      static_assert(serves<S, T>,
+                    "nysalt: the letter G needs a quadratic kinetic energy, and a force that can be "
+                    "differentiated");
+    }
+  }
 
   template <Scalar C>
   static gradient_kick_coefficients<C> prepare(const C& b, const C& c, double h) {
@@ -48,6 +66,13 @@ struct gradient_kick_of {
     velocity<T>(system, x.f, v);
     force_along<Field, T>(system, x.q, v, g, room, reach_of_v);
     for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += x.f[i] * of_f + g[i] * of_g;
+  }
+
+  template <class P>
+  static void on_oscillator(const auto& stiffness, const double* c, const P& q, P& p) {
+    P force = -1.0 * stiffness.template times<Field>(q);
+    p += c[0] * force;
+    p += -2.0 * c[1] * stiffness.template times<Field>(force);
   }
 };
 

@@ -14,10 +14,19 @@ struct kick_of {
   static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = false;
   static constexpr bool additive = true;
+  static constexpr splitting splits =
+      Field == field::soft ? splitting::quadratic_part_and_rest : splitting::kinetic_and_potential;
+  static constexpr bool invertible = true;
+  using same_order_as = kick_of<field::whole>;
+  static constexpr const char* needs = Field == field::soft ? detail::needs_quadratic_part : "";
 
   template <System S, Scalar T>
   static constexpr bool serves = Field == field::whole ||
                                  (HasQuadraticPart<S> && ForceOver<S, T, field::soft>);
+  template <System S, Scalar T>
+  static constexpr void require_served() {
+    detail::require_quadratic_part<serves<S, T>>();
+  }
 
   template <Scalar C>
   static C prepare(const C& c, double h) {
@@ -45,6 +54,11 @@ struct kick_of {
       force_of<Field, T>(system, x.q, x.f);
       apply(system, c, x, room);
     }
+  }
+
+  template <class P>
+  static void on_oscillator(const auto& stiffness, const double* c, const P& q, P& p) {
+    p += -c[0] * stiffness.template times<Field>(q);
   }
 };
 

@@ -23,6 +23,9 @@ struct ornstein_uhlenbeck {
   static constexpr bool moves_q = false;
   static constexpr bool additive = false;  // the noise of two is not that of one
   static constexpr bool stochastic = true;
+  static constexpr splitting splits = splitting::any;
+  static constexpr bool invertible = false;
+  using same_order_as = ornstein_uhlenbeck;
 
   template <System S, Scalar T>
   static constexpr bool serves = true;

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Core>
+
+#include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include "nysalt/flow.hpp"
+#include "nysalt/flows/drift.hpp"
 #include "nysalt/quadratic_part.hpp"
 
 namespace nysalt {
+
+namespace detail {
+/// sin(part theta)/theta, and its limit.
+inline double sine_over(double theta, double part) {
+  return theta > 0.0 ? std::sin(part * theta) / theta : part;
+}
+inline Eigen::Array2d sine_over(const Eigen::Array2d& theta, double part) {
+  return {sine_over(theta[0], part), sine_over(theta[1], part)};
+}
+}  // namespace detail
 
 /// R: the flow of H_0 = p M^-1 p/2 + q K q/2 over t = c h, exactly. In the coordinates of each mode
 ///   x <- cos(omega t) x + sin(omega t)/omega y,   y <- cos(omega t) y - omega sin(omega t) x,
@@ -20,9 +35,17 @@ struct rotation {
   static constexpr bool moves_q = true;
   static constexpr bool additive = true;
   static constexpr bool reads_modes = true;
+  static constexpr splitting splits = splitting::quadratic_part_and_rest;
+  static constexpr bool invertible = true;
+  using same_order_as = drift;  // of K the conditions use that it is quadratic in p, as H_0 is
+  static constexpr const char* needs = detail::needs_quadratic_part;
 
   template <System S, Scalar T>
   static constexpr bool serves = HasQuadraticPart<S>;
+  template <System S, Scalar T>
+  static constexpr void require_served() {
+    detail::require_quadratic_part<serves<S, T>>();
+  }
 
   /// The turn of each mode over t = c h.
   template <Scalar C, int N>
@@ -73,6 +96,22 @@ struct rotation {
       q[i] += x[k] * light;
       p[i] += y[k] * heavy;
     }
+  }
+
+  template <class P>
+  static void on_oscillator(const auto& stiffness, const double* c, P& q, P& p) {
+    using std::cos;
+    using std::sin;
+    using angles = std::remove_cvref_t<decltype(stiffness.theta)>;
+    const angles& theta = stiffness.theta;
+    const angles angle = c[0] * theta;
+    const angles cosine = cos(angle);
+    const angles sine = sin(angle);
+    P turned = cosine * q;
+    turned += detail::sine_over(theta, c[0]) * p;
+    p *= cosine;
+    p += -1.0 * theta * sine * q;
+    q = turned;
   }
 };
 

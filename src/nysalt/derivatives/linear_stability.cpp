@@ -171,6 +171,10 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
   std::vector<interval> level{{0.0, last, trace.rises_at(0.0), trace.rises_at(last)}};
   while (!level.empty()) {
     std::vector<interval> several;  // extrema, perhaps
+    const auto settle = [&](const interval& one) {
+      if (one.rises_at_low == one.rises_at_high) return;
+      ends.push_back({bisect([&](double x) { return trace.rises_at(x); }, one.low, one.high), true});
+    };
     for (const auto& one : level) {
       const auto f = trace.on(one.low, one.high);
       const auto [least, most] = f.bounds();
@@ -181,17 +185,20 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
       }
       // Closer than sqrt(eps) of x, extrema differ in value by less than rounding.
       const bool is_small = one.high - one.low <= 0x1p-26 * one.high;
-      const bool ends_differ = one.rises_at_low != one.rises_at_high;
       // One turn and equal slopes: an extremum so near to an end that rounding hides its side.
-      if (f.turns(trace.rounding()) > (ends_differ ? 1 : 0) && !is_small) {
+      const int most_turns = one.rises_at_low == one.rises_at_high ? 0 : 1;
+      if (f.turns(trace.rounding()) > most_turns && !is_small) {
         several.push_back(one);
-      } else if (ends_differ) {
-        ends.push_back({bisect([&](double x) { return trace.rises_at(x); }, one.low, one.high), true});
+      } else {
+        settle(one);
       }
     }
-    // A polynomial turns less often than its degree: more intervals than that show rounding.
     level.clear();
-    if (several.size() > degree) break;
+    // A polynomial turns less often than its degree: more intervals than that show rounding.
+    if (several.size() > degree) {
+      for (const auto& one : several) settle(one);
+      break;
+    }
     for (const auto& one : several) {
       const double middle = std::midpoint(one.low, one.high);
       const bool rises = trace.rises_at(middle);

@@ -5,15 +5,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/derivatives/force_source.hpp"
+#include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/learning/some_states.hpp"
 #include "nysalt/sentence.hpp"
 
 namespace nysalt {
 
 void require_sound_force(const model& system, const flow_map_data& data) {
-  const auto source = system.what_to_check();
-  if (!source) return;
+  if (!system.facts().may_be_wrong) return;
   constexpr std::size_t enough = 4;
   std::vector<std::size_t> pairs;
   for (std::size_t k = 0; k < std::min(enough, data.all_pairs()); ++k) {
@@ -25,14 +24,8 @@ void require_sound_force(const model& system, const flow_map_data& data) {
     points.emplace_back(state.q);
     momenta.emplace_back(state.p);
   }
-  auto places = points;
-  auto all_momenta = momenta;
-  for (const auto& state : finishes_of(data, size(system), pairs)) {
-    places.emplace_back(state.q);
-    all_momenta.emplace_back(state.p);
-  }
-  const force_check found = detail::examine_force(*source, points, momenta, detail::lengths_of(places),
-                                                  detail::lengths_of(all_momenta));
+  const force_check found =
+      detail::check_force(system, points, momenta, finishes_of(data, size(system), pairs));
   if (found.passed()) return;
   throw std::invalid_argument(sentence("learn: {} (system {}); mend it, or learn with check_force = false",
                                        found.report(), describe(system)));

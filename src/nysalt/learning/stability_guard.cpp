@@ -49,7 +49,7 @@ stability_guard::stability_guard(const model& system, const phase_points& states
   if (has_frequency_bands(system)) declare(system.frequency_bands());
   look_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
              has_quadratic_kinetic(system));
-  const bool has_soft_derivative = system.facts().over_double.H;
+  const bool has_soft_derivative = system.facts().serves<double>(soft_gradient_kick::letter);
   if (has_soft_derivative && rotations && states.size() > 0) watch_rotations(system, states);
 }
 

@@ -44,7 +44,7 @@ int learn(const learn_command& command, const common_settings& common) {
   if (bad == nullptr) return done;
   const bool withheld = !command.output.empty() && !keep;
   warn(message("the fit at step {} is not usable: {}{}", bad->fit.step, bad->fit.reason,
-                   withheld ? "; the scheme file was not written (--force writes it)" : ""));
+               withheld ? "; the scheme file was not written (--force writes it)" : ""));
   return no_result;
 }
 

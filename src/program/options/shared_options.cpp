@@ -57,7 +57,8 @@ void add_search(CLI::App& command, learn_settings& how, const std::string& prefi
 }
 
 void add_horizon(CLI::App& command, learn_settings& how, const std::string& prefix) {
-  add_number(command, prefix + "horizon", how.horizon, "length of each [0.5, or ten steps if that is longer]");
+  add_number(command, prefix + "horizon", how.horizon,
+             "length of each [0.5, or ten steps if that is longer]");
 }
 
 void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {

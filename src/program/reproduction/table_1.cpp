@@ -20,7 +20,7 @@ namespace nysalt::program::paper {
 
 namespace {
 
-using pairs = flow_map_data<fpu_chain<3>::dimension>;
+using pairs = flow_map_data;
 using parameters = std::vector<double>;
 
 struct printed_row {

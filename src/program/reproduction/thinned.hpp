@@ -12,9 +12,8 @@ namespace nysalt::program::paper {
 
 /// The same trajectories at `factor` times the step, the last pair ending at `horizon` at most. Checks of the
 /// reference are of the old step: none. For data without noise.
-template <int N>
-flow_map_data<N> thinned(const flow_map_data<N>& data, std::size_t factor, double horizon) {
-  flow_map_data<N> result = data;
+inline flow_map_data thinned(const flow_map_data& data, std::size_t factor, double horizon) {
+  flow_map_data result = data;
   result.step = data.step * static_cast<double>(factor);
   result.start.clear();
   result.finish.clear();

@@ -3,25 +3,24 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "../refusal.hpp"
 
 namespace nysalt::program {
 
 namespace {
 template <int Pairs>
 std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& its) {
-  using model = bundled_model<fpu_chain<Pairs>, fpu_law<Pairs>>;
   const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
-  return std::make_unique<model>(chain, its, fpu_law<Pairs>(chain, its.spread),
-                                 model_facts{parameters, chain.omega(), "stiff_energy"});
+  return make_bundled(chain, its, fpu_law<Pairs>(chain, its.spread),
+                      {parameters, chain.omega(), "stiff_energy"});
 }
 }  // namespace
 
 std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
   const fpu_chain<3> chain(omega);
   const json parameters{{"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
-  return std::make_unique<bundled_model<fpu_chain<3>, fpu_law<3>>>(
-      chain, surroundings{bath::of_sigma(0.0, 0.0), start::law}, fpu_law<3>::soft_dominated(chain),
-      model_facts{parameters, omega, "stiff_energy"});
+  return make_bundled(chain, surroundings{bath::of_sigma(0.0, 0.0), start::law},
+                      fpu_law<3>::soft_dominated(chain), {parameters, omega, "stiff_energy"});
 }
 
 std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its) {

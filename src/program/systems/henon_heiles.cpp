@@ -12,9 +12,8 @@ std::unique_ptr<bundled_system> make_henon_heiles(const surroundings& its) {
   const vector<double, 2> rest(0.0, 0.0);
   const normal_around<2> law({rest, rest}, 0.1 * its.spread, 0.1 * its.spread);
   const henon_heiles system;
-  return std::make_unique<bundled_model<henon_heiles, normal_around<2>>>(
-      system, its, law,
-      model_facts{{{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
+  return make_bundled(system, its, law,
+                      {{{"name", "henon_heiles"}}, system.frequency_bands().back().high, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -3,6 +3,7 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "../refusal.hpp"
 #include "nysalt/ensembles/kepler_law.hpp"
 
 namespace nysalt::program {
@@ -14,8 +15,7 @@ std::unique_ptr<bundled_system> make_kepler(double eccentricity, const surroundi
   // V'' = 2/r^3 at the pericentre, r = 1 - e.
   const double fastest = std::sqrt(2.0 / std::pow(1.0 - eccentricity, 3));
   const json parameters{{"name", "kepler"}, {"eccentricity", eccentricity}};
-  return std::make_unique<bundled_model<kepler, kepler_law>>(kepler(), its, kepler_law(eccentricity),
-                                                             model_facts{parameters, fastest, "energy"});
+  return make_bundled(kepler(), its, kepler_law(eccentricity), {parameters, fastest, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -3,6 +3,7 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "../refusal.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 
 namespace nysalt::program {
@@ -29,9 +30,8 @@ std::unique_ptr<bundled_system> make_lennard_jones(std::int64_t space, std::int6
   const lennard_jones<> system(space, atoms);
   using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
   const json parameters{{"name", "lennard_jones"}, {"atoms", atoms}, {"space", space}};
-  return std::make_unique<bundled_model<lennard_jones<>, law>>(
-      system, its, law(system, temperature),
-      model_facts{parameters, frequency_at_turning_point(temperature), "energy"});
+  return make_bundled(system, its, law(system, temperature),
+                      {parameters, frequency_at_turning_point(temperature), "energy"});
 }
 
 }  // namespace nysalt::program

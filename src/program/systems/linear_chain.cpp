@@ -3,6 +3,7 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "../refusal.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 
 namespace nysalt::program {
@@ -16,9 +17,8 @@ std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double sp
   using law = normal_around<Eigen::Dynamic>;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
   const json parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
-  return std::make_unique<bundled_model<linear_chain, law>>(
-      chain, its, law({rest, rest}, its.spread / fastest, its.spread),
-      model_facts{parameters, fastest, "energy"});
+  return make_bundled<true>(chain, its, law({rest, rest}, its.spread / fastest, its.spread),
+                            {parameters, fastest, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -2,6 +2,7 @@
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
 
 namespace nysalt::program {
 
@@ -11,8 +12,7 @@ std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings
   const vector<double, 1> rest(0.0);
   const normal_around<1> law({rest, rest}, its.spread / omega, its.spread);
   const json parameters{{"name", "oscillator"}, {"omega", omega}};
-  return std::make_unique<bundled_model<harmonic_oscillator, normal_around<1>>>(
-      oscillator, its, law, model_facts{parameters, omega, "energy"});
+  return make_bundled<true>(oscillator, its, law, {parameters, omega, "energy"});
 }
 
 }  // namespace nysalt::program

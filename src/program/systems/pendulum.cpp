@@ -11,8 +11,7 @@ std::unique_ptr<bundled_system> make_pendulum(const surroundings& its) {
   // Swings: it goes over the top from |p| = 2 at the bottom.
   const vector<double, 1> rest(0.0);
   const normal_around<1> law({rest, rest}, 0.5 * its.spread, 0.5 * its.spread);
-  return std::make_unique<bundled_model<pendulum, normal_around<1>>>(
-      pendulum(), its, law, model_facts{{{"name", "pendulum"}}, 1.0, "energy"});
+  return make_bundled(pendulum(), its, law, {{{"name", "pendulum"}}, 1.0, "energy"});
 }
 
 }  // namespace nysalt::program

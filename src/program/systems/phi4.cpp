@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "../refusal.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 
@@ -19,8 +20,7 @@ std::unique_ptr<bundled_system> make_phi4(std::int64_t masses, const surrounding
   const double well_energy = 12.5 * p * p + std::pow(5.0 * q, 4) / 4.0;
   const double fastest = chain.frequency_bands(well_energy).back().high;
   const json parameters{{"name", "phi4"}, {"masses", masses}};
-  return std::make_unique<bundled_model<phi4_chain<>, law>>(chain, its, law({rest, rest}, q, p),
-                                                            model_facts{parameters, fastest, "energy"});
+  return make_bundled(chain, its, law({rest, rest}, q, p), {parameters, fastest, "energy"});
 }
 
 }  // namespace nysalt::program

@@ -1,27 +1,129 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compares, at one point after the other, what a system says of its force in several ways.
+#include "nysalt/derivatives/check_force.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
-#include "nysalt/derivatives/force_check.hpp"
-#include "nysalt/derivatives/force_source.hpp"
+#include "nysalt/derivatives/differences.hpp"
+#include "nysalt/quadratic_part.hpp"
+#include "nysalt/sentence.hpp"
 
 namespace nysalt::detail {
 
+namespace {
+
+/// What a model says of its force, and derivatives of it: automatic ones, or differences.
+class force_source {
+ public:
+  using column = Eigen::VectorXd;
+
+  explicit force_source(const model& system)
+      : size(system.size()),
+        has_potential(system.facts().has_potential),
+        has_kick(system.facts().has_own_kick),
+        has_soft_force(system.facts().has_quadratic_part),
+        has_derivative(system.facts().has_own_derivative),
+        has_velocity(system.facts().has_own_velocity),
+        has_kinetic_energy(system.facts().has_own_kinetic_energy),
+        has_exact_potential(system.facts().has_potential_over_slopes && !system.facts().is_black_box),
+        has_exact_force(!system.facts().is_black_box),
+        has_exact_velocity(has_kinetic_energy ? system.facts().has_kinetic_energy_over_slopes
+                                              : system.facts().has_velocity_over_slopes),
+        system_(system) {}
+
+  // Which of the functions below there are, and whether slopes are automatic derivatives.
+  Eigen::Index size;
+  bool has_potential;
+  bool has_kick;
+  bool has_soft_force;
+  bool has_derivative;
+  bool has_velocity;
+  bool has_kinetic_energy;
+  bool has_exact_potential;
+  bool has_exact_force;
+  bool has_exact_velocity;
+
+  void force(const column& q, column& f) const { system_.force(q, f); }
+  /// Of the force along v, which is as long as a displacement of the motion, as all directions are.
+  void force_slope(const column& q, const column& v, column& g) const {
+    if (system_.facts().is_black_box) {
+      column f(q.size());
+      system_.force(q, f);
+      system_.directional_derivative(q, v, f, g);
+    } else {
+      vector<slopes, Eigen::Dynamic> result(q.size());
+      system_.force(lifted(q, v), result);
+      g = first_slopes(result);
+    }
+  }
+  double potential_slope(const column& q, const column& v) const {
+    if (system_.facts().has_potential_over_slopes) return system_.potential(lifted(q, v)).derivative[0];
+    if (!has_potential) return 0.0;
+    return difference_along([&](const column& x) { return system_.potential(x); }, q, v);
+  }
+  /// p += force(q)/2
+  void kick(const column& q, column& p) const { system_.own_kick(q, p, 0.5); }
+  void soft_force(const column& q, column& f) const { system_.soft_force(q, f); }
+  std::shared_ptr<const quadratic_part> quadratic() const { return quadratic_part::of(system_); }
+  void derivative(const column& q, const column& v, column& g) const { system_.force_derivative(q, v, g); }
+  void velocity(const column& p, column& v) const { system_.kernels<double>().velocity(p, v); }
+  void velocity_slope(const column& p, const column& v, column& g) const {
+    if (system_.facts().has_velocity_over_slopes) {
+      vector<slopes, Eigen::Dynamic> result(p.size());
+      system_.kernels<slopes>().velocity(lifted(p, v), result);
+      g = first_slopes(result);
+    } else {
+      const auto at = [&](const column& x) {
+        column result(x.size());
+        velocity(x, result);
+        return result;
+      };
+      g = difference_along(at, p, v);
+    }
+  }
+  double kinetic_slope(const column& p, const column& v) const {
+    if (system_.facts().has_kinetic_energy_over_slopes) {
+      return system_.kernels<slopes>().kinetic_energy(lifted(p, v)).derivative[0];
+    }
+    const auto at = [&](const column& x) { return system_.kernels<double>().kinetic_energy(x); };
+    return has_kinetic_energy ? difference_along(at, p, v) : 0.0;
+  }
+
+ private:
+  static vector<slopes, Eigen::Dynamic> lifted(const column& x, const column& v) {
+    vector<slopes, Eigen::Dynamic> result(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      result[i] = slopes(x[i]);
+      result[i].derivative[0] = v[i];
+    }
+    return result;
+  }
+  static column first_slopes(const vector<slopes, Eigen::Dynamic>& x) {
+    column result(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = x[i].derivative[0];
+    return result;
+  }
+
+  model system_;
+};
+
 /// Exact derivatives of a formula of a hundred operations, whose terms exceed their sum up to 7e5 times, err
 /// by less than 100 * 7e5 eps = sqrt(eps) of it.
-inline double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double>::epsilon()); }
+double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double>::epsilon()); }
 
 /// Of so many coordinates each is looked along.
-inline constexpr Eigen::Index looked_along_singly = 64;
+constexpr Eigen::Index looked_along_singly = 64;
 
 /// Along coordinates, each as far as its length, or four at random, the same at every point. A defect d of
 /// some coordinates is seen along these as |d|/sqrt(N) or so; a tolerance of 2e-4, that of differences, still
 /// shows one whole coordinate in 10^6. Sums over N terms of either sign err by eps sqrt(N) of their size.
-inline std::vector<Eigen::VectorXd> directions_to_look_along(const Eigen::VectorXd& lengths) {
+std::vector<Eigen::VectorXd> directions_to_look_along(const Eigen::VectorXd& lengths) {
   const Eigen::Index n = lengths.size();
   std::vector<Eigen::VectorXd> result;
   if (n <= looked_along_singly) {
@@ -197,12 +299,38 @@ class force_examination {
   double largest_velocity_slope_ = largest_force_;
 };
 
+}  // namespace
+
 /// At all points; what fails is looked at once more a little beside them.
-force_check examine_force(const force_source& its, const std::vector<Eigen::VectorXd>& points,
-                          const std::vector<Eigen::VectorXd>& momenta, const Eigen::VectorXd& lengths,
-                          const Eigen::VectorXd& lengths_of_momenta) {
+force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
+                        const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen) {
+  if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");
+  if (momenta.size() != points.size()) {
+    throw std::invalid_argument(sentence("check_force: {} points with {} momenta; give it one for each",
+                                         points.size(), momenta.size()));
+  }
+  for (std::size_t m = 0; m < points.size(); ++m) {
+    for (const auto* x : {&points[m], &momenta[m]}) {
+      if (x->size() == size(system)) continue;
+      throw std::invalid_argument(sentence("check_force: point {} has {} coordinates, the system {}", m + 1,
+                                           x->size(), size(system)));
+    }
+  }
+  if (!seen.empty() && seen.dimension() != size(system)) {
+    throw std::invalid_argument(
+        sentence("check_force: a state has {} coordinates, the system {}", seen.dimension(), size(system)));
+  }
+  std::vector<Eigen::VectorXd> places = points;
+  std::vector<Eigen::VectorXd> all_momenta = momenta;
+  for (const auto& x : seen) {
+    places.emplace_back(x.q);
+    all_momenta.emplace_back(x.p);
+  }
+  const Eigen::VectorXd lengths = lengths_of(places);
+  const Eigen::VectorXd lengths_of_momenta = lengths_of(all_momenta);
+  const force_source source(system);
   const auto examined = [&](double away) {
-    force_examination examination(its, lengths, lengths_of_momenta);
+    force_examination examination(source, lengths, lengths_of_momenta);
     std::minstd_rand random(1);
     const auto beside = [&](Eigen::VectorXd x, const Eigen::VectorXd& length) {
       for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += (random() % 2 == 0 ? away : -away) * length[i];
