@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/one_step.hpp"
+#include "../support/refusal.hpp"
 #include "../support/sample_blocks.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -106,4 +107,6 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   BOOST_TEST(loss.evaluations() == 2 * 15 * (1 + 2 * 2));
   squares_at(loss, theta);  // and count one each
   BOOST_TEST(loss.evaluations() == 2 * (2 * 15 * (1 + 2 * 2)));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { one_step<nystrom, packs>(box, data, measure); },
+                                            {"black_box", "after_steps<double>"}));
 }
