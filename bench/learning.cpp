@@ -33,7 +33,7 @@ class problem {
         measure_(chain_, data_, coordinates::qp) {}
 
   minimum compressed() const {
-    const test::one_step<nystrom, chain_type> loss(chain_, data_, measure_);
+    const test::one_step<nystrom> loss(chain_, data_, measure_);
     return minimise(objective_of(loss), test::defined_for<nystrom>(), start_, {0, 1}, iterations_);
   }
   minimum block_per_sample() const {
@@ -45,8 +45,8 @@ class problem {
  private:
   static constexpr int iterations_ = 200;
   chain_type chain_{50.0};
-  flow_map_data<6> data_;
-  metric<6> measure_;
+  flow_map_data data_;
+  metric measure_;
   Eigen::VectorXd start_ = column_of(nystrom::start());
 };
 

@@ -7,7 +7,6 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/learning/extend_data.hpp"
 #include "nysalt/learning/require_valid.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_paths.hpp"
@@ -29,14 +28,14 @@ using wrong = std::invalid_argument;
 using system_type = in_bath<fpu_chain<3>>;
 using numbers = vector<double, 6>;
 constexpr double fine = 1e-3;
-const fpu_chain<3> alone(50.0);
-const fpu_law<3> law(alone);
-const system_type chain(alone, bath::of_sigma(2.0, 0.3));
+const fpu_chain<3> without_bath(50.0);
+const fpu_law<3> law(without_bath);
+const system_type chain(without_bath, bath::of_sigma(2.0, 0.3));
 
-flow_map_data<6> made(const data_options& options, const auto& system) {
+flow_map_data made(const data_options& options, const auto& system) {
   return make_flow_map_data(system, law, fine_paths(fine), options);
 }
-flow_map_data<6> made(const data_options& options) { return made(options, chain); }
+flow_map_data made(const data_options& options) { return made(options, chain); }
 
 /// The noise of a path from one fine step to another, drawn again.
 numbers noise_between(std::uint64_t seed, std::uint64_t trajectory, std::int64_t from, std::int64_t to) {
@@ -48,7 +47,7 @@ numbers noise_between(std::uint64_t seed, std::uint64_t trajectory, std::int64_t
 }
 
 /// One number of each pair.
-std::vector<double> column(const flow_map_data<6>& data, std::size_t part, Eigen::Index i) {
+std::vector<double> column(const flow_map_data& data, std::size_t part, Eigen::Index i) {
   std::vector<double> result;
   const auto parts = static_cast<std::size_t>(data.noise_parts);
   for (std::size_t n = 0; n < data.pairs(); ++n) result.push_back(data.noise[n * parts + part][i]);
@@ -83,7 +82,7 @@ BOOST_AUTO_TEST_CASE(a_coarse_step_with_the_noise_of_the_data_is_near_and_withou
   const auto distances = [&](std::size_t shift) {
     double sum = 0.0;
     for (std::size_t n = 0; n + shift < data.pairs(); ++n) {
-      auto x = data.start[n];
+      phase_point<double, 6> x = data.start[n];
       numbers f;
       force<double>(chain, x.q, f);
       x.p += f * (c[0] * data.step);
@@ -108,7 +107,7 @@ BOOST_AUTO_TEST_CASE(parts_change_no_state_and_are_of_one_path) {
     return made({.step = 0.012, .horizon = 0.06, .trajectories = 5, .seed = 7, .noise_parts = parts});
   };
   const auto none = with(0);
-  BOOST_TEST(none.noise.empty());
+  BOOST_TEST(none.noise.size() == 0U);
   const auto one = with(1);
   for (const int parts : {1, 2, 3, 4, 6, 12}) {
     const auto data = with(parts);
@@ -116,9 +115,8 @@ BOOST_AUTO_TEST_CASE(parts_change_no_state_and_are_of_one_path) {
     double worst = 0.0;
     for (std::size_t n = 0; n < data.pairs(); ++n) {
       BOOST_TEST(same_bits(data.finish[n], none.finish[n]));
-      numbers whole;
-      coarse_graining(2.0 * 0.012 / parts)
-          .over(std::span<const numbers>(data.noise).subspan(n * count, count), whole);
+      Eigen::VectorXd whole(6);
+      coarse_graining(2.0 * 0.012 / parts).over(data.noise, n * count, count, whole);
       worst = std::max(worst, (whole - one.noise[n]).cwiseAbs().maxCoeff());
     }
     BOOST_TEST(worst <= 12 * 4 * eps);
@@ -167,7 +165,7 @@ BOOST_AUTO_TEST_CASE(checks_see_the_same_path_at_half_the_step) {
   BOOST_TEST(data.finer.size() == 16U);  // one somewhere in each sixteenth of 105
   for (const auto& [pair, finish] : data.finer) {
     const auto finer = [&, first = pair](const path_place& at) {
-      auto x = data.start[first];
+      phase_point<double, 6> x = data.start[first];
       fine_paths(fine).finer().advance(chain, x, 0.012, at, std::span<numbers>());
       return x;
     };
@@ -188,8 +186,8 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
     const data_options options{.step = 0.012, .trajectories = 1, .noise_parts = parts};
     return refuses<wrong>([&] { make_flow_map_data(system, law, reference, options); }, words);
   };
-  BOOST_TEST(refused(alone, fine_steps<>(fine), 1, {"srkn11b", "no noise", "take fine_paths"}));
-  BOOST_TEST(!refused(alone, fine_steps<>(fine), 0, {}));
+  BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "no noise", "take fine_paths"}));
+  BOOST_TEST(!refused(without_bath, fine_steps<>(fine), 0, {}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "no letter O"}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"no noise", "take fine_paths"}));
   BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in 5 equal parts", "fine step 0.001"}));
@@ -211,7 +209,7 @@ BOOST_AUTO_TEST_CASE(an_exact_flow_is_of_no_bath) {
 BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
   data_options options{.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 3};
   const auto at_once = made(options);
-  flow_map_data<6> grown;
+  flow_map_data grown;
   for (const std::int64_t trajectories : {5, 13, 21}) {
     options.trajectories = trajectories;
     extend_data(chain, law, fine_paths(fine), options, grown);
@@ -230,7 +228,7 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
   grown.finer = at_once.finer;
   grown.evaluations = at_once.evaluations;
   BOOST_TEST(same_bits(grown, at_once));
-  flow_map_data<6> again;
+  flow_map_data again;
   extend_data(chain, law, fine_paths(fine), options, again);
   BOOST_TEST(same_bits(again, at_once));
   options.trajectories = 4;
@@ -246,10 +244,10 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
     return refuses<wrong>([&] { require_valid(data, chain); }, words);
   };
   BOOST_TEST(!refused([](auto&) {}, {}));
-  BOOST_TEST(refused([](auto& d) { d.noise.pop_back(); }, {"10 pairs with noise in 2 parts hold 19"}));
+  BOOST_TEST(refused([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts hold 19"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
   BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },
                      {"not finite", "coordinate 3 of noise 13 is nan", "in pair 6 of trajectory 1"}));
-  BOOST_TEST(refuses<wrong>([&] { require_valid(whole, alone); }, {"in bath(friction=2"}));
+  BOOST_TEST(refuses<wrong>([&] { require_valid(whole, without_bath); }, {"in bath(friction=2"}));
 }

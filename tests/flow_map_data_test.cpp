@@ -31,7 +31,7 @@ namespace {
 using wrong = std::invalid_argument;
 const fpu_chain<3> chain(50.0);
 const fpu_law<3> law(chain);
-flow_map_data<6> made(const data_options& options) {
+flow_map_data made(const data_options& options) {
   return make_flow_map_data(chain, law, fine_steps<>(1e-3), options);
 }
 
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(pairs_follow_the_reference_trajectory_by_trajectory) {
       BOOST_TEST((data.finish[n].q == data.start[n + 1].q));
     }
   }
-  auto x = data.start[4];
+  phase_point<double, 6> x = data.start[4];
   fine_steps<>(1e-3).advance(chain, x, 0.02);
   BOOST_TEST((x.p == data.finish[4].p));
   BOOST_TEST((data.start[5].q != data.finish[4].q));  // a new trajectory begins there
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
   BOOST_TEST(refused([](auto& d) { d.finer[0].first = 10; }, {"not whole", "pair 10", "there are 10"}));
   BOOST_TEST(refused([=](auto& d) { d.step = nan; }, {"step nan"}));
   BOOST_TEST(refused([](auto& d) { d.step = 0.0; }, {"step 0"}));
-  BOOST_TEST(refused([](auto& d) { d.finish.pop_back(); }, {"not whole", "9 finishes"}));
+  BOOST_TEST(refused([](auto& d) { d.finish.resize(9); }, {"not whole", "9 finishes"}));
   BOOST_TEST(refused([](auto& d) { d.first_of.clear(); }, {"not whole", "0 trajectories"}));
   BOOST_TEST(refused([](auto& d) { d = {}; }, {"the data are of"}));
   BOOST_TEST(refused([](auto& d) { d.first_of.back() = 3; }, {"not whole"}));
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
   for (const auto& [pair, finish] : data.finer) {
     BOOST_TEST(checked.insert(pair).second);
     BOOST_TEST(sixteenths.insert((16 * pair + 15) / 205).second);
-    auto x = data.start[pair];
+    phase_point<double, 6> x = data.start[pair];
     fine_steps<>(5e-4).advance(chain, x, 0.02);
     BOOST_TEST((x.q == finish.q));
     BOOST_TEST((x.q != data.finish[pair].q));  // that is another step
@@ -256,7 +256,7 @@ BOOST_AUTO_TEST_CASE(trajectories_may_begin_with_any_number) {
 }
 
 BOOST_AUTO_TEST_CASE(a_pair_knows_its_trajectory) {
-  flow_map_data<1> data;
+  flow_map_data data;
   data.first_of = {0, 2, 2, 5};
   BOOST_TEST(data.trajectory_of(0) == 0U);
   BOOST_TEST(data.trajectory_of(1) == 0U);

@@ -84,12 +84,12 @@ BOOST_AUTO_TEST_CASE(motion_that_is_not_confined_is_left_out) {
     return phase_point<double, 2>{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, speed)};
   };
   const auto left = trial_run(henon_heiles{}, tabulated(verlet{}), 0.05,
-                              {starting_with(0.3), starting_with(0.8)}, {.steps = 5000});
+                              std::vector{starting_with(0.3), starting_with(0.8)}, {.steps = 5000});
   BOOST_TEST(left.unconfined == 1);
   BOOST_TEST(left.passed(), left.report());
   // At a step beyond the window the confined one is lost as well, and that counts.
   const auto lost = trial_run(henon_heiles{}, tabulated(verlet{}), 2.1,
-                              {starting_with(0.3), starting_with(0.8)}, {.steps = 5000});
+                              std::vector{starting_with(0.3), starting_with(0.8)}, {.steps = 5000});
   BOOST_TEST(lost.diverged == 1);
   BOOST_TEST(!lost.passed());
 }

@@ -27,7 +27,7 @@ constexpr double h = 0.01;
 constexpr std::int64_t steps = 16;  // of a trajectory, each a pair
 const fpu_chain<3> chain(50.0);
 
-using data_type = flow_map_data<6>;
+using data_type = flow_map_data;
 
 data_type make_data(const size_of_work& size, std::uint64_t seed) {
   return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),

@@ -2,6 +2,7 @@
 // Many vectors, or points of phase space, of one dimension that is known while running.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <type_traits>
@@ -62,16 +63,18 @@ class vector_list {
   Eigen::Map<const Eigen::VectorXd> operator[](std::size_t i) const {
     return {numbers_.data() + offset(i), dimension_};
   }
-  /// Behind those that there are, of their dimension.
+  /// Behind those that there are, of their dimension; x may be one of them.
   void push_back(const auto& x) {
-    resize(size_ + 1, x.size());
-    (*this)[size_ - 1] = x;
+    const Eigen::VectorXd copy = x;
+    resize(size_ + 1, copy.size());
+    (*this)[size_ - 1] = copy;
   }
   void append(const vector_list& more) {
-    if (more.size() == 0) return;
-    numbers_.insert(numbers_.end(), more.numbers_.begin(), more.numbers_.end());
-    dimension_ = more.dimension_;
-    size_ += more.size_;
+    const std::size_t further = more.size_;
+    const std::size_t count = more.numbers_.size();
+    if (further == 0) return;
+    resize(size_ + further, more.dimension_);
+    std::copy_n(more.numbers_.begin(), count, numbers_.end() - static_cast<std::ptrdiff_t>(count));
   }
   auto begin() { return detail::list_iterator(this, 0); }
   auto end() { return detail::list_iterator(this, size_); }
@@ -143,8 +146,9 @@ class phase_points {
   }
   /// Behind those that there are, of their dimension.
   void push_back(const auto& x) {
+    const Eigen::VectorXd p = x.p;  // x may be one of them
     columns_.push_back(x.q);
-    columns_.push_back(x.p);
+    columns_.push_back(p);
   }
   void append(const phase_points& more) { columns_.append(more.columns_); }
   /// Puts a point, which has q and p, into a place.

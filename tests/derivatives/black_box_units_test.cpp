@@ -21,12 +21,12 @@ using namespace nysalt::test;
 namespace {
 
 template <int N>
-struct both {
+struct in_both {
   boxed_wells<N> boxed;
   open_wells<N> open;
   std::vector<phase_point<double, N>> states;
 
-  explicit both(const units& its) {
+  explicit in_both(const units& its) {
     boxed.its = its;
     open.its = its;
     const starts_in_units<N> starts(boxed);
@@ -63,7 +63,7 @@ vector<double, N> by_absolute_step(const boxed_wells<N>& system, const vector<do
 
 template <int N>
 void check_derivatives(const units& its) {
-  const both<N> wells(its);
+  const in_both<N> wells(its);
   const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
   lifted_room<double, N> room(N);
   for (std::size_t n = 0; n < wells.states.size(); ++n) {
@@ -96,7 +96,7 @@ void check_derivatives(const units& its) {
 
 template <int N>
 void check_kicks(const units& its) {
-  const both<N> wells(its);
+  const in_both<N> wells(its);
   const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
   for (const double h : {0.1, 0.3, 0.5}) {  // wells that are bound to others have frequencies up to some 4
     for (const auto& x : wells.states) {
@@ -129,7 +129,7 @@ void check_kicks(const units& its) {
 
 template <int N>
 void check_checks(const units& its) {
-  const both<N> wells(its);
+  const in_both<N> wells(its);
   const auto points = wells.points();
   const auto right = check_force(wells.boxed, points);
   BOOST_TEST(right.passed(), right.report());
@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(all_units_are_alike) {
 // exact derivatives.
 BOOST_AUTO_TEST_CASE(gradient_kicks_of_a_black_box_are_reversible) {
   for (const units& its : some_units()) {
-    const both<2> wells(its);
+    const in_both<2> wells(its);
     for (const auto& x : wells.states) {
       auto y = x;
       const auto stepper = make_stepper(wells.boxed, chin4a(), 0.3 * its.time);
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_of_a_black_box_are_reversible) {
 
 BOOST_AUTO_TEST_CASE(one_point_is_looked_at_as_far_as_it_is_from_the_origin) {
   for (const double length : {1e-10, 1e-4, 1.0, 1e10}) {
-    const both<2> wells({.length = length});
+    const in_both<2> wells({.length = length});
     for (const auto& q : wells.points()) {
       BOOST_TEST(check_force(wells.boxed, {q}).passed());
       auto wrong = wells.boxed;

@@ -9,6 +9,7 @@
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learner.hpp"
+#include "nysalt/losses/own_loss.hpp"
 
 namespace nysalt::test {
 
@@ -24,8 +25,8 @@ void compare_searches(const S& system, const auto& starts, const auto& reference
                       const std::vector<Eigen::Index>& free) {
   const auto data = make_flow_map_data(system, starts, reference,
                                        {.step = step, .horizon = 7.0 * step, .trajectories = 30});
-  const metric<S::dimension> measure(system, data, coordinates::qp);
-  const one_step<F, S> loss(system, data, measure);
+  const metric measure(system, data, coordinates::qp);
+  const one_step<F, scalar_of_passes<S>> loss(system, data, measure);
   const sample_blocks<F, S> blocks(system, data, measure);
   const Eigen::VectorXd start = column_of(F::start());
   const auto small = minimise(objective_of(loss), defined_for<F>(), start, free, 200);

@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
   const auto data = make_flow_map_data(system, starts, fine_steps<>(0.02),
                                        {.step = 0.4, .horizon = 2.0, .trajectories = 7});
-  const metric<2> measure(system, data, coordinates::qp);
-  const one_step<nystrom, henon_heiles> loss(system, data, measure);
+  const metric measure(system, data, coordinates::qp);
+  const one_step<nystrom> loss(system, data, measure);
   const sample_blocks<nystrom, henon_heiles> pairs(system, data, measure);
   draws random;
   for (int n = 0; n < 5; ++n) {

@@ -11,6 +11,10 @@
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/learner.hpp"
+#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 
@@ -24,7 +28,7 @@ constexpr double h = 0.8;
 const henon_heiles galaxy;
 
 struct data_sets {
-  flow_map_data<2> data, held_out;
+  flow_map_data data, held_out;
 };
 data_sets made_by(const auto& reference, int threads = 1) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.15, 0.2);
@@ -39,8 +43,8 @@ data_sets made_by(const auto& reference, int threads = 1) {
 /// How far theta can be off where the minimum is zero but for rounding: residuals of some 100 roundings, in
 /// units of increments of .1 or more, over the least singular value of the Jacobian.
 double recovery_error(const data_sets& sets, const run_time_family& family, const Eigen::VectorXd& theta) {
-  const metric<2> measure(galaxy, sets.data, coordinates::qp);
-  const after_steps<henon_heiles> loss(family, galaxy, sets.data, state_error<henon_heiles>(measure));
+  const metric measure(galaxy, sets.data, coordinates::qp);
+  const after_steps loss(family, galaxy, sets.data, state_error(measure));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares_at(loss, theta).normal_matrix);
   return std::sqrt(4.0) * 100.0 * eps / 0.1 / std::sqrt(solver.eigenvalues()[0]);
 }

@@ -15,8 +15,8 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
   const harmonic_oscillator oscillator(2.0);
   const auto data = make_flow_map_data(oscillator, around_rest(oscillator), exact_linear(oscillator),
                                        {.step = 0.5, .horizon = 2.0, .trajectories = 20});
-  const metric<1> measure(oscillator, data, coordinates::qp);
-  const one_step<aba4, harmonic_oscillator> loss(oscillator, data, measure);
+  const metric measure(oscillator, data, coordinates::qp);
+  const one_step<aba4> loss(oscillator, data, measure);
   const sample_blocks<aba4, harmonic_oscillator> blocks(oscillator, data, measure);
   const auto fit = learn(aba4{}, oscillator, data, data);
   BOOST_TEST_CONTEXT(fit.summary.full()) {

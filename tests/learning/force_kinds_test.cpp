@@ -51,7 +51,7 @@ struct by_black_box_with_derivative : by_black_box {
 
 const by_force exact;
 
-flow_map_data<1> data_of(std::uint64_t seed) {
+flow_map_data data_of(std::uint64_t seed) {
   const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
   return make_flow_map_data(exact, starts, fine_steps<>(0.02),
                             {.step = 0.6, .horizon = 3.0, .trajectories = 40, .seed = seed});
@@ -59,9 +59,9 @@ flow_map_data<1> data_of(std::uint64_t seed) {
 
 /// How far theta moves where every derivative of a residual is off by `relative` of the largest: the gradient
 /// moves by 2 |r| |dJ|, and theta by that over the smallest curvature.
-double allowed(const flow_map_data<1>& data, const parameters_of<nystrom>& theta, double relative) {
-  const metric<1> measure(exact, data, coordinates::qp);
-  const one_step<nystrom, by_force> loss(exact, data, measure);
+double allowed(const flow_map_data& data, const parameters_of<nystrom>& theta, double relative) {
+  const metric measure(exact, data, coordinates::qp);
+  const one_step<nystrom> loss(exact, data, measure);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
   const double jacobian =
       std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more

@@ -20,7 +20,7 @@ namespace {
 using S = henon_heiles;
 constexpr double h = 0.4;
 
-flow_map_data<2> some_data() {
+flow_map_data some_data() {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
   return make_flow_map_data(S(), starts, fine_steps<>(0.02), {.step = h, .horizon = 2.0, .trajectories = 7});
 }
@@ -59,7 +59,7 @@ struct by_hand {
   Eigen::MatrixXd gradient;
   Eigen::MatrixXd rounding;
 };
-by_hand gradient_by_hand(const flow_map_data<2>& data, double b1, double beta1) {
+by_hand gradient_by_hand(const flow_map_data& data, double b1, double beta1) {
   const auto coordinates = [](const phase_point<double, 2>& x) {
     return Eigen::Vector4d(x.q[0], x.q[1], x.p[0], x.p[1]);
   };
@@ -73,7 +73,7 @@ by_hand gradient_by_hand(const flow_map_data<2>& data, double b1, double beta1) 
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     const auto column = static_cast<Eigen::Index>(m);
     for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
-      auto x = data.start[n];
+      phase_point<double, 2> x = data.start[n];
       const auto j = appendix(S(), b1, beta1, x);
       const Eigen::Vector4d r = coordinates(x) - coordinates(data.finish[n]);
       result.gradient.col(column) += 2.0 * j.transpose() * r.cwiseQuotient(sigma) / count;
@@ -90,8 +90,8 @@ by_hand gradient_by_hand(const flow_map_data<2>& data, double b1, double beta1) 
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_papers_trajectory_by_trajectory) {
   const auto data = some_data();
   const S system;
-  const metric<2> measure(system, data, coordinates::qp);
-  const one_step<nystrom, S> loss(system, data, measure);
+  const metric measure(system, data, coordinates::qp);
+  const one_step<nystrom> loss(system, data, measure);
   draws random;
   for (int n = 0; n < 10; ++n) {
     const auto theta = random_theta<nystrom>(random);
@@ -118,8 +118,8 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_papers_trajectory_by_trajectory) {
 BOOST_AUTO_TEST_CASE(parts_by_trajectory_and_by_coordinate_have_the_same_sum) {
   const auto data = some_data();
   const S system;
-  const metric<2> measure(system, data, coordinates::qp);
-  const one_step<nystrom, S> loss(system, data, measure);
+  const metric measure(system, data, coordinates::qp);
+  const one_step<nystrom> loss(system, data, measure);
   const parameters_of<nystrom> theta{0.4, 0.35};
   const Eigen::VectorXd by_trajectory = squares_at(loss, theta).gradient();
   const auto by_coordinate = tree_sum(residual_gradients(loss, theta));
@@ -132,8 +132,8 @@ BOOST_AUTO_TEST_CASE(parts_by_trajectory_and_by_coordinate_have_the_same_sum) {
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const auto data = some_data();
   const S system;
-  const metric<2> measure(system, data, coordinates::modes);
-  const one_step<nystrom, S> loss(system, data, measure);
+  const metric measure(system, data, coordinates::modes);
+  const one_step<nystrom> loss(system, data, measure);
   const auto value = [&](const parameters_of<nystrom>& theta) { return loss_value(loss, theta); };
   draws random;
   for (int n = 0; n < 5; ++n) {

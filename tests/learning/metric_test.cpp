@@ -25,14 +25,14 @@ linear_chain two_weights_on_springs() {
   stiffness << 3.0, -1.0, -1.0, 2.0;
   return linear_chain(stiffness, Eigen::Vector2d(1.0, 4.0));
 }
-flow_map_data<dynamic> data_of(const linear_chain& chain) {
+flow_map_data data_of(const linear_chain& chain) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(chain.size());
   const normal_around<dynamic> starts({zero, zero}, 0.3, 0.7);
   return make_flow_map_data(chain, starts, exact_linear(chain),
                             {.step = 0.3, .horizon = 1.5, .trajectories = 9});
 }
 /// Row n: the residuals of the increment of pair n.
-Eigen::MatrixXd increments(const metric<dynamic>& measure, const flow_map_data<dynamic>& data) {
+Eigen::MatrixXd increments(const metric& measure, const flow_map_data& data) {
   Eigen::MatrixXd result(measure.residuals(), static_cast<Eigen::Index>(data.pairs()));
   for (std::size_t n = 0; n < data.pairs(); ++n) {
     measure.residual(data.finish[n].q, data.finish[n].p, data.start[n], result.col(Eigen::Index(n)).data());
@@ -49,14 +49,14 @@ BOOST_AUTO_TEST_CASE(each_coordinate_is_measured_in_its_mean_square_increment) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
   for (const auto which : {coordinates::qp, coordinates::modes}) {
-    const metric<dynamic> measure(chain, data, which);
+    const metric measure(chain, data, which);
     const Eigen::VectorXd mean_squares =
         increments(measure, data).rowwise().squaredNorm() / double(data.pairs());
     BOOST_TEST(mean_squares.size() == 4);
     // 45 squares are added, twice.
     BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() <= 2 * 45 * eps);
   }
-  const metric<dynamic> by_energy(chain, data, coordinates::energy);
+  const metric by_energy(chain, data, coordinates::energy);
   const Eigen::VectorXd mean_squares =
       increments(by_energy, data).rowwise().squaredNorm() / double(data.pairs());
   BOOST_TEST((mean_squares.array() - 1.0).abs().maxCoeff() > 1e-3);  // one weight for all
@@ -66,11 +66,11 @@ BOOST_AUTO_TEST_CASE(each_coordinate_is_measured_in_its_mean_square_increment) {
 BOOST_AUTO_TEST_CASE(the_energy_coordinates_are_the_energy_norm) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
-  const metric<dynamic> by_energy(chain, data, coordinates::energy);
-  const metric<dynamic> by_modes(chain, data, coordinates::modes);
+  const metric by_energy(chain, data, coordinates::energy);
+  const metric by_modes(chain, data, coordinates::modes);
   draws random;
   Eigen::Vector4d r;
-  const auto ratio = [&](const metric<dynamic>& measure) {
+  const auto ratio = [&](const metric& measure) {
     const auto a = random.state(chain, 1.0);
     const auto b = random.state(chain, 1.0);
     measure.residual(a.q, a.p, b, r.data());
@@ -90,21 +90,20 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_left_out) {
   const linear_chain chain(stiffness);  // the second mass is free, and at rest
   const listed<dynamic> starts({{Eigen::Vector2d(0.3, 1.0), Eigen::Vector2d(0.2, 0.0)}});
   const auto data = make_flow_map_data(chain, starts, exact_linear(chain), {.step = 0.3, .trajectories = 1});
-  const metric<dynamic> measure(chain, data, coordinates::qp);
+  const metric measure(chain, data, coordinates::qp);
   BOOST_TEST(measure.residuals() == 2);
   BOOST_TEST(measure.dropped() == (std::vector<std::string>{"q2", "p2"}), boost::test_tools::per_element());
-  const metric<dynamic> by_modes(chain, data, coordinates::modes);
+  const metric by_modes(chain, data, coordinates::modes);
   BOOST_TEST(by_modes.dropped() == (std::vector<std::string>{"x1", "y1"}), boost::test_tools::per_element());
-  BOOST_TEST(metric<dynamic>(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp)
-                 .dropped()
-                 .empty());
+  BOOST_TEST(
+      metric(two_weights_on_springs(), data_of(two_weights_on_springs()), coordinates::qp).dropped().empty());
 }
 
 // What a trajectory adds to the weights, found by giving it twice: Sigma is a mean over pairs.
 BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights) {
   const auto chain = two_weights_on_springs();
   const auto data = data_of(chain);
-  const metric<dynamic> measure(chain, data, coordinates::qp);
+  const metric measure(chain, data, coordinates::qp);
   const auto deviations = measure.weight_deviations();
   BOOST_TEST(deviations.rows() == 4);
   BOOST_TEST(deviations.cols() == 9);
@@ -115,7 +114,7 @@ BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights
     twice.finish.push_back(data.finish[n]);
   }
   twice.first_of.push_back(twice.pairs());
-  const metric<dynamic> heavier(chain, twice, coordinates::qp);
+  const metric heavier(chain, twice, coordinates::qp);
   const double share = 1.0 / 9.0;
   const Eigen::MatrixXd before = increments(measure, data);
   const Eigen::MatrixXd after = increments(heavier, data);
@@ -134,20 +133,20 @@ BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
                                 0.1);
   const auto data = make_flow_map_data(chain, starts, fine_steps<>(1e-3), {.step = 0.01, .trajectories = 2});
   BOOST_TEST(
-      refuses<wrong>([&] { metric<6>(chain, data, coordinates::energy); },
+      refuses<wrong>([&] { metric(chain, data, coordinates::energy); },
                      {"energy", "fpu_chain(pairs=3, omega=50)", "mode 1", "frequency zero", "modes or qp"}));
   const pendulum swing;
   const normal_around<1> swings({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.1, 0.1);
   const auto of_swing =
       make_flow_map_data(swing, swings, fine_steps<>(0.01), {.step = 0.1, .trajectories = 2});
   for (const auto which : {coordinates::modes, coordinates::energy}) {
-    BOOST_TEST(refuses<wrong>([&] { metric<1>(swing, of_swing, which); },
+    BOOST_TEST(refuses<wrong>([&] { metric(swing, of_swing, which); },
                               {to_string(which), "pendulum()", "no modes()", "use qp"}));
   }
   const listed<1> at_rest({{vector<double, 1>(0.0), vector<double, 1>(0.0)}});
   const auto of_nothing =
       make_flow_map_data(swing, at_rest, fine_steps<>(0.01), {.step = 0.1, .trajectories = 1});
-  BOOST_TEST(refuses<wrong>([&] { metric<1>(swing, of_nothing, coordinates::qp); }, {"nothing moves"}));
+  BOOST_TEST(refuses<wrong>([&] { metric(swing, of_nothing, coordinates::qp); }, {"nothing moves"}));
 }
 
 BOOST_AUTO_TEST_CASE(motion_below_rounding_is_none) {
@@ -157,9 +156,9 @@ BOOST_AUTO_TEST_CASE(motion_below_rounding_is_none) {
   const listed<dynamic> starts({{modes.basis.col(0), Eigen::VectorXd::Zero(3)}});
   const auto data = make_flow_map_data(three, starts, exact_linear(three),
                                        {.step = 0.3, .horizon = 3.0, .trajectories = 1});
-  const metric<dynamic> measure(three, data, coordinates::modes);
+  const metric measure(three, data, coordinates::modes);
   BOOST_TEST(measure.residuals() == 2);
   BOOST_TEST(measure.dropped() == (std::vector<std::string>{"x2", "x3", "y2", "y3"}),
              boost::test_tools::per_element());
-  BOOST_TEST(metric<dynamic>(three, data, coordinates::qp).residuals() == 6);  // there all move
+  BOOST_TEST(metric(three, data, coordinates::qp).residuals() == 6);  // there all move
 }

@@ -14,7 +14,6 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learner.hpp"
-#include "nysalt/learning/extend_data.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
@@ -26,7 +25,7 @@ namespace {
 constexpr double step = 0.6;
 const pendulum swing;
 
-using data_type = flow_map_data<pendulum::dimension>;
+using data_type = flow_map_data;
 
 const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
 

@@ -22,14 +22,14 @@ using wrong = std::invalid_argument;
 const henon_heiles galaxy;
 const run_time_family family{nystrom()};
 
-flow_map_data<2> data_of(std::uint64_t seed) {
+flow_map_data data_of(std::uint64_t seed) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
   return make_flow_map_data(galaxy, starts, fine_steps<>(0.025),
                             {.step = 0.5, .horizon = 2.0, .trajectories = 30, .seed = seed});
 }
 
 /// The state's error after three steps, with weights that a metric has estimated, or others.
-auto state_after_three(const metric<2>& measure, double of_positions = 1.0) {
+auto state_after_three(const metric& measure, double of_positions = 1.0) {
   const auto error = [&measure, of_positions]<class T>(const phase_point<T, 2>&,
                                                        const phase_point<T, 2>& finish,
                                                        const phase_point<T, 2>& wanted) {
@@ -74,7 +74,7 @@ class two_minima {
 BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const loss_choice three_steps{loss_choice::kind::state, 3};
   const auto usual =
       learn(nystrom{}, galaxy, data, held_out, {.loss = three_steps, .classical_starts = false});
@@ -101,14 +101,13 @@ BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit
 
 BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
   const auto data = data_of(1);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const auto problem =
       make_learning_problem(family, galaxy, data, data_of(2), {}, state_after_three(measure));
   const auto usual =
       make_learning_problem(family, galaxy, data, data_of(2), {.loss = {loss_choice::kind::state, 3}});
   const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
-  const after_steps<henon_heiles> loss(family, galaxy, data, state_error<henon_heiles>(measure),
-                                       {.steps = 3});
+  const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = 3});
   const auto by_residual = residual_gradients(loss, theta);
   const auto ours = problem.scores(theta);
   const auto with_weights = usual.scores(theta);
@@ -127,7 +126,7 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
 BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
   const auto own = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure, 2.0));
   BOOST_TEST(own.judge(theta) == own.held_out.sum(own.held_out_losses(theta)));
@@ -165,7 +164,7 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const auto cut_off_at = [&](double bound) {
     const auto all = state_after_three(measure).error;
     const auto error = [=](const auto& start, const auto& finish, const auto& wanted) {
@@ -184,7 +183,7 @@ BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto data = data_of(1);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   auto loss = state_after_three(measure);
   const auto refused = [&](const fit_options& options, std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { make_learning_problem(family, galaxy, data, data, options, loss); }, words);

@@ -30,7 +30,7 @@ struct beyond_the_bound : palindromic<drift, kick, 5> {
 
 /// Training and held-out data.
 struct data_sets {
-  flow_map_data<2> data, held_out;
+  flow_map_data data, held_out;
 };
 data_sets made_by(const auto& reference, std::uint64_t first_seed = 1) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.06, 0.12);  // none leaves, at this step
@@ -48,8 +48,8 @@ learned<nystrom> fit_to(const data_sets& sets, const learn_options<nystrom>& opt
 /// some 12 roundings of the magnified state each, in units of the mean increment; the least-squares solution
 /// by that over the smallest singular value of the Jacobian, sqrt(lambda_min/2) with the Hessian's lambda.
 double recovery_error(const data_sets& sets, const parameters_of<nystrom>& theta) {
-  const metric<2> measure(galaxy, sets.data, coordinates::qp);
-  const one_step<nystrom, S> loss(galaxy, sets.data, measure);
+  const metric measure(galaxy, sets.data, coordinates::qp);
+  const one_step<nystrom> loss(galaxy, sets.data, measure);
   // |V''| <= 1 + 4 |q|, and |q| stays below 1/2. Beyond its bound the family's coefficients grow no larger.
   const double magnified =
       magnification(member<nystrom>({theta[0], std::min(0.5, theta[1])}), h, {3.0, 1.0, 0.0});
@@ -72,8 +72,8 @@ double distance_of(const parameters_of<nystrom>& a, const parameters_of<nystrom>
 
 /// Free parameters are at a stationary point: the last Newton step, in parameters.
 double remaining_step(const data_sets& sets, const parameters_of<nystrom>& theta, Eigen::Index free) {
-  const metric<2> measure(galaxy, sets.data, coordinates::qp);
-  const one_step<nystrom, S> loss(galaxy, sets.data, measure);
+  const metric measure(galaxy, sets.data, coordinates::qp);
+  const one_step<nystrom> loss(galaxy, sets.data, measure);
   const curvature bend(hessian(loss, theta), {free});
   return std::abs(bend.solve(squares_at(loss, theta).gradient())[free]);
 }

@@ -9,6 +9,7 @@
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/step_matrix.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
@@ -38,7 +39,7 @@ stability_guard guard_of_one(double omega) {
 }
 
 double spectral_radius(const run_time_word& word, const std::vector<double>& c, double z) {
-  const auto m = detail::matrix_on_oscillator(word, c, z * z);
+  const auto m = matrix_on_oscillator(word, c, z * z);
   return Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}}.eigenvalues().cwiseAbs().maxCoeff();
 }
 

@@ -22,15 +22,15 @@ constexpr std::size_t repetitions = 40;
 constexpr double step = 0.02;
 const fpu_chain<3> chain(50.0);
 
-flow_map_data<6> data_of(std::int64_t trajectories, std::uint64_t seed) {
+flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
   return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
                             {.step = step, .horizon = 0.2, .trajectories = trajectories, .seed = seed});
 }
 
 /// Errors that take the weights for given: the paper's theorem, but not its estimator.
-Eigen::VectorXd errors_without_weights(const flow_map_data<6>& data, const parameters_of<nystrom>& theta) {
-  const metric<6> measure(chain, data, coordinates::qp);
-  const one_step<nystrom, fpu_chain<3>> loss(chain, data, measure);
+Eigen::VectorXd errors_without_weights(const flow_map_data& data, const parameters_of<nystrom>& theta) {
+  const metric measure(chain, data, coordinates::qp);
+  const one_step<nystrom> loss(chain, data, measure);
   return curvature(hessian(loss, theta), {0, 1}).standard_errors(trajectory_gradients(loss, theta));
 }
 

@@ -3,6 +3,7 @@
 // added in the order of tree_sum.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/in_lanes.hpp"
 #include "../support/one_step.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
@@ -18,7 +19,7 @@ namespace {
 const fpu_chain<3> chain(50.0);
 constexpr parameters_of<nystrom> theta{0.45, 0.38};
 
-flow_map_data<6> data_of(std::uint64_t seed, int threads) {
+flow_map_data data_of(std::uint64_t seed, int threads) {
   return make_flow_map_data(
       chain, fpu_law<3>(chain), fine_steps<>(1e-3),
       {.step = 0.02, .horizon = 0.1, .trajectories = 203, .seed = seed, .threads = threads});
@@ -44,31 +45,31 @@ T sum_in_order(const std::vector<T>& terms) {
 
 }  // namespace
 
-template <Scalar R>
+/// Of trajectories one at a time, or as many side by side as suit the processor.
+template <int lanes>
 std::string digits_learned(coordinates which, int threads, std::uint64_t seed) {
   const auto data = data_of(seed, threads);
   const auto held_out = data_of(seed + 1, threads);
-  return digits_of(learn<nystrom, fpu_chain<3>, R>(nystrom{}, chain, data, held_out,
-                                                   {.coordinates = which, .threads = threads})
-                       .summary);
+  const in_lanes<fpu_chain<3>, lanes> system(chain);
+  return digits_of(
+      learn(nystrom{}, system, data, held_out, {.coordinates = which, .threads = threads}).summary);
 }
 
 BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit_of_what_is_learned) {
   for (const auto which : {coordinates::qp, coordinates::modes}) {
-    const auto one = digits_learned<double>(which, 1, 1);
+    const auto one = digits_learned<1>(which, 1, 1);
     for (const int threads : {1, 2, 3}) {
-      BOOST_TEST((digits_learned<pack<double, 8>>(which, threads, 1) == one));
-      BOOST_TEST((digits_learned<pack<double, 16>>(which, threads, 1) == one));
+      BOOST_TEST(digits_learned<default_lanes>(which, threads, 1) == one);
     }
-    BOOST_TEST(digits_learned<double>(which, 2, 1) == one);
-    BOOST_TEST(digits_learned<double>(which, 1, 3) != one);
+    BOOST_TEST(digits_learned<1>(which, 2, 1) == one);
+    BOOST_TEST(digits_learned<1>(which, 1, 3) != one);
   }
 }
 
 BOOST_AUTO_TEST_CASE(loss_and_gradient_are_summed_over_trajectories_in_a_tree) {
   const auto data = data_of(1, 1);
-  const metric<6> measure(chain, data, coordinates::qp);
-  const one_step<nystrom, fpu_chain<3>> loss(chain, data, measure);
+  const metric measure(chain, data, coordinates::qp);
+  const one_step<nystrom> loss(chain, data, measure);
   const sample_blocks<nystrom, fpu_chain<3>> pairs(chain, data, measure);
   int losses_differ = 0;
   int gradients_differ = 0;
@@ -92,7 +93,7 @@ BOOST_AUTO_TEST_CASE(loss_and_gradient_are_summed_over_trajectories_in_a_tree) {
 
 BOOST_AUTO_TEST_CASE(weights_are_summed_over_trajectories_in_a_tree) {
   const auto data = data_of(1, 1);
-  const metric<6> measure(chain, data, coordinates::qp);
+  const metric measure(chain, data, coordinates::qp);
   std::vector<Eigen::VectorXd> squares;
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     squares.push_back(Eigen::VectorXd::Zero(12));
@@ -120,8 +121,8 @@ BOOST_AUTO_TEST_CASE(weights_are_summed_over_trajectories_in_a_tree) {
 
 BOOST_AUTO_TEST_CASE(standard_errors_are_summed_over_trajectories_in_a_tree) {
   const auto data = data_of(1, 1);
-  const metric<6> measure(chain, data, coordinates::qp);
-  const one_step<nystrom, fpu_chain<3>> loss(chain, data, measure);
+  const metric measure(chain, data, coordinates::qp);
+  const one_step<nystrom> loss(chain, data, measure);
   const curvature bend(hessian(loss, theta), {0, 1});
   const auto scores = trajectory_gradients(loss, theta);
   std::vector<Eigen::VectorXd> squares;
@@ -138,7 +139,7 @@ BOOST_AUTO_TEST_CASE(the_error_of_the_reference_is_summed_over_trajectories_in_a
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto data = data_of(seed, 1);
     const auto fit = learn(nystrom{}, chain, data, data, {.fixed = {theta[0], theta[1]}}).summary;
-    const metric<6> measure(chain, data, coordinates::qp);
+    const metric measure(chain, data, coordinates::qp);
     std::vector<double> squares(203, 0.0);
     std::vector<double> r(12);
     BOOST_TEST(data.finer.size() == 16U);

@@ -23,17 +23,17 @@ constexpr int dynamic = Eigen::Dynamic;
 const fpu_chain<3> chain(50.0);
 const linear_chain oscillator(Eigen::MatrixXd::Constant(1, 1, 4.0));  // frequency 2
 
-flow_map_data<6> of_chain(const auto& reference, double step, std::uint64_t seed) {
+flow_map_data of_chain(const auto& reference, double step, std::uint64_t seed) {
   return make_flow_map_data(chain, fpu_law<3>(chain), reference,
                             {.step = step, .horizon = 20.0 * step, .trajectories = 50, .seed = seed});
 }
-flow_map_data<dynamic> of_oscillator(double step, const auto& reference) {
+flow_map_data of_oscillator(double step, const auto& reference) {
   const auto number = [](double x) { return Eigen::VectorXd::Constant(1, x); };
   const listed<dynamic> two_states({{number(0.5), number(0.0)}, {number(0.0), number(1.0)}});
   return make_flow_map_data(oscillator, two_states, reference,
                             {.step = step, .horizon = step, .trajectories = 2});
 }
-flow_map_data<dynamic> of_oscillator(double step) { return of_oscillator(step, exact_linear(oscillator)); }
+flow_map_data of_oscillator(double step) { return of_oscillator(step, exact_linear(oscillator)); }
 learned<nystrom> fit_oscillator(double step, const learn_options<nystrom>& options = {}) {
   const auto data = of_oscillator(step);
   return learn(nystrom{}, oscillator, data, data, options);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_better_than_not_moving_is_flagged) {
 
 BOOST_AUTO_TEST_CASE(a_held_out_loss_that_is_not_a_number_is_flagged) {
   auto held_out = of_oscillator(0.5);
-  for (auto& x : held_out.start) x.q[0] = 1e200;  // finite, but its square is not
+  for (auto x : held_out.start) x.q[0] = 1e200;  // finite, but its square is not
   const auto data = of_oscillator(0.5);
   const auto fit = learn(nystrom{}, oscillator, data, held_out);
   BOOST_TEST_CONTEXT(fit.summary.full()) {
@@ -190,8 +190,8 @@ BOOST_AUTO_TEST_CASE(coordinates_without_motion_are_named_and_the_fit_goes_on) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   const auto data = of_oscillator(0.5);
-  const auto refused = [&](const linear_chain& system, const flow_map_data<dynamic>& training,
-                           const flow_map_data<dynamic>& held_out, const learn_options<nystrom>& options,
+  const auto refused = [&](const linear_chain& system, const flow_map_data& training,
+                           const flow_map_data& held_out, const learn_options<nystrom>& options,
                            std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { learn(nystrom{}, system, training, held_out, options); }, words);
   };

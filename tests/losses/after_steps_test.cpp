@@ -5,10 +5,12 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/one_step.hpp"
+#include "../support/refusal.hpp"
 #include "../support/sample_blocks.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/losses/own_loss.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
@@ -22,7 +24,7 @@ constexpr parameters_of<nystrom> theta{0.45, 0.38};
 
 /// Trajectories of different lengths, among them empty ones and one longer than what a thread takes at once.
 template <class S>
-flow_map_data<S::dimension> uneven_data(const S& system) {
+flow_map_data uneven_data(const S& system) {
   const vector<double, S::dimension> zero = Eigen::VectorXd::Zero(size(system));
   const normal_around<S::dimension> starts({zero, zero}, 0.1, 0.2);
   auto data = make_flow_map_data(system, starts, fine_steps<>(0.05),
@@ -41,9 +43,8 @@ bool same(const squares& a, const squares& b) {
 }
 
 template <Scalar R, class S>
-void check_bits(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
-                int threads) {
-  const one_step<nystrom, S, R> loss(system, data, measure, threads);
+void check_bits(const S& system, const flow_map_data& data, const metric& measure, int threads) {
+  const one_step<nystrom, R> loss(system, data, measure, threads);
   const sample_blocks<nystrom, S> pairs(system, data, measure);
   const auto expected = pairs.by_trajectory(theta);
   BOOST_TEST_CONTEXT(lanes_in<R> << " lanes, " << threads << " threads") {
@@ -68,21 +69,19 @@ void check_bits(const S& system, const flow_map_data<S::dimension>& data, const 
 BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
   const henon_heiles galaxy;
   const auto data = uneven_data(galaxy);
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   for (const int threads : {1, 2, 3}) {
     check_bits<double>(galaxy, data, measure, threads);
-    check_bits<pack<double, 1>>(galaxy, data, measure, threads);
-    check_bits<pack<double, 8>>(galaxy, data, measure, threads);
-    check_bits<pack<double, 16>>(galaxy, data, measure, threads);
+    check_bits<detail::lanes>(galaxy, data, measure, threads);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_dynamic_dimension_with_modes_changes_no_bit) {
   const auto chain = linear_chain::between_walls(3, 1.0, 2.0);
   const auto data = uneven_data(chain);
-  const metric<Eigen::Dynamic> measure(chain, data, coordinates::modes);
+  const metric measure(chain, data, coordinates::modes);
   check_bits<double>(chain, data, measure, 2);
-  check_bits<pack<double, 16>>(chain, data, measure, 2);
+  check_bits<detail::lanes>(chain, data, measure, 2);
 }
 
 namespace {
@@ -92,7 +91,7 @@ struct a_fork : potential_only {  // takes a branch, and says so
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
-  using packs = pack<double, default_lanes>;
+  using packs = detail::lanes;
   static_assert(std::same_as<scalar_of_passes<henon_heiles>, packs>);
   static_assert(std::same_as<scalar_of_passes<potential_only>, packs>);
   static_assert(std::same_as<scalar_of_passes<relativistic>, packs>);
@@ -102,10 +101,12 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   const normal_around<1> starts({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
   const auto data =
       make_flow_map_data(box, starts, fine_steps<>(0.05), {.step = 0.4, .horizon = 2.0, .trajectories = 3});
-  const metric<1> measure(box, data, coordinates::qp);
-  const one_step<nystrom, black_box> loss(box, data, measure);
+  const metric measure(box, data, coordinates::qp);
+  const one_step<nystrom, double> loss(box, data, measure);
   loss_value(loss, theta);  // derivatives along two parameters are carried even where nobody asks for them
   BOOST_TEST(loss.evaluations() == 2 * 15 * (1 + 2 * 2));
   squares_at(loss, theta);  // and count one each
   BOOST_TEST(loss.evaluations() == 2 * (2 * 15 * (1 + 2 * 2)));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { one_step<nystrom, packs>(box, data, measure); },
+                                            {"black_box", "after_steps<double>"}));
 }

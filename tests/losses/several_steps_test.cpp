@@ -35,7 +35,7 @@ constexpr asked ten_of_energy{{.steps = 10}, true};
 const henon_heiles galaxy;
 
 /// Trajectories of 4, 5, 0, 11, 12, 9 and 40 steps: some are too short.
-flow_map_data<2> uneven_data() {
+flow_map_data uneven_data() {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
   auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
                                  {.step = 0.4, .horizon = 16.2, .trajectories = 2});
@@ -53,24 +53,22 @@ parameters_of<F> elsewhere() {
   return theta;
 }
 
-stretch_error<henon_heiles> error_of(const asked& what, const flow_map_data<2>& data,
-                                     const metric<2>& measure) {
-  return what.of_energy ? energy_error(galaxy, data) : state_error<henon_heiles>(measure);
+stretch_error<> error_of(const asked& what, const flow_map_data& data, const metric& measure) {
+  return what.of_energy ? energy_error(galaxy, data) : state_error(measure);
 }
 
 template <Family F>
 void check_bits(const asked& what, std::size_t stretches) {
   const auto& options = what.options;
   const auto data = uneven_data();
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, options, what.of_energy);
   const Eigen::VectorXd theta = column_of(elsewhere<F>());
   const auto expected = blocks(theta);
   for (const int threads : {1, 2}) {
     auto in_threads = options;
     in_threads.threads = threads;
-    const after_steps<henon_heiles> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure),
-                                         in_threads);
+    const after_steps<> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure), in_threads);
     BOOST_TEST_CONTEXT(F::name << " over " << options.steps << " steps") {
       BOOST_TEST(blocks.stretches() == stretches);
       BOOST_TEST(same(squares_at(loss, theta), expected));
@@ -88,7 +86,7 @@ void check_bits(const asked& what, std::size_t stretches) {
 }
 
 /// The loss without derivatives, formula by formula.
-double energy_loss_by_hand(const flow_map_data<2>& data, const parameters_of<nystrom>& theta) {
+double energy_loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta) {
   const auto c = nystrom::coefficients(theta);
   const auto energy_of = [](const auto& x) {
     const double x1 = x.q[0];
@@ -99,7 +97,7 @@ double energy_loss_by_hand(const flow_map_data<2>& data, const parameters_of<nys
   double count = 0.0;
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     for (std::size_t first = data.first_of[m]; first + 10 <= data.first_of[m + 1]; ++first) {
-      auto x = data.start[first];
+      phase_point<double, 2> x = data.start[first];
       for (int n = 0; n < 10; ++n) {
         for (std::size_t i = 0; i < c.size(); ++i) {
           const vector<double, 2> f(-x.q[0] - 2.0 * x.q[0] * x.q[1],
@@ -134,9 +132,9 @@ BOOST_AUTO_TEST_CASE(any_number_of_parameters_goes_two_at_a_time) {
 
 BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
   const auto data = uneven_data();
-  const metric<2> measure(galaxy, data, coordinates::qp);
-  const after_steps<henon_heiles> loss(run_time_family(nystrom()), galaxy, data, energy_error(galaxy, data),
-                                       ten_of_energy.options);
+  const metric measure(galaxy, data, coordinates::qp);
+  const after_steps<> loss(run_time_family(nystrom()), galaxy, data, energy_error(galaxy, data),
+                           ten_of_energy.options);
   const auto theta = elsewhere<nystrom>();
   const double expected = energy_loss_by_hand(data, theta);
   // An energy below 1 rounds in some 20 operations for each of 10 steps, over errors of some 1e-4 or more.
@@ -147,10 +145,10 @@ BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
 
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const auto data = uneven_data();
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   for (const auto& what : {five_steps, ten_of_energy}) {
-    const after_steps<henon_heiles> loss(run_time_family(aba<4>()), galaxy, data,
-                                         error_of(what, data, measure), what.options);
+    const after_steps<> loss(run_time_family(aba<4>()), galaxy, data, error_of(what, data, measure),
+                             what.options);
     const Eigen::VectorXd theta = column_of(elsewhere<aba<4>>());
     const Eigen::VectorXd ours = squares_at(loss, theta).gradient();
     const auto value = [&](const Eigen::VectorXd& at) { return loss_value(loss, at); };
@@ -171,11 +169,10 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto data = uneven_data();
-  const metric<2> measure(galaxy, data, coordinates::qp);
+  const metric measure(galaxy, data, coordinates::qp);
   const auto made = [&](int steps) {
     return [&, steps] {
-      after_steps<henon_heiles>(run_time_family(nystrom()), galaxy, data, state_error<henon_heiles>(measure),
-                                {.steps = steps});
+      after_steps<>(run_time_family(nystrom()), galaxy, data, state_error(measure), {.steps = steps});
     };
   };
   BOOST_TEST(refuses<wrong>(made(41), {"41 steps", "longer horizon"}));

@@ -14,6 +14,7 @@
 #include "../laws/order_law.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/step_matrix.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 
 using namespace nysalt;
@@ -39,7 +40,7 @@ comparison against_rotation(const Method auto& method, double z) {
   const run_time_word word(word_of(method).letters());
   const auto array = method.coefficients();
   const std::vector<double> c(array.begin(), array.end());
-  const auto m = detail::matrix_on_oscillator(word, c, z * z);
+  const auto m = matrix_on_oscillator(word, c, z * z);
   double size = 1.0;
   for (std::size_t i = 0; i < word.length; ++i) {
     const double first = std::abs(c[word.first_slot(i)]);

@@ -8,6 +8,7 @@
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/step_matrix.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/mclachlan.hpp"
@@ -44,7 +45,7 @@ struct with_rounding {
 /// 2 delta max(z, 1/z) and 1 - A^2 by 2 delta; both are doubled, for the closed form.
 with_rounding rho_of_step(double a, double x) {
   const auto c = palindrome<5>({a});
-  const auto m = detail::matrix_on_oscillator(s_aia2::word{}, c, x);
+  const auto m = matrix_on_oscillator(run_time_word(s_aia2::word::letters()), {c.begin(), c.end()}, x);
   const double z = std::sqrt(x);
   const double sum = m.qp * z + m.pq / z;
   const double rotation = 1.0 - m.half_trace() * m.half_trace();

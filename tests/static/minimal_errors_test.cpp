@@ -60,12 +60,13 @@ auto first_coordinate(const S&) {
 
 BOOST_AUTO_TEST_CASE(a_loss_of_ones_own_says_what_its_residuals_are) {
   const nysalt::harmonic_oscillator system(1.0);
-  const auto error = nysalt::own_error<nysalt::harmonic_oscillator, double>(system, of_place.error);
+  const auto error = nysalt::own_error<double>(system, of_place.error);
   using C = decltype(error)::scalar;
-  auto finish = at(3.0, 4.0).cast<C>();
+  const auto of_data = [](const auto& x) { return decltype(error)::data_point{x.q, x.p}; };
+  decltype(error)::point finish = of_data(at(3.0, 4.0)).cast<C>();
   finish.q[0] = C::variable(3.0, 1);
   C r;
-  error.of(at(1.0, 0.0), finish, at(2.5, 7.0), &r);
+  error.of(of_data(at(1.0, 0.0)), finish, of_data(at(2.5, 7.0)), &r);
   BOOST_TEST(error.residuals == 1U);
   BOOST_TEST(r.value == 0.5);
   BOOST_TEST(r.derivative[0] == 0.0);

@@ -11,38 +11,34 @@
 
 namespace nysalt::test {
 
-template <Family F, SeparableSystem S, Scalar R = scalar_of_passes<S>>
-struct one_step : after_steps<S, R> {
-  one_step(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
-           int threads = 1)
-      : after_steps<S, R>(run_time_family(F()), system, data, state_error<S, R>(measure),
-                          {.threads = threads}) {}
+template <Family F, Scalar R = detail::lanes>
+struct one_step : after_steps<R> {
+  one_step(const model& system, const flow_map_data& data, const metric& measure, int threads = 1)
+      : after_steps<R>(run_time_family(F()), system, data, state_error<R>(measure), {.threads = threads}) {}
 };
 
-template <Family F, SeparableSystem S, Scalar R>
-double loss_value(const one_step<F, S, R>& loss, const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+double loss_value(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::loss_value(loss, column_of(theta));
 }
-template <Family F, SeparableSystem S, Scalar R>
-std::vector<double> trajectory_losses(const one_step<F, S, R>& loss, const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+std::vector<double> trajectory_losses(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::trajectory_losses(loss, column_of(theta));
 }
-template <Family F, SeparableSystem S, Scalar R>
-std::vector<Eigen::VectorXd> trajectory_gradients(const one_step<F, S, R>& loss,
-                                                  const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+std::vector<Eigen::VectorXd> trajectory_gradients(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::trajectory_gradients(loss, column_of(theta));
 }
-template <Family F, SeparableSystem S, Scalar R>
-std::vector<Eigen::MatrixXd> residual_gradients(const one_step<F, S, R>& loss,
-                                                const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+std::vector<Eigen::MatrixXd> residual_gradients(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::residual_gradients(loss, column_of(theta));
 }
-template <Family F, SeparableSystem S, Scalar R>
-squares squares_at(const one_step<F, S, R>& loss, const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+squares squares_at(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::squares_at(loss, column_of(theta));
 }
-template <Family F, SeparableSystem S, Scalar R>
-Eigen::MatrixXd hessian(const one_step<F, S, R>& loss, const parameters_of<F>& theta) {
+template <Family F, Scalar R>
+Eigen::MatrixXd hessian(const one_step<F, R>& loss, const parameters_of<F>& theta) {
   return nysalt::hessian(loss, column_of(theta));
 }
 

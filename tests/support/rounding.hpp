@@ -18,20 +18,27 @@ inline constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Largest absolute row sum: how much a matrix can magnify the largest coordinate.
 inline double norm(const Eigen::MatrixXd& a) { return a.cwiseAbs().rowwise().sum().maxCoeff(); }
 
-template <int N>
-double size_of(const phase_point<double, N>& x) {
+/// A phase_point, or a point in a list.
+template <class X>
+concept Point = requires(const X& x) {
+  x.q.size();
+  x.p.size();
+};
+
+double size_of(const Point auto& x) {
   return std::max({1.0, x.q.cwiseAbs().maxCoeff(), x.p.cwiseAbs().maxCoeff()});
 }
 
+double distance(const Point auto& x, const Point auto& y) {
+  return std::max((x.q - y.q).cwiseAbs().maxCoeff(), (x.p - y.p).cwiseAbs().maxCoeff());
+}
+/// One may be {q, p}.
 template <int N>
 double distance(const phase_point<double, N>& x, const phase_point<double, N>& y) {
   return std::max((x.q - y.q).cwiseAbs().maxCoeff(), (x.p - y.p).cwiseAbs().maxCoeff());
 }
 
-template <int N>
-bool same_bits(const phase_point<double, N>& x, const phase_point<double, N>& y) {
-  return x.q == y.q && x.p == y.p;
-}
+bool same_bits(const Point auto& x, const Point auto& y) { return x.q == y.q && x.p == y.p; }
 
 /// Derivative of a map of vectors that is given over any scalar: map(x, result).
 template <int N>

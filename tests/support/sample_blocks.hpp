@@ -34,7 +34,7 @@ class sample_blocks {
   template <class C>
   using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1, 0, most, 1>;
 
-  sample_blocks(const S& system, const flow_map_data<S::dimension>& data, const metric<S::dimension>& measure,
+  sample_blocks(const S& system, const flow_map_data& data, const metric& measure,
                 const after_steps_options& options = {}, bool of_energy = false)
       : system_(&system), data_(&data), metric_(&measure), options_(options), of_energy_(of_energy) {
     const auto steps = static_cast<std::size_t>(options.steps);
@@ -58,13 +58,13 @@ class sample_blocks {
   residuals<C> at(std::size_t stretch, const std::array<C, parameters>& theta) const {
     const stepper<S, typename F::word, C> one(*system_, F::coefficients(theta), data_->step);
     const std::size_t pair = stretches_[stretch].first_pair;
-    auto x = data_->start[pair].template cast<C>();
+    const phase_point<double, S::dimension> first = data_->start[pair];
+    auto x = first.template cast<C>();
     for (int n = 0; n < options_.steps; ++n) one.step(x);
     residuals<C> r(residuals_of_stretch());
     if (of_energy_) {
       if constexpr (HasEnergy<S, C>) {
-        const auto start = data_->start[pair].template cast<C>();
-        r[0] = (energy<C>(*system_, x) - energy<C>(*system_, start)) * energy_scale_;
+        r[0] = (energy<C>(*system_, x) - energy<C>(*system_, first.template cast<C>())) * energy_scale_;
       }
     } else {
       const auto last = pair + static_cast<std::size_t>(options_.steps) - 1;
@@ -145,8 +145,8 @@ class sample_blocks {
   };
 
   const S* system_;
-  const flow_map_data<S::dimension>* data_;
-  const metric<S::dimension>* metric_;
+  const flow_map_data* data_;
+  const metric* metric_;
   after_steps_options options_;
   bool of_energy_;  // instead of the state's error
   double energy_scale_ = 1.0;

@@ -23,10 +23,10 @@ struct steps_options {
 
 /// Noise `parts` times a step, and with it a plain step of the method from each state to the next.
 template <class S, Ensemble<S> E, Method M>
-flow_map_data<S::dimension> made_by_steps(const S& system, const E& ensemble, const M& method,
-                                          const steps_options& options) {
+flow_map_data made_by_steps(const S& system, const E& ensemble, const M& method,
+                            const steps_options& options) {
   using numbers = vector<double, S::dimension>;
-  flow_map_data<S::dimension> data;
+  flow_map_data data;
   data.step = options.step;
   data.noise_parts = options.parts;
   data.system = describe(system);

@@ -15,6 +15,9 @@
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/learn_enough.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
@@ -30,10 +33,10 @@ const fine_steps<> reference(1e-3);
 data_options options_of(std::int64_t trajectories, std::uint64_t seed) {
   return {.step = 0.03, .horizon = 0.5, .trajectories = trajectories, .seed = seed, .threads = 2};
 }
-flow_map_data<6> data_of(std::int64_t trajectories, std::uint64_t seed) {
+flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
   return make_flow_map_data(chain, law, reference, options_of(trajectories, seed));
 }
-const flow_map_data<6>& many() {
+const flow_map_data& many() {
   static const auto data = data_of(20'000, 1'000'000);
   return data;
 }
@@ -43,7 +46,7 @@ class fits_of {
  public:
   explicit fits_of(const run_time_family& family) : family_(family), truth(to(many())) {}
 
-  fit to(const flow_map_data<6>& data) const {
+  fit to(const flow_map_data& data) const {
     static const auto held_out = data_of(4, 999'999);
     return learn(family_, chain, data, held_out, {.threads = 2});
   }
@@ -56,7 +59,7 @@ class fits_of {
 };
 
 /// As if all pairs were independent of each other.
-flow_map_data<6> taken_apart(flow_map_data<6> data) {
+flow_map_data taken_apart(flow_map_data data) {
   data.first_of.clear();
   for (std::size_t n = 0; n <= data.pairs(); ++n) data.first_of.push_back(n);
   return data;
@@ -118,10 +121,9 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   const run_time_family family{nystrom()};
   const fits_of fits(family);
   // On new data, in the measure that many data tell.
-  const metric<6> measure(chain, many(), coordinates::qp);
+  const metric measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);
-  const after_steps<fpu_chain<3>> loss(family, chain, unseen, state_error<fpu_chain<3>>(measure),
-                                       {.threads = 2});
+  const after_steps loss(family, chain, unseen, state_error(measure), {.threads = 2});
   const double least = loss_value(loss, fits.truth.theta);
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {

@@ -19,7 +19,7 @@ using program::paper::thinned;
 namespace {
 
 using chain = fpu_chain<3>;
-using pairs = flow_map_data<chain::dimension>;
+using pairs = flow_map_data;
 using parameters = parameters_of<nystrom>;
 
 struct row {

@@ -151,15 +151,27 @@ inline constexpr bool is_fine_paths = false;
 template <class M>
 inline constexpr bool is_fine_paths<fine_paths<M>> = true;
 
+/// As a table. A method without members is read where it is static: inlined, g++ 12 takes one in a temporary
+/// for uninitialised.
+template <class M>
+tabulated table_of(const M& method) {
+  if constexpr (std::is_empty_v<M> && std::is_default_constructible_v<M>) {
+    static const M same{};
+    return tabulated(same);
+  } else {
+    return tabulated(method);
+  }
+}
+
 /// The library's own step words as data; any other keeps its type.
 template <SeparableSystem S, Reference<S> R>
 std::shared_ptr<const any_reference> reference_of(const S& system, const R& reference) {
   if constexpr (std::same_as<R, reference_value>) {
     return reference.held();
   } else if constexpr (is_fine_steps<R>) {
-    return small_steps(tabulated(reference.method()), reference.step(), reference.description());
+    return small_steps(table_of(reference.method()), reference.step(), reference.description());
   } else if constexpr (is_fine_paths<R>) {
-    return small_steps_on_paths(tabulated(reference.method()), reference.step(), reference.halvings(),
+    return small_steps_on_paths(table_of(reference.method()), reference.step(), reference.halvings(),
                                 reference.description());
   } else {
     return std::make_shared<typed_reference<S, R>>(system, reference);

@@ -58,8 +58,8 @@ class after_steps {
   using scalar = R;  ///< carries the stretches
 
   /// Refers to what the error refers to, and copies the data. Throws std::invalid_argument
-  /// if no trajectory is so long, or if the system is in a noisy bath and the data do not hold the noise that
-  /// the letters O of the word need.
+  /// if no trajectory is so long, if R is a pack and the system is stepped over double alone, or if the
+  /// system is in a noisy bath and the data do not hold the noise that the letters O of the word need.
   after_steps(const run_time_family& family, const model& system, const flow_map_data& data,
               stretch_error<R> error, const after_steps_options& options = {})
       : family_(family),
@@ -69,6 +69,12 @@ class after_steps {
         options_(options),
         share_(data.share()),
         starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
+    if (lanes_in < R >> 1 && !system.facts().in_lanes_with_slopes) {
+      throw std::invalid_argument(sentence(
+          "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
+          "double",
+          describe(system)));
+    }
     const std::int64_t stretches = data.share().ranks().total(std::ssize(starts_.pairs));
     if (options.steps < 1 || stretches == 0) {
       throw std::invalid_argument(
