@@ -15,6 +15,9 @@ struct flow_state : phase_point<T, N> {
   vector<T, N> f;  ///< the force, as its word needs it
 };
 
+/// Nothing: what letters that need no room take.
+struct no_room {};
+
 /// Room for letters that need more than the state: made once a run, so that stepping does not allocate.
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {

@@ -10,9 +10,6 @@
 
 namespace nysalt {
 
-/// Nothing: what letters that need no room take.
-struct no_room {};
-
 /// How far a run is in its noise while it is stepped, room for the numbers of one letter O, and for what
 /// other letters need.
 template <NoiseSource Noise, Scalar T, int N, class Room>

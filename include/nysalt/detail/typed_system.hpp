@@ -11,44 +11,16 @@
 
 #include "nysalt/counted.hpp"
 #include "nysalt/detail/kernels.hpp"
+#include "nysalt/detail/take_steps.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/noise_seam.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt::detail {
 
 [[noreturn]] void refuse_kernel();  // what the facts of a model say that it does not serve
-
-/// A vector of N entries where it lies.
-template <int N, class T>
-auto& as_fixed(vector<T, Eigen::Dynamic>& x) {
-  if constexpr (N == Eigen::Dynamic) {
-    return x;
-  } else {
-    return reinterpret_cast<vector<T, N>&>(*x.data());
-  }
-}
-template <int N, class T>
-const auto& as_fixed(const vector<T, Eigen::Dynamic>& x) {
-  if constexpr (N == Eigen::Dynamic) {
-    return x;
-  } else {
-    return reinterpret_cast<const vector<T, N>&>(*x.data());
-  }
-}
-
-/// A state where it lies: letters that are called back change it.
-template <class T, int N>
-struct state_in_place {
-  using scalar_type = T;
-  vector<T, N>& q;
-  vector<T, N>& p;
-  vector<T, N>& f;
-  Eigen::Index size() const { return q.size(); }
-};
 
 /// What a drift changes, and what it reads.
 template <class T, int N>
@@ -71,187 +43,6 @@ struct room_of_letters<T, Eigen::Dynamic> {
   explicit room_of_letters(flow_room<T, Eigen::Dynamic>& given) : room(given) {}
   flow_room<T, Eigen::Dynamic>& room;
 };
-
-/// A state that a loop works on: of a fixed dimension a copy, of a dynamic one the vectors themselves.
-template <int N, class T>
-flow_state<T, N> taken_from(state_in_place<T, N>& x) {
-  if constexpr (N == Eigen::Dynamic) {
-    return {{std::move(x.q), std::move(x.p)}, std::move(x.f)};
-  } else {
-    return {{x.q, x.p}, x.f};
-  }
-}
-template <int N, class T>
-void given_back(flow_state<T, N>& x, state_in_place<T, N>& to) {
-  to.q = std::move(x.q);
-  to.p = std::move(x.p);
-  to.f = std::move(x.f);
-}
-
-template <field F, class S, class State, class C>
-[[gnu::noinline]] void apply_gradient_kick(const S& system, const step_program_letter<C>& letter, State& x,
-                                           flow_room<typename State::scalar_type, S::dimension>& room) {
-  using T = typename State::scalar_type;
-  if constexpr (gradient_kick_of<F>::template serves<S, T>) {
-    const gradient_kick_coefficients<C> c = letter.gradient;
-    if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
-    gradient_kick_of<F>::apply(system, c, x, room);
-  }
-}
-
-template <class S, class State, class C>
-[[gnu::noinline]] void apply_rotation(const S& system, const step_program_letter<C>& letter, State& x,
-                                      flow_room<typename State::scalar_type, S::dimension>& room) {
-  if constexpr (rotation::serves<S, typename State::scalar_type>) {
-    rotation::apply(system, *letter.turn, x, room);
-  }
-}
-
-/// One letter. The system is inlined: with several users of its force g++ would not.
-template <field F, class S, class State, class C>
-[[gnu::always_inline]] inline void apply_letter(const S& system, const step_program_letter<C>& letter,
-                                                State& x,
-                                                flow_room<typename State::scalar_type, S::dimension>& room,
-                                                const callback& other) {
-  using T = typename State::scalar_type;
-  switch (letter.what) {
-    case action::drift: {
-      const C c = letter.coefficient;  // local: it cannot alias the state
-      drift::apply(system, c, x, room);
-      break;
-    }
-    case action::kick: {
-      const C c = letter.coefficient;
-      if constexpr (F == field::whole && HasKick<S, T, C>) {
-        if (letter.evaluates == evaluation::alone) return system.kick(x.q, x.p, c);
-      }
-      if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
-      kick_of<F>::apply(system, c, x, room);
-      break;
-    }
-    case action::gradient_kick:
-      apply_gradient_kick<F>(system, letter, x, room);
-      break;
-    case action::rotation:
-      apply_rotation(system, letter, x, room);
-      break;
-    case action::call:
-      other.call(other.context, letter.number);
-      break;
-  }
-}
-
-/// A letter that merges, taken back: no force is evaluated.
-template <field F, class S, class State, class C>
-void undo_letter(const S& system, const step_program_letter<C>& letter, State& x,
-                 flow_room<typename State::scalar_type, S::dimension>& room) {
-  const C c = letter.coefficient;
-  if (letter.what == action::drift) drift::apply(system, c, x, room);
-  if (letter.what == action::kick) kick_of<F>::apply(system, c, x, room);
-  if (letter.what == action::rotation) apply_rotation(system, letter, x, room);
-}
-
-/// So many steps, whatever their letters.
-template <field F, class S, class State, class C>
-[[gnu::flatten, gnu::noinline]] void take_any_steps(
-    const S& system, State& x, flow_room<typename State::scalar_type, S::dimension>& room,
-    const step_program<C>& letters, std::int64_t steps, const callback& other) {
-  for (std::int64_t n = 1; n <= steps; ++n) {
-    for (const auto& letter : n < steps ? letters.loop : letters.last) {
-      apply_letter<F>(system, letter, x, room, other);
-    }
-  }
-}
-
-/// Whoever looks gets a copy of the state without the letter that its next step begins with.
-template <field F, class S, class T, class State>
-void show(const S& system, State& x, flow_room<T, S::dimension>& room,
-          const step_program<coefficient_of<T>>& letters, const watch<T>& watched) {
-  constexpr int N = S::dimension;
-  state_in_place<T, N> seen{as_fixed<N>(*watched.q), as_fixed<N>(*watched.p), x.f};
-  for (Eigen::Index i = 0; i < x.q.size(); ++i) {
-    seen.q[i] = x.q[i];
-    seen.p[i] = x.p[i];
-  }
-  for (const auto& letter : letters.undo) undo_letter<F>(system, letter, seen, room);
-  watched.look(watched.context);
-}
-
-/// go_on(n) takes n steps; so many are taken, with looks between.
-template <class T>
-[[gnu::always_inline]] inline void watch_steps(std::int64_t steps, const watch<T>& watched, const auto& go_on,
-                                               const auto& look) {
-  std::int64_t step = 0;
-  std::int64_t next = watched.look == nullptr ? steps + 1 : watched.first;
-  while (step < steps) {
-    const std::int64_t end = std::min(next, steps);
-    go_on(end - step);
-    step = end;
-    if (step != next) return;
-    look();
-    next += watched.every;
-  }
-}
-
-/// Drifts and kicks in turn, without a decision: a state of few coordinates stays in registers.
-template <class S, class T>
-[[gnu::flatten, gnu::noinline]] void take_pairs(const S& system, state_in_place<T, S::dimension>& given,
-                                                flow_room<T, S::dimension>& room,
-                                                const step_program<double>& letters, std::int64_t steps,
-                                                const watch<T>& watched) {
-  flow_state<T, S::dimension> x = taken_from<S::dimension>(given);  // local: it cannot alias the system
-  const auto drift_and_kick = [&](std::int64_t count, std::size_t pairs) __attribute__((always_inline)) {
-    for (std::int64_t n = 0; n < count; ++n) {
-      for (std::size_t i = 0; i < pairs; ++i) {
-        const auto& [first, second] = letters.pairs[i];
-        drift::apply(system, first, x, room);
-        kick::evaluate_and_apply(system, second, x, room);
-      }
-    }
-  };
-  const auto look = [&] { show<field::whole, S, T>(system, x, room, letters, watched); };
-  if (letters.begins_with_kick) {
-    const auto kick_and_drift = [&](std::int64_t count) __attribute__((always_inline)) {
-      for (std::int64_t n = 0; n < count; ++n) {
-        for (const auto& [first, second] : letters.pairs) {
-          kick::evaluate_and_apply(system, first, x, room);
-          drift::apply(system, second, x, room);
-        }
-      }
-    };
-    watch_steps(steps, watched, kick_and_drift, look);
-  } else if (letters.keeps_last_force) {
-    const auto keep_last_force = [&](std::int64_t count) __attribute__((always_inline)) {
-      drift_and_kick(count - 1, letters.pairs.size());
-      drift_and_kick(1, letters.pairs.size() - 1);
-      const auto& [first, second] = letters.pairs.back();
-      drift::apply(system, first, x, room);
-      force_of<field::whole, T>(system, x.q, x.f);
-      kick::apply(system, second, x, room);
-    };
-    watch_steps(steps, watched, keep_last_force, look);
-  } else {
-    watch_steps(
-        steps, watched,
-        [&](std::int64_t count)
-            __attribute__((always_inline)) { drift_and_kick(count, letters.pairs.size()); },
-        look);
-  }
-  given_back<S::dimension>(x, given);
-}
-
-/// So many steps, watched or not.
-template <field F, class S, class T>
-void take_steps(const S& system, state_in_place<T, S::dimension>& x, flow_room<T, S::dimension>& room,
-                const step_program<coefficient_of<T>>& letters, std::int64_t steps, const callback& other,
-                const watch<T>& watched) {
-  if constexpr (F == field::whole && !is_dual<T>) {
-    if (!letters.pairs.empty()) return take_pairs(system, x, room, letters, steps, watched);
-  }
-  watch_steps(
-      steps, watched, [&](std::int64_t count) { take_any_steps<F>(system, x, room, letters, count, other); },
-      [&] { show<F, S, T>(system, x, room, letters, watched); });
-}
 
 template <class T>
 inline constexpr bool is_in_lanes = lanes_in<T> > 1;
@@ -301,12 +92,7 @@ class with_kernels : public Base {
     if constexpr (serves) {
       room_of_letters<T, N> own(room);
       state_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p), as_fixed<N>(f)};
-      if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
-        if (letters.reads == field::soft) {
-          return take_steps<field::soft>(this->system(), x, own.room, letters, steps, other, watched);
-        }
-      }
-      take_steps<field::whole>(this->system(), x, own.room, letters, steps, other, watched);
+      take_steps_of_word(this->system(), x, own.room, letters, steps, other, watched);
     } else {
       refuse_kernel();
     }

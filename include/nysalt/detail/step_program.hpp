@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+// Letters as data, as they are interpreted.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nysalt/flows/gradient_kick.hpp"
+#include "nysalt/flows/rotation.hpp"
+#include "nysalt/word.hpp"
+
+namespace nysalt::detail {
+
+/// What kernels do themselves; letters of the bath are called back.
+enum class action : std::uint8_t { drift, kick, gradient_kick, rotation, call };
+
+/// A letter as data, with the step folded into the coefficients.
+template <Scalar C>
+struct step_program_letter {
+  action what = action::call;
+  evaluation evaluates = evaluation::none;  ///< of the force, before it
+  int number = 0;                           ///< what is called back
+  C coefficient{0.0};
+  gradient_kick_coefficients<C> gradient{};
+  const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
+};
+
+/// Letters of one step as data.
+template <Scalar C>
+struct step_program {
+  using letter = step_program_letter<C>;
+  std::vector<letter> loop;  ///< of a step that another one follows
+  std::vector<letter> last;  ///< of a step after which the run may be looked at
+  std::vector<letter> undo;  ///< what takes the first letter back, of an open run
+  field reads = field::none;
+  bool calls = false;  ///< there are letters that are called back
+  /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the
+  /// state in registers then. Empty of other loops.
+  std::vector<std::array<C, 2>> pairs{};
+  bool begins_with_kick = false;
+  bool keeps_last_force = false;  ///< the last kick of a last step leaves its force known
+
+  void find_pairs() {
+    pairs.clear();
+    if (calls || loop.empty() || loop.size() % 2 != 0) return;
+    begins_with_kick = loop.front().what == action::kick;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const bool is_kick = begins_with_kick == (i % 2 == 0);
+      if (loop[i].what != (is_kick ? action::kick : action::drift)) return;
+      if (is_kick && loop[i].evaluates != evaluation::alone) return;
+      const bool may_be_kept = !begins_with_kick && i + 1 == loop.size();
+      if (is_kick && !may_be_kept && last[i].evaluates != evaluation::alone) return;
+    }
+    keeps_last_force = !begins_with_kick && last.back().evaluates == evaluation::shared;
+    for (std::size_t i = 0; i < loop.size(); i += 2)
+      pairs.push_back({loop[i].coefficient, loop[i + 1].coefficient});
+  }
+};
+
+/// Whom kernels call for letters of the bath. The state is up to date then, and read again.
+struct callback {
+  void (*call)(void* context, int number) = nullptr;
+  void* context = nullptr;
+};
+
+/// Who looks at a run: after `first` steps, and then after every so many, q and p are given the synchronous
+/// state, and `look` is called. Nobody, if there is no look.
+template <class T>
+struct watch {
+  vector<T, Eigen::Dynamic>* q = nullptr;
+  vector<T, Eigen::Dynamic>* p = nullptr;
+  std::int64_t first = 0;
+  std::int64_t every = 1;
+  void (*look)(void* context) = nullptr;
+  void* context = nullptr;
+};
+
+}  // namespace nysalt::detail
