@@ -35,7 +35,10 @@ function(compile_library)
   # the linker says so, and not the compiler, as the static library is made of the same objects.
   set_target_properties(nysalt_objects PROPERTIES POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET default VISIBILITY_INLINES_HIDDEN OFF)
-  target_link_libraries(nysalt_objects PRIVATE nysalt_core nysalt_warnings)
+  target_link_libraries(nysalt_objects PRIVATE nysalt_core)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_link_libraries(nysalt_objects PRIVATE nysalt_warnings)
+  endif()
   target_precompile_headers(nysalt_objects PRIVATE cmake/precompiled.hpp)
   foreach(need IN LISTS nysalt_library_needs)
     if(need IN_LIST nysalt_components)
