@@ -2,6 +2,7 @@
 // Many trajectories from start to finish, in lanes and on threads, each watched over.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -34,6 +35,50 @@ struct ensemble_options {
   const communicator* ranks = &alone;                    ///< who share the trajectories; changes no bit
 };
 
+namespace detail {
+
+/// The trajectories of this rank: consecutive ones.
+struct own_trajectories {
+  std::int64_t first;  ///< place of the first in the ensemble
+  std::int64_t count;  ///< how many
+};
+
+/// The driver of ensembles: follows the trajectories of this rank, as many at a time as T has lanes, on
+/// several threads. Of trajectories place .. place + count - 1 of the ensemble, counted from options.first
+/// on, visitor_of(place, count) makes a visitor: take(n, numbers, live) is called with what read(x, numbers)
+/// wrote of the states at step n, in the order of time, and end(run) with the lockstep that is at its end. A
+/// thread goes through `of_thread` trajectories at a time, one block after the other. Whoever calls it does
+/// so on all ranks.
+template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class VisitorOf>
+void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_options& options,
+                     const own_trajectories& own, int of_thread, std::size_t width, const Read& read,
+                     const VisitorOf& visitor_of) {
+  const auto follow_block = [&](std::int64_t place, int count) {
+    const std::int64_t first = options.first + place;
+    const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
+    auto visitor = visitor_of(place, count);
+    std::vector<T> numbers(width);
+    read(start, std::span<T>(numbers));
+    visitor.take(0, std::span<const T>(numbers), first_lanes<T>(count));
+    lockstep<Stepper, T> run(stepper, start, count, first);
+    run.go_on(
+        options.steps, options.every, width, read,
+        [&](std::int64_t n, std::span<const T> seen, const auto& live) { visitor.take(n, seen, live); });
+    visitor.end(run);
+  };
+  const auto follow = [&](std::int64_t place, int count) {
+    for (int done = 0; done < count; done += lanes_in<T>) {
+      follow_block(own.first + place + done, std::min(lanes_in<T>, count - done));
+    }
+  };
+  together(*options.ranks, [&] {
+    for_each_block(own.count, of_thread, options.threads, follow,
+                   progress_of_share(*options.ranks, own.count, options.trajectories, options.progress));
+  });
+}
+
+}  // namespace detail
+
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T
 /// has lanes. At steps n = 0, every, 2 every, ... read(x, numbers) writes `width` numbers of the states over
 /// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
@@ -59,29 +104,30 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
-  const auto follow = [&](std::int64_t block, int count) {
-    const std::int64_t place = own.first() + block;
-    const std::int64_t first = options.first + place;
-    const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
-    std::vector<T> numbers(width);
-    std::vector<double> of_one(width);
-    const auto hand_over = [&](std::int64_t n, std::span<const T> all, const auto& live) {
+  struct visitor {
+    const Take& take_one;
+    std::vector<std::optional<std::int64_t>>& diverged_at;
+    std::int64_t first;
+    std::int64_t place;
+    int count;
+    std::vector<double> of_one;
+
+    void take(std::int64_t n, std::span<const T> all, const auto& live) {
       for (int k = 0; k < count; ++k) {
         if (!lane(live, k)) continue;
-        for (std::size_t i = 0; i < width; ++i) of_one[i] = lane(all[i], k);
-        take(first + k, n, std::span<const double>(of_one));
+        for (std::size_t i = 0; i < of_one.size(); ++i) of_one[i] = lane(all[i], k);
+        take_one(first + place + k, n, std::span<const double>(of_one));
       }
-    };
-    read(start, std::span<T>(numbers));
-    hand_over(0, numbers, first_lanes<T>(count));
-    lockstep<Stepper, T> all(stepper, start, count, first);
-    all.go_on(options.steps, options.every, width, read, hand_over);
-    for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = all.diverged_at(k);
+    }
+    void end(const auto& run) {
+      for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = run.diverged_at(k);
+    }
   };
-  together(ranks, [&] {
-    for_each_block(own.count(), lanes_in<T>, options.threads, follow,
-                   progress_of_share(ranks, own.count(), options.trajectories, options.progress));
-  });
+  const auto visitor_of = [&](std::int64_t place, int count) {
+    return visitor{take, diverged_at, options.first, place, count, std::vector<double>(width)};
+  };
+  detail::follow_ensemble<T>(stepper, ensemble, options, {own.first(), own.count()}, lanes_in<T>, width, read,
+                             visitor_of);
   own.gather(diverged_at);
   return diverged_at;
 }

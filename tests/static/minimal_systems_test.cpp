@@ -10,7 +10,9 @@
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/impulse.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/verlet.hpp"
+#include "nysalt/model.hpp"
 #include "nysalt/requirements.hpp"
 #include "quartic_well.hpp"
 
@@ -131,4 +133,19 @@ BOOST_AUTO_TEST_CASE(time_may_be_a_coordinate) {
   };
   BOOST_TEST(std::abs(error(20)) > 1e-6);
   BOOST_TEST(std::abs(error(20) / error(40) - 4.0) < 0.04);
+}
+
+BOOST_AUTO_TEST_CASE(a_model_is_the_system_as_a_value) {
+  // [model]
+  const nysalt::model well = quartic_well();  // any system converts
+  const auto method = nysalt::tabulated(nysalt::verlet());
+  auto end = nysalt::phase_point<double, Eigen::Dynamic>{Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
+  nysalt::make_stepper(well, method, 0.1).step(end);
+  // [/model]
+  nysalt::phase_point<double, 1> same{nysalt::vector<double, 1>(1.0), nysalt::vector<double, 1>(0.0)};
+  const quartic_well by_type;
+  nysalt::make_stepper(by_type, nysalt::verlet(), 0.1).step(same);
+  BOOST_TEST(end.q[0] == same.q[0]);
+  BOOST_TEST(end.p[0] == same.p[0]);
+  BOOST_TEST(end.q[0] != 1.0);  // it moved
 }

@@ -53,30 +53,25 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
   const auto read = [&](const state& x, std::span<T> numbers) {
     read_sample(wanted, stepper, observable, x, numbers);
   };
-  const auto follow = [&](std::int64_t block, int count) {
-    const std::int64_t first = options.first + block;
-    const state start = starts(first, count);
-    statistics_along<T> along(wanted, centre);
-    std::vector<T> numbers(numbers_of_sample(wanted));
-    read(start, std::span<T>(numbers));
-    along.add(0, std::span<const T>(numbers), first_lanes<T>(count));
-    lockstep<Stepper, T> run(stepper, start, count, first);
-    run.go_on(options.steps, options.every, numbers.size(), read,
-              [&](std::int64_t n, std::span<const T> seen, const auto& live) { along.add(n, seen, live); });
-    for (int k = 0; k < count; ++k) {
-      const auto lost_at = along.lost_at(k);
-      all.keep(block + k, along, k, lost_at ? lost_at : run.diverged_at(k));
+  struct visitor {
+    gathering& all;
+    statistics_along<T> along;
+    std::int64_t place;
+    int count;
+
+    void take(std::int64_t n, std::span<const T> seen, const auto& live) { along.add(n, seen, live); }
+    void end(const auto& run) {
+      for (int k = 0; k < count; ++k) {
+        const auto lost_at = along.lost_at(k);
+        all.keep(place + k, along, k, lost_at ? lost_at : run.diverged_at(k));
+      }
     }
   };
-  const auto follow_all_of_thread = [&](std::int64_t first, int count) {
-    for (int done = 0; done < count; done += lanes_in<T>) {
-      follow(all.first() + first + done, std::min(lanes_in<T>, count - done));
-    }
+  const auto visitor_of = [&](std::int64_t place, int count) {
+    return visitor{all, statistics_along<T>(wanted, centre), place, count};
   };
-  together(ranks, [&] {
-    for_each_block(all.count(), all.trajectories_of_thread(), options.threads, follow_all_of_thread,
-                   progress_of_share(ranks, all.count(), options.trajectories, options.progress));
-  });
+  detail::follow_ensemble<T>(stepper, ensemble, options, {all.first(), all.count()},
+                             all.trajectories_of_thread(), numbers_of_sample(wanted), read, visitor_of);
   all.gather();
   return all.result(options.first);
 }
