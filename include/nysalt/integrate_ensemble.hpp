@@ -112,14 +112,14 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
     int count;
     std::vector<double> of_one;
 
-    void take(std::int64_t n, std::span<const T> all, const auto& live) {
+    void take(std::int64_t n, std::span<const T> all, const condition_of<T>& live) {
       for (int k = 0; k < count; ++k) {
         if (!lane(live, k)) continue;
         for (std::size_t i = 0; i < of_one.size(); ++i) of_one[i] = lane(all[i], k);
         take_one(first + place + k, n, std::span<const double>(of_one));
       }
     }
-    void end(const auto& run) {
+    void end(const lockstep<Stepper, T>& run) {
       for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = run.diverged_at(k);
     }
   };

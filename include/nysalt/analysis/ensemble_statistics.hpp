@@ -59,8 +59,10 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
     std::int64_t place;
     int count;
 
-    void take(std::int64_t n, std::span<const T> seen, const auto& live) { along.add(n, seen, live); }
-    void end(const auto& run) {
+    void take(std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
+      along.add(n, seen, live);
+    }
+    void end(const lockstep<Stepper, T>& run) {
       for (int k = 0; k < count; ++k) {
         const auto lost_at = along.lost_at(k);
         all.keep(place + k, along, k, lost_at ? lost_at : run.diverged_at(k));
