@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/lanes.hpp"

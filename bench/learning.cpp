@@ -12,7 +12,7 @@
 #include "../tests/support/sample_blocks.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "races.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "c_force/morse_chain.h"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

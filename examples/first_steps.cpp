@@ -2,7 +2,7 @@
 // The ten lines of the README: learn a method for a chain at a step, and run it.
 #include <fmt/format.h>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 int main() {

@@ -6,7 +6,7 @@
 // this step from a hundred short trajectories, and let it run against methods of the same cost.
 #include <fmt/format.h>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

@@ -10,7 +10,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

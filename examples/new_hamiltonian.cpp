@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

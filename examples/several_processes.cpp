@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/communicators/mpi.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

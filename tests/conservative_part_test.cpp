@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What is left of a word and its coefficients without the letters O.
-#include "nysalt/conservative_part.hpp"
+#include "nysalt/detail/conservative_part.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 
 using namespace nysalt;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // How far an energy may go before a trajectory counts as lost, in a bath and without.
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Every trajectory once, by any number of lanes and threads; and the first exception.
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Trajectories side by side go as each would alone: to the bit, to the step at which it diverges, and in what
 // an observer is shown.
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/lockstep.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Letters O share a step in their order, each by its coefficient.
-#include "nysalt/noise_intervals.hpp"
+#include "nysalt/detail/noise_intervals.hpp"
 
 #include <boost/test/unit_test.hpp>
 

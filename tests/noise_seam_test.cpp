@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Two letters O that meet between steps: one draw for the run, and two independent halves for who looks.
-#include "nysalt/noise_seam.hpp"
+#include "nysalt/detail/noise_seam.hpp"
 
 #include <boost/test/unit_test.hpp>
 

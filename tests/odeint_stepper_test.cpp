@@ -9,7 +9,7 @@
 
 #include "laws/models.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/odeint_stepper.hpp"
+#include "nysalt/references/odeint_stepper.hpp"
 #include "support/rounding.hpp"
 
 using namespace nysalt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Words of one length keep their plans apart. g++ 12 took template parameters that are arrays of equal
 // length for one another, and words stepped in one program then shared the plan of the first of them.
-#include "nysalt/prepared_word.hpp"
+#include "nysalt/detail/prepared_word.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The quadratic part of a system: its modes laid out, what is zero left out, and modes that cannot be
 // refused.
-#include "nysalt/quadratic_part.hpp"
+#include "nysalt/detail/quadratic_part.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -10,7 +10,7 @@
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "support/draws.hpp"
 #include "support/refusal.hpp"
 #include "support/rounding.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "laws/models.hpp"
-#include "nysalt/palindrome.hpp"
+#include "nysalt/detail/palindrome.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A sentence's numbers, against fmt's.
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>

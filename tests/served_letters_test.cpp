@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A word as data is refused by a system that does not serve its letters, with what is missing.
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/served_letters.hpp"
 
 #include <boost/test/unit_test.hpp>
 

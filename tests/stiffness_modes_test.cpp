@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The modes of a stiffness matrix diagonalise it, zero frequencies are zero, and what is no such matrix is
 // refused.
-#include "nysalt/stiffness_modes.hpp"
+#include "nysalt/detail/stiffness_modes.hpp"
 
 #include <boost/test/unit_test.hpp>
 

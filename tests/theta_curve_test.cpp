@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/theta_curve.hpp"
+#include "nysalt/learning/theta_curve.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What fails on one rank fails on all, in the same words.
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 #include <boost/test/unit_test.hpp>
 

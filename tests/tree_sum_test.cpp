@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/detail/tree_sum.hpp"
 
 #include <boost/test/unit_test.hpp>
 

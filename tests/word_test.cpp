@@ -5,7 +5,7 @@
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/palindrome.hpp"
+#include "nysalt/detail/palindrome.hpp"
 
 using namespace nysalt;
 

@@ -15,7 +15,7 @@
 #include "measure.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "sizes.hpp"
 

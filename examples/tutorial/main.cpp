@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nysalt/bath.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/derivatives/reversibility.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
@@ -17,7 +17,7 @@
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"

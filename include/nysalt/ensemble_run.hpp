@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
-#include "nysalt/ensemble_loop.hpp"
-#include "nysalt/lockstep.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/detail/lockstep.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -11,7 +11,7 @@
 
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

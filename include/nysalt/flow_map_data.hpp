@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "nysalt/detail/any_reference.hpp"
-#include "nysalt/energy_range.hpp"
+#include "nysalt/detail/energy_range.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"

@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

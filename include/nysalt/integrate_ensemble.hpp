@@ -13,13 +13,13 @@
 
 #include "nysalt/communicators/alone.hpp"
 #include "nysalt/ensemble.hpp"
-#include "nysalt/ensemble_loop.hpp"
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/progress_of_share.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/progress_of_share.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/shard.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/noise_intervals.hpp"
+#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/run_time_word.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

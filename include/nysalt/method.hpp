@@ -10,10 +10,10 @@
 #include <string>
 
 #include "nysalt/energy.hpp"
-#include "nysalt/energy_range.hpp"
+#include "nysalt/detail/energy_range.hpp"
 #include "nysalt/family.hpp"
-#include "nysalt/requirements.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/requirements.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

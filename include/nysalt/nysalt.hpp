@@ -27,7 +27,7 @@
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs.hpp"

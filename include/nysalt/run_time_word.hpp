@@ -16,7 +16,7 @@
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/communicators/alone.hpp"
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
 

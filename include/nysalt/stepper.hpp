@@ -11,11 +11,11 @@
 #include <utility>
 #include <variant>
 
-#include "nysalt/conservative_part.hpp"
+#include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/noises/none.hpp"
-#include "nysalt/prepared_run_time_word.hpp"
-#include "nysalt/sentence.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/prepared_run_time_word.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"

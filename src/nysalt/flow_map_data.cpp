@@ -13,10 +13,10 @@
 #include <stdexcept>
 
 #include "learning/redistribute.hpp"
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
-#include "nysalt/progress_of_share.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/progress_of_share.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

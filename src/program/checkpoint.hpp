@@ -9,7 +9,7 @@
 
 #include "bundled_system.hpp"
 #include "json.hpp"
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "unfinished_file.hpp"
 
 namespace nysalt::program {

@@ -8,7 +8,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/served_letters.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "comparison.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/served_letters.hpp"
 #include "seeds.hpp"
 #include "stability.hpp"
 #include "stability_margin.hpp"

@@ -13,7 +13,7 @@
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/method_error.hpp"
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 
 namespace nysalt::program {
 

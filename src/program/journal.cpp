@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "refusal.hpp"
 #include "world.hpp"
 

@@ -10,7 +10,7 @@
 #include "bundled_system.hpp"
 #include "json.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/theta_curve.hpp"
+#include "nysalt/learning/theta_curve.hpp"
 
 namespace nysalt::program {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "checks.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "stability_margin.hpp"
 #include "world.hpp"
 

@@ -11,7 +11,7 @@
 #include "known_word.hpp"
 #include "learning.hpp"
 #include "nysalt/analysis/tail.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/served_letters.hpp"
 #include "seeds.hpp"
 #include "stability_margin.hpp"
 

@@ -13,7 +13,7 @@
 #include "bundled_system.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "observables.hpp"
 #include "shared_wave.hpp"
 #include "stretches.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nysalt/analysis/timing.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {

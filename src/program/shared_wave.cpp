@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 
 namespace nysalt::program {
 

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "refusal.hpp"
 
 #if defined NYSALT_HAS_MPI

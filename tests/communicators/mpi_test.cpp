@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "nysalt/shard.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 using namespace nysalt;
 

@@ -9,7 +9,7 @@
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/magnification.hpp"
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -5,7 +5,7 @@
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 #include "nysalt/stepper.hpp"
 
 using namespace nysalt;

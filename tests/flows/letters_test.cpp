@@ -10,8 +10,8 @@
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/run_time_word.hpp"
-#include "nysalt/served_letters.hpp"
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 #include "nysalt/stepper.hpp"
 
 using namespace nysalt;

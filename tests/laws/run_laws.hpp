@@ -9,7 +9,7 @@
 
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/lanes.hpp"

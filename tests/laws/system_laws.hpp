@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../support/rounding.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
 

@@ -6,7 +6,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/fg_chin.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

@@ -8,7 +8,7 @@
 #include "../support/rounding.hpp"
 #include "../support/sample_blocks.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/losses/own_loss.hpp"
 
 namespace nysalt::test {

@@ -10,7 +10,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/references/fine_steps.hpp"
 

@@ -7,7 +7,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/aba.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 

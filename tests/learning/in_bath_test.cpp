@@ -13,7 +13,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"

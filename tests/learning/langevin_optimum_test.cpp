@@ -5,7 +5,7 @@
 #include "../support/exact_paths.hpp"
 #include "../support/langevin_methods.hpp"
 #include "nysalt/ensembles/listed.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

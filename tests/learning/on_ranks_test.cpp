@@ -13,7 +13,7 @@
 #include "../support/ranks_as_threads.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/pendulum.hpp"
 

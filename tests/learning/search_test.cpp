@@ -8,7 +8,7 @@
 #include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

@@ -7,7 +7,7 @@
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/references/exact_linear.hpp"

@@ -1,7 +1,7 @@
 // expect: nysalt: lanes may differ in a comparison, so it cannot choose a branch: write
 //   nysalt::select(condition, a, b), or let the system say `static constexpr int lanes = 1;`
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/verlet.hpp"
 

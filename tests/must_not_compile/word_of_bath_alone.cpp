@@ -1,6 +1,6 @@
 // expect: nysalt: a word needs a letter beside those of the bath
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/conservative_part.hpp"
+#include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/flows/drift.hpp"
 
 using O = nysalt::ornstein_uhlenbeck;

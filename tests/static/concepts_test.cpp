@@ -5,7 +5,7 @@
 #include <string>
 
 #include "../laws/models.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/own_loss.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "quartic_well.hpp"

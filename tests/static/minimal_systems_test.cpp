@@ -13,7 +13,7 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/requirements.hpp"
+#include "nysalt/detail/requirements.hpp"
 #include "quartic_well.hpp"
 
 using namespace nysalt::test;

@@ -2,7 +2,7 @@
 // Whether two passes over data came to the same bits.
 #pragma once
 
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 
 namespace nysalt::test {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt::test {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "nysalt/ensemble_loop.hpp"
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt::test {

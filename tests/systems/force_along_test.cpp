@@ -5,7 +5,7 @@
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"

@@ -6,7 +6,7 @@
 
 #include "../laws/models.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/force.hpp"
 #include "nysalt/lanes.hpp"

@@ -6,7 +6,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
 

@@ -5,7 +5,7 @@
 #include "../support/thermal_starts.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 

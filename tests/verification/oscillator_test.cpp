@@ -4,7 +4,7 @@
 
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 

@@ -9,7 +9,7 @@
 #include "../../src/program/reproduction/thinned.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 

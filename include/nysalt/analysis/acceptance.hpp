@@ -15,7 +15,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {

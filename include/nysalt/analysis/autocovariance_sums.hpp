@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/lanes.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -11,7 +11,7 @@
 
 #include "nysalt/analysis/compared_reference.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/along_path.hpp"
 

@@ -11,7 +11,7 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

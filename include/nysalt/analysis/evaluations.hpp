@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "nysalt/conservative_part.hpp"
-#include "nysalt/counted.hpp"
+#include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"

@@ -13,7 +13,7 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/statistics_along.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 
 namespace nysalt {
 

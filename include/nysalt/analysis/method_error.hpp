@@ -11,7 +11,7 @@
 
 #include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/analysis/tail.hpp"
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 
 namespace nysalt {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/tree_sum.hpp"
+#include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
 

@@ -18,12 +18,12 @@
 #include "nysalt/analysis/trajectory_errors_result.hpp"
 #include "nysalt/analysis/trajectory_options.hpp"
 #include "nysalt/ensemble.hpp"
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/progress_of_share.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/progress_of_share.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/shard.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

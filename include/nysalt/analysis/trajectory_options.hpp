@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "nysalt/communicators/alone.hpp"
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {

@@ -14,7 +14,7 @@
 #include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
 #include "nysalt/force.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"

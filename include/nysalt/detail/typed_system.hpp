@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/counted.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/detail/take_steps.hpp"
 #include "nysalt/flows/drift.hpp"

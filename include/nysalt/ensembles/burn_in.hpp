@@ -12,8 +12,8 @@
 #include "nysalt/ensembles/burn_in_pilot.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
 #include "nysalt/ensembles/slowest_mode.hpp"
-#include "nysalt/in_digits.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "nysalt/ensemble.hpp"
-#include "nysalt/lockstep.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"

@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/ensembles/burn_in_chains.hpp"
 #include "nysalt/ensembles/watched_stretch.hpp"
-#include "nysalt/in_digits.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,7 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt {

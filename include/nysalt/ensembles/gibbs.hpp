@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "nysalt/ensembles/burn_in.hpp"
-#include "nysalt/in_digits.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

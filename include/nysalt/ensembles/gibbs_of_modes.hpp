@@ -7,10 +7,10 @@
 #include <string>
 
 #include "nysalt/ensemble.hpp"
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/references/exact_linear.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

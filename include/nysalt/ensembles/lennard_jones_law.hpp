@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/noises/counter_based.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 
 namespace nysalt {

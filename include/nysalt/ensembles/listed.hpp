@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

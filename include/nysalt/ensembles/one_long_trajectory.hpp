@@ -12,12 +12,12 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/palindrome.hpp"
+#include "nysalt/detail/palindrome.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "nysalt/families/composition.hpp"
-#include "nysalt/palindrome.hpp"
+#include "nysalt/detail/palindrome.hpp"
 
 namespace nysalt {
 

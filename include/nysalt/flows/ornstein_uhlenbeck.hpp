@@ -7,7 +7,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/noise.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

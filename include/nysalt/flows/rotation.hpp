@@ -9,7 +9,7 @@
 
 #include "nysalt/flow.hpp"
 #include "nysalt/flows/drift.hpp"
-#include "nysalt/quadratic_part.hpp"
+#include "nysalt/detail/quadratic_part.hpp"
 
 namespace nysalt {
 

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {

@@ -7,7 +7,7 @@
 #include <ranges>
 #include <string>
 
-#include "nysalt/energy_range.hpp"
+#include "nysalt/detail/energy_range.hpp"
 
 namespace nysalt {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/learning/until_enough.hpp"
 
 namespace nysalt {

@@ -9,7 +9,7 @@
 
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/metric.hpp"

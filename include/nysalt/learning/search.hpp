@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/run_time_family.hpp"
 
 namespace nysalt {

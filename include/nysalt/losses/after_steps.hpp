@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/losses/stretch_error.hpp"
 #include "nysalt/losses/stretches_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -14,7 +14,7 @@
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/lanes.hpp"
-#include "nysalt/noise_intervals.hpp"
+#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 
 namespace nysalt {

@@ -3,7 +3,7 @@
 
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/palindrome.hpp"
+#include "nysalt/detail/palindrome.hpp"
 
 namespace nysalt {
 

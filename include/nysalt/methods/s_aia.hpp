@@ -7,7 +7,7 @@
 #include <string>
 
 #include "nysalt/methods/palindromic.hpp"
-#include "nysalt/requirements.hpp"
+#include "nysalt/detail/requirements.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/noise_intervals.hpp"
+#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/noises/recorded_path.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

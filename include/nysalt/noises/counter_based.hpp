@@ -15,7 +15,7 @@
 #include "nysalt/noises/box_muller.hpp"
 #include "nysalt/noises/philox.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

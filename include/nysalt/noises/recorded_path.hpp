@@ -12,7 +12,7 @@
 
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -9,7 +9,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/force.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -8,13 +8,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/noises/finer_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

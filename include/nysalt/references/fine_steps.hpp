@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

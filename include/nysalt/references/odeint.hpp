@@ -11,7 +11,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/energy.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <type_traits>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

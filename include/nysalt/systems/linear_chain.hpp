@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/sentence.hpp"
-#include "nysalt/stiffness_modes.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/stiffness_modes.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "nysalt/force.hpp"
-#include "nysalt/sentence.hpp"
-#include "nysalt/stiffness_modes.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/stiffness_modes.hpp"
 
 namespace nysalt {
 

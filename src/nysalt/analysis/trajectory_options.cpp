@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "nysalt/divergence.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "nysalt/derivatives/differences.hpp"
-#include "nysalt/quadratic_part.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/quadratic_part.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
 

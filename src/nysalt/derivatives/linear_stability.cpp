@@ -17,8 +17,8 @@
 #include "nysalt/scalars/dense_polynomial.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/series.hpp"
-#include "nysalt/served_letters.hpp"
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt {
 

@@ -6,7 +6,7 @@
 #include <complex>
 #include <limits>
 
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt {
 

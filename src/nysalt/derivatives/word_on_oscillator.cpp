@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/derivatives/word_on_oscillator.hpp"
 
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "nysalt/families/phase_fitting.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "nysalt/scalars/dense_polynomial.hpp"
-#include "nysalt/step_on_oscillator.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt::detail {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 
 namespace nysalt {
 

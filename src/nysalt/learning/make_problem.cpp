@@ -21,7 +21,7 @@
 #include "nysalt/losses/energy_error.hpp"
 #include "nysalt/losses/state_error.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
-#include "nysalt/served_letters.hpp"
+#include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {
 

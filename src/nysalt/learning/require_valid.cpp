@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "nysalt/sentence.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

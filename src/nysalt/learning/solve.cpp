@@ -19,7 +19,7 @@
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

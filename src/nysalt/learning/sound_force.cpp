@@ -7,7 +7,7 @@
 
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/learning/some_states.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

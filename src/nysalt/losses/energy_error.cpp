@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
 

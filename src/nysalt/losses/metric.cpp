@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

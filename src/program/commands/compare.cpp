@@ -11,7 +11,7 @@
 #include "../ranking.hpp"
 #include "../refusal.hpp"
 #include "../world.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 

@@ -4,7 +4,7 @@
 #include "../output.hpp"
 #include "../refusal.hpp"
 #include "../world.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 

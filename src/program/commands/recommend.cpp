@@ -4,7 +4,7 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "../world.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 

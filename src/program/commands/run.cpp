@@ -17,7 +17,7 @@
 #include "../stretches.hpp"
 #include "../world.hpp"
 #include "nysalt/report/plot.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 

@@ -9,7 +9,7 @@
 #include "../commands.hpp"
 #include "../world.hpp"
 #include "number_option.hpp"
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 #include "shared_options.hpp"
 
 namespace nysalt::program {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "nysalt/ensemble_loop.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

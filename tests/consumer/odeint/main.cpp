@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "nysalt/methods/verlet.hpp"
-#include "nysalt/odeint_stepper.hpp"
+#include "nysalt/references/odeint_stepper.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 int main() {

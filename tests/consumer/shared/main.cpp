@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "nysalt/learner.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
 struct quartic {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

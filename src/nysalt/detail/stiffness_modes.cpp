@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/stiffness_modes.hpp"
+#include "nysalt/detail/stiffness_modes.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

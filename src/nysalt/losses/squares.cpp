@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A loss as the sum of squares that it is.
-#include "nysalt/learning/squares.hpp"
+#include "nysalt/losses/squares.hpp"
 
 #include <cmath>
 

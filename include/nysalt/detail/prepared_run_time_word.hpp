@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/detail/take_steps.hpp"
-#include "nysalt/prepared_word.hpp"
+#include "nysalt/detail/prepared_word.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {

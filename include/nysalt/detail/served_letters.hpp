@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "nysalt/run_time_word.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

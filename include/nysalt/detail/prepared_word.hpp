@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "nysalt/noise_seam.hpp"
-#include "nysalt/quadratic_part.hpp"
+#include "nysalt/detail/noise_seam.hpp"
+#include "nysalt/detail/quadratic_part.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

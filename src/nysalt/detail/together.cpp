@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/together.hpp"
+#include "nysalt/detail/together.hpp"
 
 #include <exception>
 #include <functional>

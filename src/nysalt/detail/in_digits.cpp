@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/in_digits.hpp"
+#include "nysalt/detail/in_digits.hpp"
 
 #include <fmt/format.h>
 

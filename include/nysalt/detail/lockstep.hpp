@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/divergence.hpp"
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/divergence.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

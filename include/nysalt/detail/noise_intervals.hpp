@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/sentence.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/progress_of_share.hpp"
+#include "nysalt/detail/progress_of_share.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -8,7 +8,7 @@
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/make_problem.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/requirements.hpp"
+#include "nysalt/detail/requirements.hpp"
 
 namespace nysalt {
 

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+// What needs Boost.Odeint: references by its steppers, and methods as its steppers.
+#pragma once
+
+#include "nysalt/references/odeint.hpp"
+#include "nysalt/references/odeint_stepper.hpp"
