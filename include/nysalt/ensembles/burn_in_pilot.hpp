@@ -100,6 +100,7 @@ class burn_in_pilot {
   /// 0 where the system knows no potential.
   T potential_of(const state& x) const {
     const S& alone = chains_.system();
+    if (!has_potential(alone)) return T(0.0);
     if constexpr (HasPotential<S, T>) {
       return alone.potential(x.q);
     } else if constexpr (HasPotential<S, double>) {

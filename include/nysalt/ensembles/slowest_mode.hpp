@@ -14,6 +14,7 @@ template <System S>
 Eigen::VectorXd slowest_mode(const S& system) {
   Eigen::VectorXd weights;
   if constexpr (HasModes<S>) {
+    if (!has_modes(system)) return weights;
     const normal_modes modes = system.modes();
     Eigen::Index slowest = 0;
     const double omega = modes.frequencies.minCoeff(&slowest);
