@@ -14,7 +14,14 @@
 #include "laws/models.hpp"
 #include "laws/noisy_models.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/ensembles/highest_frequency.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/slowest_mode.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/initial_states.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/phase_points.hpp"
 #include "nysalt/stepper.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "support/draws.hpp"
@@ -380,6 +387,28 @@ BOOST_AUTO_TEST_CASE(forces_and_energies_have_the_bits_of_the_system) {
     BOOST_TEST_CONTEXT(describe(system)) {
       compare_over(0.0);
       if constexpr (detail::serves<S, lanes>) compare_over(lanes(0.0));
+    }
+  });
+}
+
+// What a type is asked when it is compiled a model tells while running.
+BOOST_AUTO_TEST_CASE(what_the_library_finds_out_of_a_system_it_finds_out_of_its_model) {
+  for_each<all_systems>([&]<class Model>() {
+    using S = decltype(Model::make());
+    const S system = Model::make();
+    const model erased(system);
+    BOOST_TEST_CONTEXT(describe(system)) {
+      BOOST_TEST((slowest_mode(erased) == slowest_mode(system)));
+      BOOST_TEST((highest_frequency(erased) == highest_frequency(system)));
+      BOOST_TEST(detail::frequency_to_fit(erased) == detail::frequency_to_fit(system));
+      const vector<double, S::dimension> zero = Eigen::VectorXd::Zero(size(system));
+      const normal_around<S::dimension> law({zero, zero}, 0.1, 0.2);
+      const auto expected = typical_and_energetic_starts(system, law, 1, 5, 10);
+      BOOST_TEST((phase_points(typical_and_energetic_starts(erased, initial_states(law), 1, 5, 10)) ==
+                  phase_points(expected)));
+      BOOST_TEST(expected.size() == plain_starts + (HasEnergy<S> ? 64U : 0U));
+      BOOST_TEST((phase_points(typical_and_energetic_starts(erased, initial_states(law), 2, 5, 10)) !=
+                  phase_points(expected)));
     }
   });
 }

@@ -95,7 +95,7 @@ template <SeparableSystem S, Method M, Ensemble<S> E>
           sentence("acceptance: kT must be positive and finite, got {}", temperature));
     }
     together(*options.ranks, [&] { require_room(options, 1, 1); });
-    if constexpr (!NystromSystem<S>) {
+    if (!has_quadratic_kinetic(system)) {
       constexpr std::int64_t enough = 16;
       for (std::int64_t m = 0; m < std::min(enough, options.trajectories); ++m) {
         detail::require_even_kinetic(system, sound_start(system, ensemble, options.seed, m).p, m);

@@ -15,6 +15,7 @@ Eigen::VectorXd slowest_mode(const S& system) {
   Eigen::VectorXd weights;
   if (!has_modes(system)) return weights;
   if constexpr (HasModes<S>) {
+    if (!has_modes(system)) return weights;
     const normal_modes modes = system.modes();
     Eigen::Index slowest = 0;
     const double omega = modes.frequencies.minCoeff(&slowest);

@@ -51,6 +51,7 @@ std::vector<phase_point<double, S::dimension>> typical_and_energetic_starts(
       if (n + k < plain) {
         result.push_back(std::move(start));
       } else if constexpr (HasEnergy<S>) {
+        if (!has_energy(system)) continue;
         by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
       }
     }

@@ -69,7 +69,7 @@ class after_steps {
         options_(options),
         share_(data.share()),
         starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
-    if (lanes_in < R >> 1 && !system.facts().in_lanes_with_slopes) {
+    if (1 < lanes_in<R> && !system.facts().in_lanes_with_slopes) {
       throw std::invalid_argument(sentence(
           "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
           "double",

@@ -39,10 +39,8 @@ weighted_modes modes_with_weights(const S& system) {
     for (Eigen::Index i = 0; i < n; ++i) root_mass[i] = 1.0 / std::sqrt(system.inverse_mass(i));
   }
   weighted_modes result;
-  bool by_modes = false;
-  if constexpr (HasModes<S>) by_modes = has_modes(system);
-  if (by_modes) {
-    if constexpr (HasModes<S>) {
+  if constexpr (HasModes<S>) {
+    if (has_modes(system)) {
       const normal_modes modes = system.modes();
       if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n) {
         throw std::invalid_argument(
@@ -51,12 +49,12 @@ weighted_modes modes_with_weights(const S& system) {
       const Eigen::VectorXd weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
       result.to_x = entries_of(weights.asDiagonal() * modes.basis.transpose() * root_mass.asDiagonal());
       result.to_y = entries_of(modes.basis.transpose() * root_mass.cwiseInverse().asDiagonal());
+      return result;
     }
-  } else {  // not as a matrix, which a long chain has no room for
-    for (Eigen::Index i = 0; i < n; ++i) {
-      result.to_x.push_back({static_cast<std::size_t>(i), i, root_mass[i]});
-      result.to_y.push_back({static_cast<std::size_t>(i), i, 1.0 / root_mass[i]});
-    }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {  // not as a matrix, which a long chain has no room for
+    result.to_x.push_back({static_cast<std::size_t>(i), i, root_mass[i]});
+    result.to_y.push_back({static_cast<std::size_t>(i), i, 1.0 / root_mass[i]});
   }
   return result;
 }
