@@ -21,4 +21,3 @@
 #include <random>
 #include <string>
 #include <vector>
-

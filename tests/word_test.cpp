@@ -2,10 +2,10 @@
 // What a word knows of itself, at compile time.
 #include <boost/test/unit_test.hpp>
 
+#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/detail/palindrome.hpp"
 
 using namespace nysalt;
 

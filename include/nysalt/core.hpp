@@ -3,10 +3,10 @@
 #pragma once
 
 #include "nysalt/bath.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/derivatives/reversibility.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/bab.hpp"
@@ -17,7 +17,6 @@
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/bcss.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
@@ -38,6 +37,7 @@
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/pack.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/lanes.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/lanes.hpp"
 
 namespace nysalt {
 

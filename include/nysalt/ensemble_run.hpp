@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensemble.hpp"
 
 namespace nysalt {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

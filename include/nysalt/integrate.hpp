@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "nysalt/detail/divergence.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "nysalt/communicators/alone.hpp"
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/lockstep.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/shard.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/ensemble.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
 

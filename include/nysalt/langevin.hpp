@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/detail/noise_intervals.hpp"
-#include "nysalt/run_time_word.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
 

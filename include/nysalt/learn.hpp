@@ -5,10 +5,10 @@
 #include <array>
 #include <optional>
 
+#include "nysalt/detail/requirements.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/make_problem.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/detail/requirements.hpp"
 
 namespace nysalt {
 

@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/energy.hpp"
 #include "nysalt/detail/energy_range.hpp"
-#include "nysalt/family.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/energy.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

@@ -12,10 +12,10 @@
 #include <variant>
 
 #include "nysalt/detail/conservative_part.hpp"
-#include "nysalt/noises/none.hpp"
 #include "nysalt/detail/prepared_run_time_word.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
+#include "nysalt/noises/none.hpp"
 
 namespace nysalt {
 

@@ -14,9 +14,9 @@
 
 #include "learning/redistribute.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {
 

@@ -9,8 +9,8 @@
 
 #include "bundled_system.hpp"
 #include "json.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/learning/theta_curve.hpp"
+#include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt::program {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "bundled_system.hpp"
+#include "nysalt/detail/together.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/detail/together.hpp"
 #include "observables.hpp"
 #include "shared_wave.hpp"
 #include "stretches.hpp"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/shard.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/shard.hpp"
 
 using namespace nysalt;
 

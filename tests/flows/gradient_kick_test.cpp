@@ -8,10 +8,10 @@
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;

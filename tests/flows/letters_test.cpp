@@ -9,9 +9,9 @@
 
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/run_time_word.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/run_time_word.hpp"
 #include "nysalt/stepper.hpp"
 
 using namespace nysalt;

@@ -9,10 +9,10 @@
 
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt::test {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "../support/rounding.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt::test {
 

@@ -10,8 +10,8 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

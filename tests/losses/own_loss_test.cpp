@@ -8,17 +8,17 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/same_squares.hpp"
+#include "nysalt/detail/tree_sum.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/energy_error.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/detail/tree_sum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

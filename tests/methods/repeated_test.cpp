@@ -44,5 +44,6 @@ BOOST_AUTO_TEST_CASE(methods_of_a_cost_take_as_many_evaluations) {
 
 BOOST_AUTO_TEST_CASE(letters_of_a_bath_and_no_step_are_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([] { repeated(tabulated(baoab{}), 2); }, {"BAOAB"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { repeated(nysalt::classical_methods().front(), 0); }, {"0 steps"}));
+  BOOST_TEST(
+      refuses<std::invalid_argument>([] { repeated(nysalt::classical_methods().front(), 0); }, {"0 steps"}));
 }

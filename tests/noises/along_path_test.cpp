@@ -7,8 +7,8 @@
 
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/detail/lockstep.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/mclachlan.hpp"

@@ -5,11 +5,11 @@
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
+#include "nysalt/systems/counted.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "../laws/models.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -15,6 +14,7 @@
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
 #include "nysalt/scalars/series.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt::test {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/own_loss.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "quartic_well.hpp"
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/detail/requirements.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/impulse.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/detail/requirements.hpp"
 #include "quartic_well.hpp"
 
 using namespace nysalt::test;

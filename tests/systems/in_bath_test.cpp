@@ -6,10 +6,10 @@
 
 #include "../laws/models.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/force.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/systems/counted.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -13,9 +13,9 @@
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/analysis/method_error.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {

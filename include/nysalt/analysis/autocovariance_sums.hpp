@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/lanes.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/lanes.hpp"
 
 namespace nysalt {
 

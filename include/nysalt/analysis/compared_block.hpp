@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "nysalt/analysis/compared_reference.hpp"
-#include "nysalt/langevin.hpp"
 #include "nysalt/detail/lockstep.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/along_path.hpp"
 

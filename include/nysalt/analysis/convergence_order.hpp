@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "nysalt/detail/conservative_part.hpp"
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt {
 

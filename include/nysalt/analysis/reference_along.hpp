@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "nysalt/analysis/joined_measures.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -17,13 +17,13 @@
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/analysis/trajectory_errors_result.hpp"
 #include "nysalt/analysis/trajectory_options.hpp"
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/langevin.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/shard.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/ensemble.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/shard.hpp"
 
 namespace nysalt {
 

@@ -13,8 +13,8 @@
 
 #include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
-#include "nysalt/force.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 

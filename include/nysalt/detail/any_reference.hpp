@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt::detail {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/take_steps.hpp"
 #include "nysalt/detail/prepared_word.hpp"
+#include "nysalt/detail/take_steps.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {

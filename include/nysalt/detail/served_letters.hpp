@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nysalt/run_time_word.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
 

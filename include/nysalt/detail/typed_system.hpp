@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/systems/counted.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/detail/take_steps.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -17,6 +16,7 @@
 #include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt::detail {
 

@@ -9,11 +9,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/burn_in_pilot.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
 #include "nysalt/ensembles/slowest_mode.hpp"
-#include "nysalt/detail/in_digits.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

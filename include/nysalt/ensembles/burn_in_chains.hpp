@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/lockstep.hpp"
+#include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/ensembles/burn_in_chains.hpp"
-#include "nysalt/ensembles/watched_stretch.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensembles/burn_in_chains.hpp"
+#include "nysalt/ensembles/watched_stretch.hpp"
 
 namespace nysalt {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt {

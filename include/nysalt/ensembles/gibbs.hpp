@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/ensembles/burn_in.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensembles/burn_in.hpp"
 
 namespace nysalt {
 

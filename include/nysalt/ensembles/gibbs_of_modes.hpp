@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/references/exact_linear.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/in_digits.hpp"
-#include "nysalt/noises/counter_based.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensemble.hpp"
+#include "nysalt/noises/counter_based.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 
 namespace nysalt {

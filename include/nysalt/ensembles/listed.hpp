@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/ensemble.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensemble.hpp"
 
 namespace nysalt {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/highest_frequency.hpp"
-#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/detail/palindrome.hpp"
 
 namespace nysalt {
 

@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/methods/omelyan.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "nysalt/families/composition.hpp"
 #include "nysalt/detail/palindrome.hpp"
+#include "nysalt/families/composition.hpp"
 
 namespace nysalt {
 

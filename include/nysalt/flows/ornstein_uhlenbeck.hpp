@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/noise.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <type_traits>
 
+#include "nysalt/detail/quadratic_part.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/flows/drift.hpp"
-#include "nysalt/detail/quadratic_part.hpp"
 
 namespace nysalt {
 

@@ -9,10 +9,10 @@
 
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"

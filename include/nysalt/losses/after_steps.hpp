@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/together.hpp"
 #include "nysalt/losses/stretch_error.hpp"
 #include "nysalt/losses/stretches_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

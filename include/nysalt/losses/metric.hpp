@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/flow_map_data.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/flow_map_data.hpp"
 
 namespace nysalt {
 

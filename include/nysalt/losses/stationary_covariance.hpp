@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/losses/squares.hpp"
-#include "nysalt/losses/discrete_lyapunov.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
+#include "nysalt/losses/discrete_lyapunov.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "nysalt/detail/kernels.hpp"
+#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/lanes.hpp"
-#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 
 namespace nysalt {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/detail/palindrome.hpp"
 
 namespace nysalt {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <type_traits>
 
+#include "nysalt/detail/requirements.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/families/phase_fitting.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
-#include "nysalt/detail/requirements.hpp"
 #include "nysalt/run_time_family.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "nysalt/methods/palindromic.hpp"
 #include "nysalt/detail/requirements.hpp"
+#include "nysalt/methods/palindromic.hpp"
 
 namespace nysalt {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/method.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 

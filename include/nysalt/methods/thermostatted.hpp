@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

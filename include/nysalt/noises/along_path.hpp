@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "nysalt/detail/noise_intervals.hpp"
-#include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/noises/recorded_path.hpp"
 
 namespace nysalt {
 

@@ -11,11 +11,11 @@
 #include <span>
 #include <stdexcept>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noises/box_muller.hpp"
 #include "nysalt/noises/philox.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

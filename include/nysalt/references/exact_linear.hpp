@@ -8,8 +8,8 @@
 #include <string>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/force.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 

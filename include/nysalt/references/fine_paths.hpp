@@ -9,12 +9,12 @@
 #include <string>
 
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/noises/finer_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 
@@ -41,8 +41,8 @@ class fine_steps {
     x = fine.synchronous(run);
   }
 
-  double step() const { return step_; }        ///< of its method
-  const M& method() const { return method_; }  ///< that takes the steps
+  double step() const { return step_; }                                  ///< of its method
+  const M& method() const { return method_; }                            ///< that takes the steps
   fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
   std::string description() const {
     return sentence("{} with step {}", method_.name(), in_digits(step_, 12));

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/energy.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/energy.hpp"
 
 namespace nysalt {
 

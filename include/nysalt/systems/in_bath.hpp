@@ -24,9 +24,7 @@ class in_bath : public S {
   const S& alone() const { return *this; }  ///< without the bath
 
   /// Those of the system, at the temperature of the bath if the system tells frequency_bands_at(temperature).
-  std::vector<frequency_band> frequency_bands() const
-    requires HasFrequencyBands<S>
-  {
+  std::vector<frequency_band> frequency_bands() const requires HasFrequencyBands<S> {
     if constexpr (requires { alone().frequency_bands_at(1.0); }) {
       if (bath_.acts() && bath_.has_temperature()) return alone().frequency_bands_at(bath_.temperature());
     }

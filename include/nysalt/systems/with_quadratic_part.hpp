@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/force.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/stiffness_modes.hpp"
+#include "nysalt/force.hpp"
 
 namespace nysalt {
 

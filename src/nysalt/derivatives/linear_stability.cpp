@@ -14,11 +14,11 @@
 
 #include "nysalt/derivatives/bernstein.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/detail/step_on_oscillator.hpp"
 #include "nysalt/scalars/dense_polynomial.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/series.hpp"
-#include "nysalt/detail/served_letters.hpp"
-#include "nysalt/detail/step_on_oscillator.hpp"
 
 namespace nysalt {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "nysalt/families/phase_fitting.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/families/phase_fitting.hpp"
 
 namespace nysalt {
 

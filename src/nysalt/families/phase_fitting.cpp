@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "nysalt/scalars/dense_polynomial.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/scalars/dense_polynomial.hpp"
 
 namespace nysalt::detail {
 

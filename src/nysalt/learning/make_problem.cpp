@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/served_letters.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/require_valid.hpp"
 #include "nysalt/learning/some_states.hpp"
@@ -21,7 +22,6 @@
 #include "nysalt/losses/energy_error.hpp"
 #include "nysalt/losses/state_error.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
-#include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {
 

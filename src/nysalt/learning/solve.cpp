@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/together.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 

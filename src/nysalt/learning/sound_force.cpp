@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/learning/some_states.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/learning/some_states.hpp"
 
 namespace nysalt {
 

@@ -12,12 +12,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/magnification.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {

@@ -16,8 +16,8 @@
 #include "../run_question.hpp"
 #include "../stretches.hpp"
 #include "../world.hpp"
-#include "nysalt/report/plot.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/report/plot.hpp"
 
 namespace nysalt::program {
 
