@@ -16,18 +16,22 @@ namespace {
 
 using texts = std::map<std::string, std::string>;  // by path below include/nysalt
 
-/// Names of files without .hpp, and of folders with a slash; from the lowest layer to the highest.
+/// Names of files without .hpp, and of folders with a slash, whose files may be named too; from the lowest
+/// layer to the highest.
 const std::vector<std::vector<std::string>> layers{
-    {"sentence", "in_digits", "scalar", "scalars/", "phase_point"},
+    {"sentence", "in_digits", "scalar", "scalars/", "phase_point", "phase_points"},
     {"system", "requirements", "force", "energy", "energy_range", "lanes", "bath", "noise", "noise_intervals",
      "quadratic_part", "stiffness_modes", "systems/", "counted", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "conservative_part", "noise_seam", "prepared_word",
-     "prepared_run_time_word", "palindrome", "served_letters", "stepper", "step_on_oscillator"},
+     "prepared_run_time_word", "detail/kernels", "palindrome", "served_letters", "stepper",
+     "step_on_oscillator"},
     {"langevin", "family", "families/", "run_time_family", "theta_curve", "method", "methods/"},
     {"divergence", "integrate", "lockstep", "odeint_stepper"},
-    {"derivatives/", "reference", "references/", "tree_sum", "communicator", "communicators/", "shard",
-     "together", "progress_of_share", "ensemble", "ensembles/", "ensemble_blocks", "ensemble_threads",
-     "ensemble_loop", "integrate_ensemble", "ensemble_run", "flow_map_data", "trial_run"},
+    {"derivatives/",       "reference",           "references/",    "tree_sum",
+     "communicator",       "communicators/",      "shard",          "together",
+     "progress_of_share",  "detail/typed_system", "model",          "detail/any_reference",
+     "ensemble",           "ensembles/",          "initial_states", "ensemble_loop",
+     "integrate_ensemble", "ensemble_run",        "flow_map_data",  "trial_run"},
     {"losses/", "learning/", "learner"},
     {"analysis/"},
     {"report/"},
@@ -35,11 +39,11 @@ const std::vector<std::vector<std::string>> layers{
     {"nysalt"}};
 
 int layer_of(const std::string& path) {
-  const auto slash = path.find('/');
-  const std::string name =
-      slash == std::string::npos ? path.substr(0, path.rfind('.')) : path.substr(0, slash + 1);
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    if (std::find(layers[k].begin(), layers[k].end(), name) != layers[k].end()) return static_cast<int>(k);
+  const std::string folder = path.substr(0, path.find('/') + 1);  // empty if there is none
+  for (const std::string& name : {path.substr(0, path.rfind('.')), folder}) {
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      if (std::find(layers[k].begin(), layers[k].end(), name) != layers[k].end()) return static_cast<int>(k);
+    }
   }
   return -1;
 }
@@ -144,6 +148,9 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
                         "itself"));
   BOOST_TEST(one_breach({{"cellar.hpp", head}}, "no layer"));
   BOOST_TEST(one_breach({{"cellar/a.hpp", head}}, "no layer"));
+  BOOST_TEST(one_breach({{"detail/a.hpp", head}}, "no layer"));
+  BOOST_TEST(one_breach(
+      {{"detail/kernels.hpp", head + "#include \"nysalt/model.hpp\"\n"}, {"model.hpp", head}}, "above"));
   BOOST_TEST(one_breach({{"scalar.hpp", head + "#include \"nysalt/gone.hpp\"\n"}}, "not there"));
   BOOST_TEST(one_breach({{"scalar.hpp", "#pragma once\n"}}, "licence"));
   BOOST_TEST(one_breach({{"scalar.hpp", "// SPDX-License-Identifier: BSL-1.0\n"}}, "pragma"));
