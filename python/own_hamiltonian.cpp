@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "../src/program/bundled_model.hpp"
+#include "../src/program/refusal.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 
 namespace nysalt::python {

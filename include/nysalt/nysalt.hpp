@@ -45,6 +45,7 @@
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/report/atomic_file.hpp"
 #include "nysalt/report/plot.hpp"
 #include "nysalt/report/table.hpp"
 #include "nysalt/report/work_precision.hpp"

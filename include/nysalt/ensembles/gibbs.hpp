@@ -84,4 +84,9 @@ class gibbs {
   burn_in_report report_;
 };
 
+template <NystromSystem S, class E>
+gibbs(const in_bath<S>&, E) -> gibbs<S, E>;
+template <NystromSystem S, class E>
+gibbs(const in_bath<S>&, E, const burn_in_options&) -> gibbs<S, E>;
+
 }  // namespace nysalt
