@@ -58,7 +58,7 @@ def what_to_compile(sources, folder):
     yield "the first program, examples/first_steps.cpp", sources / "examples/first_steps.cpp"
     yield "a program of core alone, tests/consumer/core/main.cpp", sources / "tests/consumer/core/main.cpp"
     yield "a bundled system, src/program/systems/fpu.cpp", sources / "src/program/systems/fpu.cpp"
-    for header in ("core.hpp", "nysalt.hpp", "learner.hpp", "odeint_stepper.hpp"):
+    for header in ("core.hpp", "nysalt.hpp", "learn.hpp", "odeint.hpp"):
         source = folder / (header.replace(".hpp", ".cpp"))
         source.write_text(f"#include <nysalt/{header}>\n", encoding="utf-8")
         yield f"the header nysalt/{header}", source

@@ -92,7 +92,7 @@ if(NOT files STREQUAL others)
   message(FATAL_ERROR "without a library, what is installed depends on what is found:\n${files}\n${others}")
 endif()
 require_match("${files}" "/nysalt/core\\.hpp;.*/nysalt-core\\.cmake;.*/nysalt-odeint\\.cmake;.*/nysalt-core\\.pc")
-require_no_match("${files}" "libnysalt|nysalt-(nysalt|shared|learn|mpi)|/nysalt/(nysalt|learner)\\.hpp")
+require_no_match("${files}" "libnysalt|nysalt-(nysalt|shared|learn|mpi)|/nysalt/(nysalt|learn)\\.hpp")
 foreach(file IN LISTS files)
   file(READ ${FOLDER}/of_eigen/${file} text)
   file(READ ${FOLDER}/installed/${file} other)
@@ -127,7 +127,7 @@ set(installed installed)
 # of nysalt.
 configure(shared ${eigen_alone})
 build_and_run(shared)
-require_match("${output}" "/nysalt/learner\\.hpp.*/nysalt/nysalt\\.hpp")
+require_match("${output}" "/nysalt/learn\\.hpp.*/nysalt/nysalt\\.hpp")
 require_no_match("${output}" "${theirs}")
 inspect(shared)
 require_match("${libraries}" "libceres.*;libnysalt\\.so\\.0\\.[0-9]+;")
@@ -194,10 +194,12 @@ foreach(cost IN LISTS costs)
   message("compiling ${cost}")
 endforeach()
 
-# Boost's headers are enough for odeint.
+# Boost's headers are enough for odeint, beside ours.
+set(installed of_headers)
 configure(odeint -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_TBB=ON ${no_ceres}
   -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
 build_and_run(odeint)
+set(installed installed)
 
 # Without a wish there is what can be found, and the rest is told of.
 configure(link_interface)
