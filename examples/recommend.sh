@@ -61,4 +61,4 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # t =    0  H = 0.0088
 # t =  600  H = 0.0088
 # t = 1200  H = 0.0088
-# A tie: learned:fg_chin and chin4a cannot be told apart (the ratio of their errors is 1.23, 95 %: 0.592 to 2.52). The latter needs no learning: --method chin4a --step 0.75. In the same seconds ~
+# A tie: learned:fg_chin and chin4a cannot be told apart (the ratio of their errors is 1.23, 95 %: 0.592 to 2.52). The latter needs no learning: --method chin4a --step 0.75. ~

@@ -65,7 +65,7 @@ class initial_states {
                                      [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
   }
   bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
-  const std::string& description() const { return text_; }
+  const std::string& description() const { return text_; }   ///< that of the ensemble
   bool is_dear() const { return is_dear_; }    ///< whether a state takes a simulation of its own
   std::int64_t size() const { return size_; }  ///< how many there are
 

@@ -39,9 +39,9 @@ void library_is_compiled_for();
 template <int Lanes>
 class basic_model {
  public:
-  static constexpr int dimension = Eigen::Dynamic;
-  static constexpr int lanes = Lanes;      ///< most trajectories side by side
-  static constexpr bool is_erased = true;  ///< what it can do is known while running
+  static constexpr int dimension = Eigen::Dynamic;  ///< known while running
+  static constexpr int lanes = Lanes;               ///< most trajectories side by side
+  static constexpr bool is_erased = true;           ///< what it can do is known while running
   template <int Other>
   friend class basic_model;
 
@@ -58,8 +58,8 @@ class basic_model {
   template <int Other>
   explicit basic_model(const basic_model<Other>& same) : system_(same.system_), facts_(same.facts_) {}
 
-  Eigen::Index size() const { return facts_->size; }  ///< degrees of freedom
-  const std::string& description() const { return facts_->description; }
+  Eigen::Index size() const { return facts_->size; }                      ///< degrees of freedom
+  const std::string& description() const { return facts_->description; }  ///< the system's
   const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
   /// The system without its bath.
   basic_model alone() const {
@@ -86,30 +86,36 @@ class basic_model {
     result.system_ = system_->clone();
     return result;
   }
+  /// What the system can do: has_energy(system) and its like ask it.
   const detail::model_facts& facts() const { return *facts_; }
   /// Force evaluations of this copy so far, of a black box.
   std::int64_t calls() const { return system_->calls(); }
 
+  /// 1/m_i.
   double inverse_mass(Eigen::Index i) const {
     return facts_->inverse_masses.empty() ? 1.0 : facts_->inverse_masses[static_cast<std::size_t>(i)];
   }
-  bool has_unit_mass() const { return facts_->inverse_masses.empty(); }
+  bool has_unit_mass() const { return facts_->inverse_masses.empty(); }  ///< no masses are declared
   /// The square root of the mass of coordinate i.
   double root_mass(Eigen::Index i) const {
     return facts_->inverse_root_masses.empty() ? 1.0
                                                : facts_->inverse_root_masses[static_cast<std::size_t>(i)];
   }
-  normal_modes modes() const { return system_->modes(); }
+  normal_modes modes() const { return system_->modes(); }  ///< of its quadratic part, if it has_modes()
+  /// Those that the system declares, or none.
   std::vector<frequency_band> frequency_bands() const { return system_->frequency_bands(is_in_bath_); }
 
+  /// The system's functions over T.
   template <detail::Served T>
   const detail::kernels<T>& kernels() const {
     return *system_;
   }
+  /// f = -grad V(q).
   template <detail::Served T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     kernels<T>().force(field::whole, q, f);
   }
+  /// The force of V without its quadratic part.
   template <detail::Served T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     kernels<T>().force(field::soft, q, f);
@@ -118,20 +124,24 @@ class basic_model {
   void force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::whole, q, f);
   }
+  /// The same of the soft force.
   void soft_force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::soft, q, f);
   }
+  /// g = f'(q) v.
   template <detail::Served T>
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
     lifted_room<T, dimension> room(size());
     kernels<T>().force_along(field::whole, q, v, g, room, detail::part_of_displacement);
   }
+  /// V(q), if the system has_potential().
   template <detail::Served T>
   T potential(const vector<T, dimension>& q) const {
     return kernels<T>().potential(q);
   }
 
+  /// g = f'(q) v of a black box, where f = f(q) is known.
   void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
                               Eigen::VectorXd& g) const {
     system_->directional_derivative(q, v, f, g);

@@ -58,8 +58,10 @@ class vector_list {
     size_ = count;
     numbers_.resize(count * static_cast<std::size_t>(dimension));
   }
-  void clear() { resize(0, dimension_); }
+  void clear() { resize(0, dimension_); }  ///< the dimension stays
+  /// Vector i, which may be changed.
   Eigen::Map<Eigen::VectorXd> operator[](std::size_t i) { return {numbers_.data() + offset(i), dimension_}; }
+  /// Vector i.
   Eigen::Map<const Eigen::VectorXd> operator[](std::size_t i) const {
     return {numbers_.data() + offset(i), dimension_};
   }
@@ -69,6 +71,7 @@ class vector_list {
     resize(size_ + 1, copy.size());
     (*this)[size_ - 1] = copy;
   }
+  /// Those of another list behind those that there are.
   void append(const vector_list& more) {
     const std::size_t further = more.size_;
     const std::size_t count = more.numbers_.size();
@@ -76,10 +79,11 @@ class vector_list {
     resize(size_ + further, more.dimension_);
     std::copy_n(more.numbers_.begin(), count, numbers_.end() - static_cast<std::ptrdiff_t>(count));
   }
-  auto begin() { return detail::list_iterator(this, 0); }
-  auto end() { return detail::list_iterator(this, size_); }
-  auto begin() const { return detail::list_iterator(this, 0); }
-  auto end() const { return detail::list_iterator(this, size_); }
+  auto begin() { return detail::list_iterator(this, 0); }          ///< of a loop
+  auto end() { return detail::list_iterator(this, size_); }        ///< of a loop
+  auto begin() const { return detail::list_iterator(this, 0); }    ///< of a loop
+  auto end() const { return detail::list_iterator(this, size_); }  ///< of a loop
+  /// Equal numbers.
   friend bool operator==(const vector_list& a, const vector_list& b) {
     return a.size_ == b.size_ && a.numbers_ == b.numbers_;
   }
@@ -132,15 +136,18 @@ class phase_points {
     for (const auto& x : points) push_back(x);
   }
 
-  std::size_t size() const { return columns_.size() / 2; }  ///< how many points
-  bool empty() const { return size() == 0; }
+  std::size_t size() const { return columns_.size() / 2; }         ///< how many points
+  bool empty() const { return size() == 0; }                       ///< whether there is none
   Eigen::Index dimension() const { return columns_.dimension(); }  ///< degrees of freedom; 0 before a point
+  /// Points that are there stay if the dimension does.
   void resize(std::size_t count, Eigen::Index dimension) { columns_.resize(2 * count, dimension); }
   void resize(std::size_t count) { resize(count, dimension()); }  ///< of the same dimension
-  void clear() { columns_.clear(); }
+  void clear() { columns_.clear(); }                              ///< the dimension stays
+  /// Point i, which may be changed.
   listed_point<Eigen::Map<Eigen::VectorXd>> operator[](std::size_t i) {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }
+  /// Point i.
   listed_point<Eigen::Map<const Eigen::VectorXd>> operator[](std::size_t i) const {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }
@@ -150,16 +157,18 @@ class phase_points {
     columns_.push_back(x.q);
     columns_.push_back(p);
   }
+  /// Those of another list behind those that there are.
   void append(const phase_points& more) { columns_.append(more.columns_); }
   /// Puts a point, which has q and p, into a place.
   void set(std::size_t i, const auto& x) {
     columns_[2 * i] = x.q;
     columns_[2 * i + 1] = x.p;
   }
-  auto begin() { return detail::list_iterator(this, 0); }
-  auto end() { return detail::list_iterator(this, size()); }
-  auto begin() const { return detail::list_iterator(this, 0); }
-  auto end() const { return detail::list_iterator(this, size()); }
+  auto begin() { return detail::list_iterator(this, 0); }           ///< of a loop
+  auto end() { return detail::list_iterator(this, size()); }        ///< of a loop
+  auto begin() const { return detail::list_iterator(this, 0); }     ///< of a loop
+  auto end() const { return detail::list_iterator(this, size()); }  ///< of a loop
+  /// Equal numbers.
   friend bool operator==(const phase_points&, const phase_points&) = default;
 
  private:

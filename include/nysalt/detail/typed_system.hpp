@@ -49,21 +49,27 @@ inline constexpr bool is_in_lanes = lanes_in<T> > 1;
 template <class T, int N>
 inline constexpr bool is_in_lanes<dual<T, N>> = is_in_lanes<T>;
 
-/// S can be stepped over T: where S asks for one lane, packs are not even tried.
+/// The force of S can be evaluated over T: where S asks for one lane, packs are not even tried.
 template <class S, class T>
-consteval bool serves_scalar() {
+consteval bool serves_force() {
   if constexpr (is_in_lanes<T> && lanes_of<S> == 1) {
     return false;
   } else {
-    return SystemOver<S, T> && DriftsOver<S, T>;
+    return SystemOver<S, T>;
   }
 }
+/// S can be stepped over T.
 template <class S, class T>
-inline constexpr bool serves = serves_scalar<S, T>();
+consteval bool serves_steps() {
+  if constexpr (serves_force<S, T>()) return DriftsOver<S, T>;
+  return false;
+}
+template <class S, class T>
+inline constexpr bool serves = serves_steps<S, T>();
 /// Its energy can be evaluated over T.
 template <class S, class T>
 consteval bool serves_energy() {
-  if constexpr (serves<S, T>) return HasEnergy<S, T>;
+  if constexpr (serves_force<S, T>()) return HasEnergy<S, T>;
   return false;
 }
 
@@ -74,12 +80,13 @@ class with_kernels : public Base {
   using column = vector<T, Eigen::Dynamic>;
   using C = coefficient_of<T>;
   static constexpr bool serves = detail::serves<S, T>;
+  static constexpr bool serves_force = detail::serves_force<S, T>();
   static constexpr bool serves_kinetic = [] {
-    if constexpr (serves) return HasKineticEnergy<S, T>;
+    if constexpr (serves_force) return HasKineticEnergy<S, T>;
     return false;
   }();
   static constexpr bool serves_potential = [] {
-    if constexpr (serves) return HasPotential<S, T>;
+    if constexpr (serves_force) return HasPotential<S, T>;
     return false;
   }();
 
@@ -98,7 +105,7 @@ class with_kernels : public Base {
     }
   }
   void force(field of, const column& q, column& f) const final {
-    if constexpr (serves) {
+    if constexpr (serves_force) {
       if constexpr (HasSoftForce<S, T>) {
         if (of == field::soft) return this->system().soft_force(as_fixed<N>(q), as_fixed<N>(f));
       }
@@ -109,7 +116,7 @@ class with_kernels : public Base {
   }
   void force_along(field of, const column& q, const column& v, column& g,
                    lifted_room<T, Eigen::Dynamic>& room, double reach) const final {
-    if constexpr (serves) {
+    if constexpr (serves_force) {
       if constexpr (ForceDerivativeOver<S, T, field::soft>) {
         if (of == field::soft) return along<field::soft>(q, v, g, room, reach);
       }
@@ -140,7 +147,7 @@ class with_kernels : public Base {
       return this->system().kinetic_energy(as_fixed<N>(p));
     } else if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p));
-    } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
+    } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
       return in_each_lane(p, p,
                           [&](const auto& x) { return nysalt::kinetic_energy<double>(this->system(), x.p); });
     } else {
@@ -150,7 +157,7 @@ class with_kernels : public Base {
   T potential(const column& q) const final {
     if constexpr (serves_potential) {
       return this->system().potential(as_fixed<N>(q));
-    } else if constexpr (serves && HasPotential<S, double> && lanes_in<T> > 1) {
+    } else if constexpr (serves_force && HasPotential<S, double> && lanes_in<T> > 1) {
       return in_each_lane(q, q, [&](const auto& x) { return this->system().potential(x.q); });
     } else {
       refuse_kernel();
@@ -160,7 +167,7 @@ class with_kernels : public Base {
     if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p)) +
              this->system().potential(as_fixed<N>(q));
-    } else if constexpr (serves && HasEnergy<S> && lanes_in<T> > 1) {
+    } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
       return in_each_lane(q, p, [&](const auto& x) { return nysalt::energy<double>(this->system(), x); });
     } else {
       refuse_kernel();

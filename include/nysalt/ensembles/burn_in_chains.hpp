@@ -23,6 +23,7 @@ class burn_in_chains {
   static constexpr int dimension = S::dimension;  ///< of the system
   /// BAOAB on the system in its bath.
   using method_type = std::conditional_t<ErasedSystem<S>, tabulated, baoab>;
+  /// Its stepper.
   using stepper_type = stepper<detail::bathed_system<S>, typename method_type::word, double, counter_noise>;
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.

@@ -84,8 +84,10 @@ class gibbs {
   burn_in_report report_;
 };
 
+/// Deduced from the system in its bath and the ensemble.
 template <NystromSystem S, class E>
 gibbs(const in_bath<S>&, E) -> gibbs<S, E>;
+/// Deduced likewise.
 template <NystromSystem S, class E>
 gibbs(const in_bath<S>&, E, const burn_in_options&) -> gibbs<S, E>;
 

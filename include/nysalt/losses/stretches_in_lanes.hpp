@@ -23,7 +23,7 @@ namespace nysalt {
 /// is left of the last entry.
 template <Scalar R>
 struct stretches_in_lanes {
-  static constexpr int N = Eigen::Dynamic;
+  static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
   /// One stretch in each lane.
   struct entry {
     phase_point<R, N> start;          ///< where the stretches begin
@@ -40,7 +40,7 @@ struct stretches_in_lanes {
 /// entries.
 template <Scalar R>
 struct noise_of_entries {
-  static constexpr int N = Eigen::Dynamic;
+  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known while running
   static constexpr bool draws_freely = false;  ///< the numbers are those of the data
   /// Entry m has the noise of trajectory m.
   const std::vector<typename stretches_in_lanes<R>::entry>* entries = nullptr;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -19,7 +17,9 @@ void put_folder_on_disk(const std::filesystem::path& file);
 class atomic_file {
  public:
   /// Makes NAME.WRITER.part. Throws std::runtime_error if it cannot be made.
-  explicit atomic_file(std::filesystem::path path, const std::string& writer = std::to_string(getpid()));
+  explicit atomic_file(std::filesystem::path path);
+  /// The same under another name of the writer.
+  atomic_file(std::filesystem::path path, const std::string& writer);
   ~atomic_file();
   atomic_file(const atomic_file&) = delete;
   atomic_file& operator=(const atomic_file&) = delete;

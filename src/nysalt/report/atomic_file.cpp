@@ -22,6 +22,9 @@ void put_folder_on_disk(const std::filesystem::path& file) {
   close(its);
 }
 
+atomic_file::atomic_file(std::filesystem::path path)
+    : atomic_file(std::move(path), std::to_string(getpid())) {}
+
 atomic_file::atomic_file(std::filesystem::path path, const std::string& writer)
     : path_(std::move(path)), part_(path_) {
   part_ += fmt::format(".{}.part", writer);
