@@ -45,7 +45,7 @@ class kernels {
   using program = step_program<coefficient_of<T>>;
 
   virtual ~kernels() = default;
-  /// So many steps of an open run. Cost: a virtual call, and what the letters and looks cost.
+  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and looks.
   virtual void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                        const program& letters, std::int64_t steps, const callback& other,
                        const watch<T>& watched) const = 0;
@@ -98,7 +98,6 @@ struct model_facts {
   bool has_modes = false;
   bool has_quadratic_part = false;
   bool has_bands = false;
-  bool has_soft_force = false;
   bool has_own_kick = false;
   bool has_own_derivative = false;
   bool has_own_velocity = false;

@@ -25,7 +25,7 @@ class prepared_word<run_time_word, C, N> {
 
   /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
   /// coefficient for each slot.
-  prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& its)
+  prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& around)
       : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.evaluations_to_open > 0) {
     w.require_one_for_each_slot(c);
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
@@ -33,25 +33,25 @@ class prepared_word<run_time_word, C, N> {
     if (halves_meet_) run_.loop.push_back({.number = seam_of_steps});
     if (halves_meet_) run_.last.push_back({.number = seam_of_steps});
     for (std::size_t i = 0; i < w.length; ++i) {
-      const letter one = prepare(w, i, &c[w.first_slot(i)], h, its);
+      const letter one = prepare(w, i, &c[w.first_slot(i)], h, around);
       const bool is_at_seam = halves_meet_ && (i == 0 || i + 1 == w.length);
       if (!is_at_seam) plain_.loop.push_back(evaluating(one, w.plan().in_step[i]));
       if (i < w.first_in_loop() || is_at_seam) continue;
       letter in_run = one;
       if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
         const std::array both{C(c.back() + c.front()), C(0.0)};
-        in_run = prepare(w, i, both.data(), h, its);
+        in_run = prepare(w, i, both.data(), h, around);
       }
       run_.loop.push_back(evaluating(in_run, w.plan().in_loop[i]));
       run_.last.push_back(evaluating(in_run, w.plan().in_last[i]));
     }
     if (merges_) {
       const std::array back{C(-c.front()), C(0.0)};
-      first_ = prepare(w, 0, c.data(), h, its);
-      run_.undo = {prepare(w, 0, back.data(), h, its)};
+      first_ = prepare(w, 0, c.data(), h, around);
+      run_.undo = {prepare(w, 0, back.data(), h, around)};
     }
     if (halves_meet_) {
-      const bool is_warm = its.its_bath->sigma() > 0.0;
+      const bool is_warm = around.its_bath->sigma() > 0.0;
       seam_ = noise_seam<C>(noise_.back(), noise_.front(), is_warm);
     }
     for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) end_step(*letters);
@@ -75,7 +75,7 @@ class prepared_word<run_time_word, C, N> {
     take(system, run_, x, steps, cursor, {});
   }
   /// The same of an erased system, watched: look() is called with the synchronous state in y after `first`
-  /// steps, and after every so many from there on.
+  /// steps, and every `every` steps from there on.
   template <class T, ErasedSystem S>
   void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
                std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
@@ -118,11 +118,11 @@ class prepared_word<run_time_word, C, N> {
   static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
 
   letter prepare(const run_time_word& w, std::size_t i, const C* c, double h,
-                 const surroundings_of_word& its) {
+                 const surroundings_of_word& around) {
     letter result;
     detail::with_letter(w.letters()[i], known_letters{}, [&](auto flow) {
       using L = decltype(flow);
-      auto folded = detail::prepare_letter<L, Eigen::Dynamic>(c, h, its);
+      auto folded = detail::prepare_letter<L, Eigen::Dynamic>(c, h, around);
       if constexpr (StochasticFlow<L>) {
         result.number = static_cast<int>(noise_.size());
         noise_.push_back(folded);

@@ -65,8 +65,8 @@ struct callback {
   void* context = nullptr;
 };
 
-/// Who looks at a run: after `first` steps, and then after every so many, q and p are given the synchronous
-/// state, and `look` is called. Nobody, if there is no look.
+/// An observer of a run: after `first` steps, and every `every` steps from there on, the synchronous state is
+/// copied to q and p, and `look` is called. A null `look` means an unobserved run.
 template <class T>
 struct watch {
   vector<T, Eigen::Dynamic>* q = nullptr;

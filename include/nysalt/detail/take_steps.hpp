@@ -120,7 +120,7 @@ void apply_known(const S& system, const step_program_letter<C>& letter, State& x
   if (letter.what == action::rotation) apply_rotation(system, letter, x, room);
 }
 
-/// So many steps, whatever their letters.
+/// Interpreter loop: `steps` steps of any program.
 template <field F, class S, class State, class C>
 [[gnu::flatten, gnu::noinline]] void take_any_steps(const S& system, State& x, auto& room,
                                                     const step_program<C>& letters, std::int64_t steps,
@@ -132,7 +132,7 @@ template <field F, class S, class State, class C>
   }
 }
 
-/// Whoever looks gets a copy of the state without the letter that its next step begins with.
+/// Observation: copies the state, takes the merged first letter back on the copy, and calls the observer.
 template <field F, class S, class T, class C, class State>
 void show(const S& system, State& x, auto& room, const step_program<C>& letters, const watch<T>& watched) {
   constexpr int N = S::dimension;
@@ -145,7 +145,7 @@ void show(const S& system, State& x, auto& room, const step_program<C>& letters,
   watched.look(watched.context);
 }
 
-/// go_on(n) takes n steps; so many are taken, with looks between.
+/// Splits `steps` steps at the observation times: go_on(n) takes n steps, look() observes.
 template <class T>
 [[gnu::always_inline]] inline void watch_steps(std::int64_t steps, const watch<T>& watched, const auto& go_on,
                                                const auto& look) {
@@ -207,7 +207,7 @@ template <class S, class T>
   given_back<S::dimension>(x, given);
 }
 
-/// So many steps, watched or not.
+/// `steps` steps, observed or not: by take_pairs() where the program allows it.
 template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
                 const step_program<C>& letters, std::int64_t steps, const callback& other,

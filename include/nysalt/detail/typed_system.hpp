@@ -308,7 +308,6 @@ model_facts facts_of(const S& system) {
   facts.has_modes = HasModes<S>;
   facts.has_quadratic_part = HasQuadraticPart<S>;
   facts.has_bands = HasFrequencyBands<S>;
-  facts.has_soft_force = HasSoftForce<S>;
   facts.has_own_kick = HasKick<S, double>;
   facts.has_own_derivative = HasForceDerivative<S>;
   facts.has_own_velocity = HasVelocity<S, double>;

@@ -27,8 +27,6 @@ namespace nysalt {
 
 namespace {
 
-bool rotates(const run_time_word& word) { return has_rotation(word) || word.reads == field::soft; }
-
 /// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
 /// those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger
 /// by some part counts less by that part. Without this the standard errors are two to three times too small.
@@ -176,7 +174,7 @@ learning_problem make_problem(const run_time_family& family, const model& system
           },
       .trial = {},
       .rival = {},
-      .guard = guard_along(system, data, held_out, rotates(family.letters), options),
+      .guard = guard_along(system, data, held_out, family.letters.rotates(), options),
       .facts = {}};
   auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
   problem.trial_starts = static_cast<std::int64_t>(starts->size());

@@ -31,8 +31,6 @@ constexpr double rarely = 0.1;  // of the states
 /// impulses come to 33 by t = 100, and words learned there to 1.0003.
 constexpr double too_much = 3.0;
 
-bool rotates(const run_time_word& word) { return has_rotation(word) || word.reads == field::soft; }
-
 /// What a tenth of all states exceed, of values that some of them have; 0 if fewer have one.
 double exceeded_often(std::vector<double> values, std::size_t states) {
   const auto rank = static_cast<std::size_t>(rarely * static_cast<double>(states));
@@ -91,7 +89,7 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
-  if (!rotates(word)) return unstable(word, coefficients, step, which);
+  if (!word.rotates()) return unstable(word, coefficients, step, which);
   const std::string of_one = magnified(word, coefficients, step);
   return of_one.empty() ? resonant(word, coefficients, step) : of_one;
 }
@@ -99,7 +97,7 @@ std::string stability_guard::objection(const run_time_word& word, const std::vec
 std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
-  if (rotates(word)) return {};
+  if (word.rotates()) return {};
   double highest = 0.0;
   for (const auto& band : bands_) highest = std::max(highest, step * band.high);
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
