@@ -32,7 +32,7 @@ const std::vector<std::vector<std::string>> layers{
     {"communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
      "detail/ensemble_loop"},
     {"derivatives/"},
-    {"reference", "references/", "ensemble", "initial_states", "ensembles/"},
+    {"reference", "detail/small_steps", "references/", "ensemble", "initial_states", "ensembles/"},
     {"detail/any_reference", "integrate_ensemble", "ensemble_run", "flow_map_data", "trial_run"},
     {"losses/"},
     {"learning/", "learn"},

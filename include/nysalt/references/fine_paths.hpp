@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -10,10 +9,9 @@
 
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/small_steps.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/baoab.hpp"
-#include "nysalt/noises/finer_noise.hpp"
-#include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {
@@ -34,31 +32,7 @@ class fine_paths {
   template <HasBath S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t, const path_place& at,
                std::span<vector<T, S::dimension>> xi) const {
-    const std::int64_t parts = std::max<std::int64_t>(std::ssize(xi), 1);
-    const double ratio = t / step_ / static_cast<double>(parts);
-    const double steps = std::round(ratio);
-    if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
-      throw std::invalid_argument(sentence(
-          "fine_paths: the time {} in {} equal parts, as the noise is wanted, is not a multiple of the fine "
-          "step {}",
-          t, parts, step_));
-    }
-    const auto of_a_part = static_cast<std::int64_t>(steps);
-    const double h = t / (steps * static_cast<double>(parts));
-    const double friction = system.bath().friction();
-    const finer_noise path(at.seed, std::ldexp(friction * h, halvings_), halvings_);
-    const coarse_graining coarse(friction * h);
-    vector<T, S::dimension>* sum = nullptr;
-    const auto fine = make_stepper(system, method_, h, recorder<T, S::dimension>{&path, &coarse, &sum});
-    auto run = fine.open(x, at.trajectory);
-    run.step = at.step * parts * of_a_part;
-    for (std::int64_t k = 0; k < parts; ++k) {
-      sum = xi.empty() ? nullptr : &xi[static_cast<std::size_t>(k)];
-      if (sum != nullptr) coarse.first(*sum);
-      fine.advance(run, of_a_part);
-      if (sum != nullptr) coarse.last(*sum, of_a_part);
-    }
-    x = fine.synchronous(run);
+    detail::advance_on_path(system, method_, step_, halvings_, x, t, at, xi);
   }
 
   double step() const { return step_; }        ///< of its method
@@ -72,20 +46,6 @@ class fine_paths {
   }
 
  private:
-  /// Adds up what it hands out.
-  template <class T, int N>
-  struct recorder {
-    static constexpr bool draws_freely = false;
-    const finer_noise* path;
-    const coarse_graining* coarse;
-    vector<T, N>* const* sum;
-
-    void normals(const noise_place& at, vector<T, N>& xi) const {
-      path->normals(at, xi);
-      if (*sum != nullptr) coarse->next(**sum, xi);
-    }
-  };
-
   fine_paths(double step, const M& method, int halvings) : step_(step), method_(method), halvings_(halvings) {
     if (!(step > 0.0) || !std::isfinite(step)) {
       throw std::invalid_argument(sentence("fine_paths: the step must be positive and finite, got {}", step));

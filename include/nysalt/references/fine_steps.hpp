@@ -8,6 +8,7 @@
 
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/small_steps.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
 
@@ -29,15 +30,14 @@ class fine_steps {
   /// the step, to 1e-9 relative.
   template <SeparableSystem S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t) const {
-    const double ratio = t / step_;
-    const double steps = std::round(ratio);
-    if (!(steps >= 1.0) || !(steps < 1e18) || !(std::abs(ratio - steps) <= 1e-9 * steps)) {
+    const auto steps = detail::whole_steps(t, step_);
+    if (!steps) {
       throw std::invalid_argument(
           sentence("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
     }
-    const auto fine = make_stepper(system, method_, t / steps);
+    const auto fine = make_stepper(system, method_, t / static_cast<double>(*steps));
     auto run = fine.open(x);
-    fine.advance(run, static_cast<std::int64_t>(steps));
+    fine.advance(run, *steps);
     x = fine.synchronous(run);
   }
 
