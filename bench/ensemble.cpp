@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -15,6 +16,8 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
 #include "peers/roofs.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"
@@ -81,6 +84,22 @@ std::vector<double> numbers(std::span<const chain_state<lanes>> states) {
     }
   }
   return result;
+}
+
+/// By the library: the chain as a model, letters as data.
+void ours_by_library(std::span<chain_state<lanes>> states) {
+  static const model system = chain;
+  const auto stepper = make_stepper(system, tabulated(method), h);
+  phase_point<lanes, Eigen::Dynamic> x{vector<lanes, Eigen::Dynamic>(6), vector<lanes, Eigen::Dynamic>(6)};
+  for (auto& state : states) {
+    std::copy(state.q.begin(), state.q.end(), x.q.begin());
+    std::copy(state.p.begin(), state.p.end(), x.p.begin());
+    auto run = stepper.open(x);
+    stepper.advance(run, steps);
+    const auto end = stepper.synchronous(run);
+    std::copy(end.q.begin(), end.q.end(), state.q.begin());
+    std::copy(end.p.begin(), end.p.end(), state.p.begin());
+  }
 }
 
 /// The kernels do as many operations as our step, or they are no roof of it.
@@ -156,6 +175,7 @@ void race_ensemble() {
   entrants all;
   add_all<contraction::off>(all, "");
   add_all<contraction::on>(all, ", fused");
+  all.add("ours, by the library", lane_starts(), ours_by_library, 0.0);
   all.add_kernel("same mix", mix_kernel<contraction::off>);
   all.add_kernel("fused multiply-adds", fma_kernel);
   race("ensemble", std::move(all.runners));

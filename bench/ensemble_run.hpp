@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "nysalt/detail/ensemble_loop.hpp"
@@ -25,11 +26,16 @@ inline states starts_of(std::int64_t trajectories) {
 
 void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int threads) {
   const auto block = [&](std::int64_t first, int count) {
+    constexpr int N = std::remove_cvref_t<decltype(stepper)>::dimension;
     const auto at = [&](int k) -> auto& { return all[static_cast<std::size_t>(first + k)]; };
-    auto run = stepper.open(gather<pack<double>, 6>(count, at), static_cast<std::uint64_t>(first));
+    const auto start = [&](int k) { return phase_point<double, N>{at(k).q, at(k).p}; };
+    auto run = stepper.open(gather<pack<double>, N>(count, start), static_cast<std::uint64_t>(first));
     stepper.advance(run, steps);
     const auto end = stepper.synchronous(run);
-    for (int k = 0; k < count; ++k) at(k) = lane(end, k);
+    for (int k = 0; k < count; ++k) {
+      const auto one = lane(end, k);
+      at(k) = {one.q, one.p};
+    }
   };
   for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, threads, block);
 }

@@ -17,6 +17,8 @@
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "peers/scalar_baoab.hpp"
@@ -124,6 +126,9 @@ void race_langevin() {
     add(name, [theirs](states& x) { run_baoab(x, chain, steps, theirs); });
   };
   add_stepper("ours", make_stepper(chain, baoab{}, h, counter_noise(1)));
+  static const model by_library = chain;
+  add_stepper("ours, by the library",
+              make_stepper(by_library, tabulated(baoab{}), h, counter_noise(1)));
   add_peer("Boost's ziggurat", baoab_ziggurat<contraction::off>);
   add_peer("Boost's ziggurat, splitmix64", baoab_ziggurat_splitmix<contraction::off>);
   add_peer("std::normal_distribution", baoab_std<contraction::off>);

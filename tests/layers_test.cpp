@@ -27,7 +27,7 @@ const std::vector<std::vector<std::string>> layers{
      "detail/prepared_word", "detail/step_program", "detail/take_steps", "detail/prepared_run_time_word",
      "detail/palindrome", "detail/served_letters", "stepper", "detail/step_on_oscillator"},
     {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
-    {"detail/kernels", "detail/typed_system", "model"},
+    {"detail/kernels", "detail/typed_system", "model", "detail/over_scalars"},
     {"detail/divergence", "integrate", "detail/lockstep"},
     {"communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
      "detail/ensemble_loop"},

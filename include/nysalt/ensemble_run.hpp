@@ -76,20 +76,9 @@ class ensemble_run {
     const auto follow = [&](std::int64_t b, int) {
       const std::int64_t first = b * width;
       const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - first));
-      std::vector<double> of_one(width_of_numbers);
-      const auto hand_over = [&](std::int64_t n, std::span<const T> all, const auto& live) {
-        for (int k = 0; k < size; ++k) {
-          if (!lane(live, k)) continue;
-          for (std::size_t i = 0; i < width_of_numbers; ++i) of_one[i] = lane(all[i], k);
-          take(first_ + first + k, n, std::span<const double>(of_one));
-        }
-      };
+      detail::one_after_the_other<Take> hand_over(take, first_ + first, size, width_of_numbers);
       const auto at = static_cast<std::size_t>(b);
-      if (!starts_.empty()) {
-        std::vector<T> numbers(width_of_numbers);
-        read(starts_[at], std::span<T>(numbers));
-        hand_over(0, numbers, first_lanes<T>(size));
-      }
+      if (!starts_.empty()) detail::look_at_starts(starts_[at], size, width_of_numbers, read, hand_over);
       blocks_[at]->go_on(end, every, width_of_numbers, read, hand_over);
     };
     const auto all = static_cast<std::int64_t>(blocks_.size());

@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/method.hpp"
 
@@ -37,40 +37,31 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       const phase_point<double, Stepper::dimension>& start,
                                       std::int64_t steps, Observer&& observer, std::int64_t every,
                                       std::uint64_t trajectory = 0) {
-  constexpr std::int64_t stretch = steps_between_checks;
   if (steps < 0 || every < 1) {
     throw std::invalid_argument(sentence("integrate: {} steps, observed every {}: cannot be", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");
   }
-  const divergence diverged(stepper.system(), start);
-  const auto next_multiple = [](std::int64_t n, std::int64_t of) { return (n / of + 1) * of; };
+  lockstep<Stepper, double> run(stepper, start, 1, static_cast<std::int64_t>(trajectory));
   const auto show = [&](std::int64_t n, const auto& x) {
-    if (n % every == 0) observer(n, static_cast<double>(n) * stepper.step_size(), x);
+    observer(n, static_cast<double>(n) * stepper.step_size(), x);
   };
-  auto run = stepper.open(start, trajectory);
-  auto good = run;
   show(0, start);
-  while (run.step < steps) {
-    good = run;
-    const std::int64_t end = std::min(next_multiple(run.step, stretch), steps);
-    stepper.advance(run, end - run.step);
-    const auto x = stepper.synchronous(run);
-    const bool failed = diverged(x);
-    if (!failed && next_multiple(good.step, every) >= end) {
-      show(end, x);
-      continue;
-    }
-    while (good.step < end) {
-      const std::int64_t next = failed ? good.step + 1 : std::min(next_multiple(good.step, every), end);
-      stepper.advance(good, next - good.step);
-      const auto y = stepper.synchronous(good);
-      if (failed && diverged(y)) return {y, good.step, good.step};
-      show(good.step, y);
+  while (run.step() < steps && !run.diverged_at(0)) {
+    const std::int64_t next_sample = (run.step() / every + 1) * every;
+    const std::int64_t end = std::min(run.step() + steps_between_checks, steps);
+    run.go_on(end);
+    const std::int64_t last = run.diverged_at(0).value_or(end + 1) - 1;
+    if (next_sample > last) continue;
+    if (next_sample == end) {
+      show(end, run.synchronous());
+    } else {
+      auto again = run.begin_of_stretch();
+      stepper.advance(again, last - again.step, every, show);
     }
   }
-  return {stepper.synchronous(run), run.step, std::nullopt};
+  return {run.synchronous(), run.step(), run.diverged_at(0)};
 }
 
 /// The same unobserved: only the finish is wanted.

@@ -57,13 +57,12 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
     const std::int64_t first = options.first + place;
     const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
     auto visitor = visitor_of(place, count);
-    std::vector<T> numbers(width);
-    read(start, std::span<T>(numbers));
-    visitor.take(0, std::span<const T>(numbers), first_lanes<T>(count));
+    const auto take = [&](std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
+      visitor.take(n, seen, live);
+    };
+    look_at_starts(start, count, width, read, take);
     lockstep<Stepper, T> run(stepper, start, count, first);
-    run.go_on(
-        options.steps, options.every, width, read,
-        [&](std::int64_t n, std::span<const T> seen, const auto& live) { visitor.take(n, seen, live); });
+    run.go_on(options.steps, options.every, width, read, take);
     visitor.end(run);
   };
   const auto follow = [&](std::int64_t place, int count) {
@@ -105,26 +104,17 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   const shard own(options.trajectories, ranks);
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
   struct visitor {
-    const Take& take_one;
     std::vector<std::optional<std::int64_t>>& diverged_at;
-    std::int64_t first;
     std::int64_t place;
     int count;
-    std::vector<double> of_one;
+    detail::one_after_the_other<Take> take;
 
-    void take(std::int64_t n, std::span<const T> all, const condition_of<T>& live) {
-      for (int k = 0; k < count; ++k) {
-        if (!lane(live, k)) continue;
-        for (std::size_t i = 0; i < of_one.size(); ++i) of_one[i] = lane(all[i], k);
-        take_one(first + place + k, n, std::span<const double>(of_one));
-      }
-    }
     void end(const lockstep<Stepper, T>& run) {
       for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = run.diverged_at(k);
     }
   };
   const auto visitor_of = [&](std::int64_t place, int count) {
-    return visitor{take, diverged_at, options.first, place, count, std::vector<double>(width)};
+    return visitor{diverged_at, place, count, {take, options.first + place, count, width}};
   };
   detail::follow_ensemble<T>(stepper, ensemble, options, {own.first(), own.count()}, lanes_in<T>, width, read,
                              visitor_of);
@@ -140,14 +130,16 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, con
                                                             const E& ensemble,
                                                             const ensemble_options& options,
                                                             const Observable& observable, const Take& take) {
-  using T = scalar_of_lanes<lanes_of<S>>;
-  const auto read = [&](const phase_point<T, S::dimension>& x, std::span<T> number) {
+  const auto read = [&]<class T>(const phase_point<T, S::dimension>& x, std::span<T> number) {
     number[0] = value_in_lanes<T>(observable, x);
   };
   const auto take_one = [&](std::int64_t m, std::int64_t n, std::span<const double> number) {
     take(m, n, number[0]);
   };
-  return integrate_ensemble<T>(make_stepper(system, method, step), ensemble, options, 1, read, take_one);
+  const auto stepper = make_stepper(system, method, step);
+  return detail::with_scalar_of(system, [&]<class T>(T) {
+    return integrate_ensemble<T>(stepper, ensemble, options, 1, read, take_one);
+  });
 }
 
 }  // namespace nysalt

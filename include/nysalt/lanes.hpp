@@ -84,6 +84,17 @@ lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
   return a & b;
 }
 
+namespace detail {
+/// f of the scalar that holds as many trajectories as the system takes side by side.
+template <System S>
+decltype(auto) with_scalar_of(const S& system, const auto& f) {
+  if constexpr (ErasedSystem<S>) {
+    if (!system.facts().in_lanes) return f(double{});
+  }
+  return f(scalar_of_lanes<lanes_of<S>>{});
+}
+}  // namespace detail
+
 /// The vector of the trajectory in lane k.
 template <class T, int N>
 vector<double, N> lane(const vector<T, N>& x, int k) {

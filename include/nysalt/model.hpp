@@ -2,6 +2,7 @@
 // A system as a value: the boundary between templates and the compiled library.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,9 +12,12 @@
 
 namespace nysalt {
 
-/// A model that steps as many trajectories at a time as Lanes says: default_lanes, or one.
+namespace detail {
+/// In the library there is one, for its own default_lanes: a program that is compiled for a processor with
+/// other lanes does not link, and the linker names both this function and the lanes that are missing.
 template <int Lanes>
-class basic_model;
+void library_is_compiled_for();
+}  // namespace detail
 
 /// Any system, in its bath if it is in one, behind one type: what the library's compiled half takes. A system
 /// converts to it. Copies share the system. Its dimension is known while running; it is a System itself, and
@@ -22,58 +26,37 @@ class basic_model;
 /// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
 /// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is
 /// stepped one trajectory at a time.
-using model = basic_model<default_lanes>;
-
-namespace detail {
-template <class S>
-inline constexpr bool is_model = false;
-template <int Lanes>
-inline constexpr bool is_model<basic_model<Lanes>> = true;
-
-/// In the library there is one, for its own default_lanes: a program that is compiled for a processor with
-/// other lanes does not link, and the linker names both this function and the lanes that are missing.
-template <int Lanes>
-void library_is_compiled_for();
-}  // namespace detail
-
-template <int Lanes>
-class basic_model {
+class model {
  public:
   static constexpr int dimension = Eigen::Dynamic;  ///< known while running
-  static constexpr int lanes = Lanes;               ///< most trajectories side by side
+  static constexpr int lanes = default_lanes;       ///< most trajectories side by side
   static constexpr bool is_erased = true;           ///< what it can do is known while running
-  template <int Other>
-  friend class basic_model;
 
   /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
   template <class S>
-    requires(!detail::is_model<S> && SeparableSystem<S>)
-  basic_model(const S& system)  // NOLINT(google-explicit-constructor)
+    requires(!std::same_as<S, model> && SeparableSystem<S>)
+  model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(std::make_shared<detail::typed_system<S>>(system)),
         facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {
     detail::library_is_compiled_for<default_lanes>();
   }
 
-  /// The same with another number of lanes.
-  template <int Other>
-  explicit basic_model(const basic_model<Other>& same) : system_(same.system_), facts_(same.facts_) {}
-
   Eigen::Index size() const { return facts_->size; }                      ///< degrees of freedom
   const std::string& description() const { return facts_->description; }  ///< the system's
   const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
   /// The system without its bath.
-  basic_model alone() const {
+  model alone() const {
     auto facts = std::make_shared<detail::model_facts>(*facts_);
     facts->description = facts->description_alone;
     facts->in = nysalt::bath::of_sigma(0.0, 0.0);
-    basic_model result = *this;
+    model result = *this;
     result.facts_ = std::move(facts);
     result.is_in_bath_ = false;
     return result;
   }
   /// The system alone in another bath; its frequency_bands() are those that it has without one.
-  basic_model in(const nysalt::bath& other) const {
-    basic_model result = alone();
+  model in(const nysalt::bath& other) const {
+    model result = alone();
     auto facts = std::make_shared<detail::model_facts>(*result.facts_);
     facts->in = other;
     if (other.acts()) facts->description = facts->description_alone + " in " + other.description();
@@ -81,8 +64,8 @@ class basic_model {
     return result;
   }
   /// With a copy of the system of its own, for a thread whose system may change while it computes.
-  basic_model separate() const {
-    basic_model result = *this;
+  model separate() const {
+    model result = *this;
     result.system_ = system_->clone();
     return result;
   }
@@ -173,16 +156,7 @@ class basic_model {
   bool is_in_bath_ = true;
 };
 
-extern template class basic_model<default_lanes>;
-extern template class basic_model<1>;
-
 namespace detail {
-
-/// f(m) with as many lanes as the model's system takes.
-decltype(auto) with_its_lanes(const model& m, const auto& f) {
-  if (m.facts().in_lanes) return f(m);
-  return f(basic_model<1>(m));
-}
 
 /// The force evaluations of so many evaluations of which some are f'(q) v.
 inline std::int64_t evaluations_of(const auto& erased, std::int64_t all, std::int64_t derivatives) {

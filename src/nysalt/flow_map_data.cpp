@@ -42,7 +42,7 @@ double numbers_of_trajectory(const data_options& options, double steps, Eigen::I
 /// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane, of those from
 /// number options.first on; returns the force evaluations that they took.
 template <class T>
-std::int64_t follow_reference(const model& system, const auto& in_lanes, const initial_states& ensemble,
+std::int64_t follow_reference(const model& system, const initial_states& ensemble,
                               const any_reference& reference, const data_options& options, std::int64_t first,
                               int count, flow_map_data& data, std::vector<energy_range>& energies) {
   constexpr int width = lanes_in<T>;
@@ -62,7 +62,7 @@ std::int64_t follow_reference(const model& system, const auto& in_lanes, const i
     }
   };
   const std::int64_t number = options.first + first;
-  auto x = sound_starts<T>(in_lanes, ensemble, options.seed, number, count);
+  auto x = sound_starts<T>(system, ensemble, options.seed, number, count);
   include_energies(x);
   std::array<std::optional<std::size_t>, width> lost;  // at which step a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
@@ -137,14 +137,12 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
   std::vector<energy_range> energies(data.trajectories());
   std::atomic<std::int64_t> evaluations = 0;
   options.first += begin;
-  with_its_lanes(system, [&](const auto& in_lanes) {
-    constexpr int width = std::remove_cvref_t<decltype(in_lanes)>::lanes;
-    using T = scalar_of_lanes<width>;
+  with_scalar_of(system, [&]<class T>(T) {
     const auto follow = [&](std::int64_t first, int n) {
       evaluations +=
-          follow_reference<T>(system, in_lanes, ensemble, reference, options, first, n, data, energies);
+          follow_reference<T>(system, ensemble, reference, options, first, n, data, energies);
     };
-    for_each_block(count, width, options.threads, follow,
+    for_each_block(count, lanes_in<T>, options.threads, follow,
                    progress_of_share(all.ranks(), count, options.trajectories, options.progress));
   });
   evaluations += check_reference(system, reference, options, data);
@@ -186,10 +184,8 @@ void append(flow_map_data& data, const flow_map_data& further) {
 
 phase_points find_further_starts(const model& system, const initial_states& ensemble,
                                  const data_options& options) {
-  return with_its_lanes(system, [&](const auto& in_lanes) -> phase_points {
-    return typical_and_energetic_starts(in_lanes, ensemble, options.seed,
-                                        options.first + options.trajectories, options.trajectories);
-  });
+  return typical_and_energetic_starts(system, ensemble, options.seed, options.first + options.trajectories,
+                                      options.trajectories);
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ void library_is_compiled_for() {}
 template void library_is_compiled_for<default_lanes>();
 }  // namespace detail
 
-template <int Lanes>
-Eigen::MatrixXd basic_model<Lanes>::kinetic_hessian(const Eigen::VectorXd& p) const {
+Eigen::MatrixXd model::kinetic_hessian(const Eigen::VectorXd& p) const {
   using D = detail::slopes;
   const Eigen::Index n = size();
   vector<D, dimension> lifted(n);
@@ -29,8 +28,5 @@ Eigen::MatrixXd basic_model<Lanes>::kinetic_hessian(const Eigen::VectorXd& p) co
   }
   return hessian;
 }
-
-template class basic_model<default_lanes>;
-template class basic_model<1>;
 
 }  // namespace nysalt

@@ -49,11 +49,10 @@ namespace {
 
 using states = std::vector<phase_point<double, Eigen::Dynamic>>;
 
-/// In as many lanes as S has.
-template <class S>
-trial_result run_in_lanes(const S& system, const tabulated& method, double step, const states& starts,
+/// As many trajectories at a time as T has lanes.
+template <class T>
+trial_result run_in_lanes(const model& system, const tabulated& method, double step, const states& starts,
                           const trial_options& options) {
-  using T = scalar_of_lanes<lanes_of<S>>;
   constexpr std::int64_t block = 64;
   // Every seventh step: no low-order resonance has this period.
   constexpr std::int64_t every = 7;
@@ -218,8 +217,8 @@ phase_points repeated_in_bath(const model& system, phase_points starts) {
 trial_result trial_run(const model& system, const tabulated& method, double step, const phase_points& starts,
                        const trial_options& options) {
   const states points(starts.begin(), starts.end());
-  return detail::with_its_lanes(
-      system, [&](const auto& in_lanes) { return run_in_lanes(in_lanes, method, step, points, options); });
+  return detail::with_scalar_of(
+      system, [&]<class T>(T) { return run_in_lanes<T>(system, method, step, points, options); });
 }
 
 }  // namespace nysalt

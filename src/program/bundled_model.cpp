@@ -47,15 +47,8 @@ namespace {
 
 constexpr int dynamic = Eigen::Dynamic;
 
-/// With as many trajectories side by side as Lanes.
-template <int Lanes>
 class bundled_model final : public bundled_system {
-  using S = basic_model<Lanes>;
-  static constexpr int width = Lanes;
-  using T = scalar_of_lanes<width>;
-  using lanes_state = phase_point<T, dynamic>;
   using states_in_double = std::vector<phase_point<double, dynamic>>;
-  using measure_type = error_measure<dynamic, width>;
 
  public:
   bundled_model(const system_parts& parts, const surroundings& its, model_facts facts)
@@ -100,18 +93,18 @@ class bundled_model final : public bundled_system {
   }
   std::vector<std::string> observables() const override { return observable_names(system_, springs_); }
   void require_observable(const std::string& name) const override {
-    observable<double>(system_, springs_, name);
+    observable(system_, springs_, name);
   }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {
     if (starts_) return;
-    const S alone = system_.alone();
+    const model alone = system_.alone();
     try {
       if (start_ == start::gibbs && has_linear_force_) {
         starts_.emplace(gibbs_of_modes<dynamic>(alone, system_.bath().temperature()));
       } else if (start_ == start::gibbs) {
-        starts_.emplace(gibbs<S, initial_states>(system_, law_));
+        starts_.emplace(gibbs(system_, law_));
       } else {
         starts_.emplace(one_long_trajectory<dynamic>(system_, law_, {.seed = seed}));
       }
@@ -125,11 +118,11 @@ class bundled_model final : public bundled_system {
     std::copy_n(its.q.data(), its.q.size(), q.begin());
     std::copy_n(its.p.data(), its.p.size(), p.begin());
   }
-  int lanes() const override { return width; }
+  int lanes() const override { return system_.facts().in_lanes ? default_lanes : 1; }
 
   void require_served(const run_time_word& word) const override {
     try {
-      nysalt::require_served<S, double>(word, system_);
+      nysalt::require_served<model, double>(word, system_);
     } catch (const std::invalid_argument& problem) {
       refuse("{}", problem.what());
     }
@@ -154,7 +147,7 @@ class bundled_model final : public bundled_system {
 
   stability_guard guard(bool rotations) const override {
     const auto states = typical_and_energetic_starts(system_, law_, 1, 0, 64);
-    return stability_guard(model(system_), states, rotations);
+    return stability_guard(system_, states, rotations);
   }
 
   trial_result trial(const tabulated& method, const trajectories_plan& plan) const override {
@@ -162,7 +155,7 @@ class bundled_model final : public bundled_system {
                                   ? typical_and_energetic_starts(system_, *starts_, plan.seed, 0, plan.count)
                                   : typical_and_energetic_starts(system_, law_, plan.seed, 0, plan.count);
     if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
-    return trial_run(model(system_), method, plan.step, repeated_in_bath(model(system_), states),
+    return trial_run(system_, method, plan.step, repeated_in_bath(system_, states),
                      {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
   }
 
@@ -232,7 +225,7 @@ class bundled_model final : public bundled_system {
     auto& held_out = (kept != nullptr ? *kept : fresh)[1];
     const auto its_reference = reference().at(plan.step, plan.how.fine_step, parts);
     const auto make = [&](auto& pairs, std::uint64_t seed) {
-      detail::extend_data(model(system_), *starts_, its_reference.held(),
+      detail::extend_data(system_, *starts_, its_reference.held(),
                           {.step = plan.step,
                            .horizon = plan.how.horizon_at(plan.step),
                            .trajectories = plan.how.trajectories,
@@ -245,13 +238,13 @@ class bundled_model final : public bundled_system {
     };
     make(data, plan.seed);
     make(held_out, plan.held_out_seed);
-    return {make_learning_problem(family, model(system_), data, held_out, options), data.energies};
+    return {make_learning_problem(family, system_, data, held_out, options), data.energies};
   }
 
   void require_measure(const asked_metric& metric, const trajectories_plan& plan,
                        std::optional<double> fine_step, int noise_parts) const override {
     if (metric.is_of_law()) {
-      observable<T>(system_, springs_, metric.observable);
+      observable(system_, springs_, metric.observable);
       reference().fine_step_for_statistics(plan.step, fine_step);
       return;
     }
@@ -269,14 +262,14 @@ class bundled_model final : public bundled_system {
 
   std::vector<trajectory_errors_result> errors(const std::vector<tabulated>& methods, const errors_plan& plan,
                                                const counter& progress) const override {
-    std::vector<measure_type> measures;
+    std::vector<error_measure> measures;
     for (const auto& metric : plan.metrics) measures.push_back(measure_named(metric));
     trajectory_options options = options_of(plan.trajectories, progress);
     options.null_model = plan.null_model;
     options.perturbation = plan.perturbation;
-    const int parts = parts_of_noise(system_, std::span<const tabulated>(methods));
+    const int parts = nysalt::detail::parts_of_noise(system_, methods);
     const auto its = reference().at(plan.trajectories.step, plan.fine_step, parts);
-    return trajectory_errors(system_, its, *starts_, methods, std::span<const measure_type>(measures),
+    return trajectory_errors(system_, its, *starts_, methods, std::span<const error_measure>(measures),
                              options);
   }
 
@@ -287,13 +280,15 @@ class bundled_model final : public bundled_system {
 
   std::vector<double> values_at_starts(const trajectories_plan& plan,
                                        const std::string& name) const override {
-    const auto value = observable<double>(system_, springs_, name);
+    const auto value = observable(system_, springs_, name);
     constexpr std::int64_t enough = 1000;
     std::vector<double> values;
-    for (std::int64_t m = 0; m < std::min(plan.count, enough); m += width) {
-      const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, width);
-      for (int k = 0; k < width; ++k) values.push_back(value(lane(x, k)));
-    }
+    nysalt::detail::with_scalar_of(system_, [&]<class T>(T) {
+      for (std::int64_t m = 0; m < std::min(plan.count, enough); m += lanes_in<T>) {
+        const auto x = sound_starts<T>(system_, *starts_, plan.seed, m, lanes_in<T>);
+        for (int k = 0; k < lanes_in<T>; ++k) values.push_back(value(lane(x, k)));
+      }
+    });
     return values;
   }
 
@@ -316,7 +311,7 @@ class bundled_model final : public bundled_system {
                                    .moments = true,
                                    .kinetic_temperature = plan.bins.has_value(),
                                    .half_step_kinetic_temperature = plan.bins && leaps};
-    return ensemble_statistics(stepper, *starts_, options, over_lanes(observable<T>(system_, springs_, name)),
+    return ensemble_statistics(stepper, *starts_, options, over_lanes(observable(system_, springs_, name)),
                                wanted);
   }
 
@@ -382,19 +377,21 @@ class bundled_model final : public bundled_system {
   }
 
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const override {
-    std::vector<lanes_state> starts;
-    for (std::int64_t m = 0; m < plan.count; m += width) {
-      const auto count = static_cast<int>(std::min<std::int64_t>(width, plan.count - m));
-      starts.push_back(sound_starts<T>(system_, *starts_, plan.seed, m, count));
-    }
     const auto stepper = make_stepper(system_, method, plan.step, counter_noise(plan.seed));
-    return [stepper, starts = std::move(starts), steps = plan.steps] {
-      for (const auto& start : starts) {
-        auto run = stepper.open(start);
-        stepper.advance(run, steps);
-        end_of_run = lane(stepper.synchronous(run).q[0], 0);
+    return nysalt::detail::with_scalar_of(system_, [&]<class T>(T) -> std::function<void()> {
+      std::vector<phase_point<T, dynamic>> starts;
+      for (std::int64_t m = 0; m < plan.count; m += lanes_in<T>) {
+        const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, plan.count - m));
+        starts.push_back(sound_starts<T>(system_, *starts_, plan.seed, m, count));
       }
-    };
+      return [stepper, starts = std::move(starts), steps = plan.steps] {
+        for (const auto& start : starts) {
+          auto run = stepper.open(start);
+          stepper.advance(run, steps);
+          end_of_run = lane(stepper.synchronous(run).q[0], 0);
+        }
+      };
+    });
   }
 
  private:
@@ -410,10 +407,11 @@ class bundled_model final : public bundled_system {
   void run_from(const initial_states& starts, const tabulated& method, const sampled_plan& plan,
                 const std::function<void(std::int64_t, const record&)>& take, const counter& progress) const {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-    if (plan.trajectories.count < width / 4 || size(system_) > 20'000) {
+    const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(system_) <= 20'000;
+    if (!fills_lanes || !system_.facts().in_lanes) {
       run_in_waves<double>(system_, springs_, starts, method, plan, take, progress, world());
     } else {
-      run_in_waves<T>(system_, springs_, starts, method, plan, take, progress, world());
+      run_in_waves<nysalt::detail::lanes>(system_, springs_, starts, method, plan, take, progress, world());
     }
   }
 
@@ -443,11 +441,11 @@ class bundled_model final : public bundled_system {
     return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
   }
 
-  measure_type measure_named(const asked_metric& metric) const {
+  error_measure measure_named(const asked_metric& metric) const {
     if (metric.name == "path")
-      return path_measure(system_, observable<T>(system_, springs_, metric.observable));
+      return path_measure(system_, over_lanes(observable(system_, springs_, metric.observable)));
     if (metric.name == "relative")
-      return relative_measure(system_, observable<T>(system_, springs_, metric.observable));
+      return relative_measure(system_, over_lanes(observable(system_, springs_, metric.observable)));
     if (metric.name == "state") return state_measure(system_);
     if (metric.name == "energy") {
       if (system_.bath().acts())
@@ -471,22 +469,19 @@ class bundled_model final : public bundled_system {
   /// What exchanges of energies ask of a system.
   struct sprung_system {
     static constexpr int dimension = dynamic;
-    static constexpr int lanes = width;
     stiff_springs springs;
 
     Eigen::Index size() const { return 0; }
     template <class U>
     void force(const vector<U, dynamic>&, vector<U, dynamic>&) const {}  // stepped by nobody
     Eigen::Index pairs() const { return springs.pairs; }
-    double stiff_energy(const phase_point<double, dynamic>& x, Eigen::Index j) const {
+    template <class U>
+    U stiff_energy(const phase_point<U, dynamic>& x, Eigen::Index j) const {
       return springs.energy(x, j);
-    }
-    detail::lanes stiff_energy(const phase_point<detail::lanes, dynamic>& x, Eigen::Index j) const {
-      return springs.energy_in_lanes(x, j);
     }
   };
 
-  S system_;
+  model system_;
   stiff_springs springs_;
   std::shared_ptr<const detail::any_reference> exact_;
   bool has_linear_force_;
@@ -500,10 +495,7 @@ class bundled_model final : public bundled_system {
 
 std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& its,
                                              const model_facts& facts) {
-  if (parts.in_bath.facts().in_lanes) {
-    return std::make_unique<bundled_model<default_lanes>>(parts, its, facts);
-  }
-  return std::make_unique<bundled_model<1>>(parts, its, facts);
+  return std::make_unique<bundled_model>(parts, its, facts);
 }
 
 }  // namespace nysalt::program

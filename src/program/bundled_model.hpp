@@ -24,13 +24,13 @@ struct model_facts {
   double fine_angle = 5e-3;  // of a fine step, times that frequency: there srkn11b errs by rounding
 };
 
+template <class T>
+using energy_of_spring = T(const phase_point<T, Eigen::Dynamic>& x, Eigen::Index j);
+
 /// The energies of the stiff springs of a system that has some.
 struct stiff_springs {
   Eigen::Index pairs = 0;  ///< 0: there are none
-  /// Of spring j, and of all if j < 0.
-  std::function<double(const phase_point<double, Eigen::Dynamic>&, Eigen::Index j)> energy{};
-  std::function<detail::lanes(const phase_point<detail::lanes, Eigen::Dynamic>&, Eigen::Index j)>
-      energy_in_lanes{};
+  nysalt::detail::over_scalars<energy_of_spring> energy{};  ///< of spring j, and of all if j < 0
 };
 
 template <class S>
@@ -38,10 +38,10 @@ stiff_springs stiff_springs_of(const S& system) {
   stiff_springs result;
   if constexpr (HasStiffEnergies<S>) {
     const auto energy = [system]<class T>(const phase_point<T, Eigen::Dynamic>& x, Eigen::Index j) -> T {
-      const phase_point<T, S::dimension> own{x.q, x.p};
+      const auto& own = nysalt::detail::of_dimension<S::dimension>(x);
       return j < 0 ? system.stiff_energy(own) : system.stiff_energy(own, j);
     };
-    result = {system.pairs(), energy, energy};
+    result = {system.pairs(), energy};
   }
   return result;
 }

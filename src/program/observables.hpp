@@ -3,7 +3,6 @@
 #pragma once
 
 #include <charconv>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +16,7 @@
 namespace nysalt::program {
 
 /// As people read them: families of names once.
-template <System S>
-std::vector<std::string> observable_names(const S& system, const stiff_springs& springs) {
+inline std::vector<std::string> observable_names(const model& system, const stiff_springs& springs) {
   std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy", "kinetic_temperature"};
   const auto range = [&](const char* stem, Eigen::Index last) {
     names.push_back(last == 1 ? fmt::format("{}1", stem) : fmt::format("{0}1..{0}{1}", stem, last));
@@ -42,31 +40,36 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
   return is_number && 1 <= index && index <= last ? index : 0;
 }
 
-/// Of the trajectory in each lane of T. Throws refusal, listing the names, if there is none of that name.
-template <class T, System S>
-std::function<T(const phase_point<T, S::dimension>&)> observable(const S& system,
-                                                                 const stiff_springs& springs,
-                                                                 const std::string& name) {
-  using state = phase_point<T, S::dimension>;
-  if (name == "energy") return [&system](const state& x) { return energy<T>(system, x); };
+/// A function of the state of one trajectory, or of those in the lanes of packs. Refers to the system and the
+/// springs. Throws refusal, listing the names, if there is none of that name.
+inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const model& system,
+                                                                         const stiff_springs& springs,
+                                                                         const std::string& name) {
+  if (name == "energy") {
+    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) { return energy<T>(system, x); };
+  }
   if (name == "kinetic_energy") {
-    return [&system](const state& x) { return kinetic_energy<T>(system, x.p); };
+    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) {
+      return kinetic_energy<T>(system, x.p);
+    };
   }
   if (name == "kinetic_temperature") {
-    return [&system](const state& x) { return kinetic_temperature<T>(system, x); };
+    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) {
+      return kinetic_temperature<T>(system, x);
+    };
   }
-  if (name == "potential_energy") return [&system](const state& x) { return system.potential(x.q); };
-  if (const auto i = index_after(name, "q", size(system))) return [i](const state& x) { return x.q[i - 1]; };
-  if (const auto i = index_after(name, "p", size(system))) return [i](const state& x) { return x.p[i - 1]; };
+  if (name == "potential_energy") {
+    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) { return system.potential(x.q); };
+  }
+  if (const auto i = index_after(name, "q", size(system))) {
+    return [i](const auto& x) { return x.q[i - 1]; };
+  }
+  if (const auto i = index_after(name, "p", size(system))) {
+    return [i](const auto& x) { return x.p[i - 1]; };
+  }
   if (springs.pairs > 0) {
     const auto spring_energy = [&springs](Eigen::Index j) {
-      return [&springs, j](const state& x) {
-        if constexpr (std::is_same_v<T, double>) {
-          return springs.energy(x, j);
-        } else {
-          return springs.energy_in_lanes(x, j);
-        }
-      };
+      return [&springs, j](const auto& x) { return springs.energy(x, j); };
     };
     if (name == "stiff_energy") return spring_energy(-1);
     if (const auto j = index_after(name, "stiff_energy_", springs.pairs)) return spring_energy(j - 1);

@@ -30,14 +30,14 @@ inline std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std:
 
 /// bundled_system::run, with as many trajectories side by side as P has lanes. Rank 0 takes, and its plan
 /// says where to begin; all ranks call it.
-template <class P, class S, class Starts>
-void run_in_waves(const S& system, const stiff_springs& springs, const Starts& starts,
+template <class P>
+void run_in_waves(const model& system, const stiff_springs& springs, const initial_states& starts,
                   const tabulated& method, const sampled_plan& plan,
                   const std::function<void(std::int64_t, const record&)>& take, const counter& progress,
                   const communicator& ranks) {
-  using states = phase_point<P, S::dimension>;
-  std::vector<std::function<P(const states&)>> watched;
-  for (const auto& name : plan.observables) watched.push_back(observable<P>(system, springs, name));
+  using states = phase_point<P, Eigen::Dynamic>;
+  std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
+  for (const auto& name : plan.observables) watched.push_back(observable(system, springs, name));
   const auto read = [&](const states& x, std::span<P> values) {
     for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
   };

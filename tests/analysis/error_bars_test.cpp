@@ -52,16 +52,13 @@ struct exact_turn {
   std::string description() const { return "the exact turn"; }
 };
 
-using measure_type = error_measure<8, lanes_of<oscillators>>;
-using lanes_type = measure_type::T;
-
 /// The mean of |dq_i| over oscillators, trajectories and times.
-measure_type modulus_measure() {
-  measure_type result = state_measure(all);
+error_measure modulus_measure() {
+  error_measure result = state_measure(all);
   result.how = averaging::mean;
-  result.error = [](std::span<const lanes_type> seen, std::span<const lanes_type> expected) {
+  result.error = []<class T>(std::span<const T> seen, std::span<const T> expected) {
     using std::abs;
-    lanes_type sum(0.0);
+    T sum(0.0);
     for (std::size_t i = 0; i < 8; ++i) sum += abs(seen[i] - expected[i]);
     return sum * 0.125;
   };

@@ -29,7 +29,7 @@ const normal_around<2> stars({vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0
 /// Errors of Verlet at 10^2, 10^3, ... trajectories, of other starts each.
 template <System S>
 std::vector<method_error> at_numbers(const S& system, const Ensemble<S> auto& law,
-                                     const error_measure<S::dimension, lanes_of<S>>& measure) {
+                                     const error_measure& measure) {
   std::vector<method_error> result;
   std::uint64_t seed = 10;
   for (const std::int64_t count : {100, 1'000, 10'000, 40'000}) {
@@ -68,11 +68,9 @@ BOOST_AUTO_TEST_CASE(errors_do_not_grow_with_the_number_of_trajectories) {
 // The energy of the pendulum at the start passes through 0: relative to each by itself, the mean square does
 // not exist. Each of these errors is larger than the one before, and all of them have a tail.
 BOOST_AUTO_TEST_CASE(an_error_relative_to_what_passes_through_zero_has_none) {
-  using measure_type = error_measure<1, lanes_of<pendulum>>;
-  using numbers = measure_type::numbers;
-  measure_type measure = energy_measure(swing);
+  error_measure measure = energy_measure(swing);
   measure.relative_to = {};
-  measure.error = [](numbers seen, numbers at_start) {
+  measure.error = [](auto seen, auto at_start) {
     const auto relative = (seen[0] - at_start[0]) / at_start[0];
     return relative * relative;
   };
@@ -80,7 +78,7 @@ BOOST_AUTO_TEST_CASE(an_error_relative_to_what_passes_through_zero_has_none) {
   for (const auto& its : all) BOOST_TEST(its.spread.largest.is_heavy());
   BOOST_TEST(all.back().error.mean > 3.0 * all.front().error.mean);
   // As a scale it would be refused: -1 + p^2/2 + ... is of both signs.
-  measure.scale = [](numbers at_start) { return at_start[0]; };
+  measure.scale = [](auto at_start) { return at_start[0]; };
   measure.no_scale = "of both signs";
   BOOST_CHECK_THROW(at_numbers(swing, swings, measure), std::invalid_argument);
 }

@@ -191,8 +191,8 @@ BOOST_AUTO_TEST_CASE(a_turning_point_is_no_end) {
 }
 
 BOOST_AUTO_TEST_CASE(samples_count_from_where_the_errors_stay_above) {
-  predictable_samples<1> squares(averaging::root_of_all);
-  predictable_samples<1> moduli(averaging::mean);
+  predictable_samples<double> squares(averaging::root_of_all);
+  predictable_samples<double> moduli(averaging::mean);
   const std::array<double, 5> sums{1.0, 2.0, 3.0, 4.0, NAN};
   const std::array<double, 5> null_sums{0.0, 8.0, 8.0, 8.0, 8.0};
   std::vector<double> of_squares;

@@ -30,14 +30,13 @@ namespace {
 
 using state = phase_point<double, 6>;
 using pair = member<nystrom>;
-using measure_type = error_measure<6, lanes_of<fpu_chain<3>>>;
 
 const fpu_chain<3> chain(50.0);
 const fpu_law<3> law(chain);
 const fine_steps<> reference(5e-4);
 const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
 const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
-const std::vector<measure_type> all{energy_measure(chain), state_measure(chain), exchange_measure(chain),
+const std::vector<error_measure> all{energy_measure(chain), state_measure(chain), exchange_measure(chain),
                                     path_measure(chain, stiff_energy)};
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -134,9 +133,9 @@ BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
 
 BOOST_AUTO_TEST_CASE(a_measure_in_trouble_is_named) {
   const trajectory_options options{.step = .02, .steps = 5, .trajectories = 20};
-  const auto judge = [&](const measure_type& second) {
+  const auto judge = [&](const error_measure& second) {
     const std::array two{state_measure(chain), second};
-    trajectory_errors(chain, reference, law, pairs, std::span<const measure_type>(two), options);
+    trajectory_errors(chain, reference, law, pairs, std::span<const error_measure>(two), options);
   };
   BOOST_CHECK_NO_THROW(judge(energy_measure(chain)));
   const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
@@ -148,11 +147,11 @@ BOOST_AUTO_TEST_CASE(a_measure_in_trouble_is_named) {
 
 // Of 1 method, 3 stretches of 64 samples in 16 lanes: 200 000 numbers a sample are 6e8, and 1e9 the most.
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  measure_type wide = state_measure(chain);
+  error_measure wide = state_measure(chain);
   wide.width = 200'000;
   const std::vector two{wide, wide};
   const trajectory_options options{.step = .02, .steps = 5, .trajectories = 1};
-  const auto judge = [&](std::span<const measure_type> measures, const trajectory_options& its) {
+  const auto judge = [&](std::span<const error_measure> measures, const trajectory_options& its) {
     trajectory_errors(chain, reference, law, pairs[0], measures, its);
   };
   BOOST_CHECK_NO_THROW(require_room(options, 1, wide.width));

@@ -18,6 +18,7 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/methods/verlet.hpp"
+#include "nysalt/noises/along_path.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

@@ -56,13 +56,13 @@ struct no_reference {
 /// Not finite after the given number of steps, all trajectories together; its finer self lasts.
 struct breaking {
   std::int64_t steps_that_last;
-  mutable std::int64_t taken = 0;
+  std::shared_ptr<std::int64_t> taken = std::make_shared<std::int64_t>(0);  // by all copies
   template <class S>
   void advance(const S& system, state& x, double t) const {
     reference.advance(system, x, t);
-    if (taken++ >= steps_that_last) x.p[2] = NAN;
+    if ((*taken)++ >= steps_that_last) x.p[2] = NAN;
   }
-  breaking finer() const { return {1000}; }
+  breaking finer() const { return {1000, std::make_shared<std::int64_t>(0)}; }
   std::string description() const { return "one that breaks"; }
 };
 

@@ -9,6 +9,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;

@@ -7,6 +7,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
@@ -23,7 +24,7 @@ const in_bath in_the_papers_bath(chain, bath::of_sigma(0.01, 0.05));
 constexpr double kT = 0.05 * 0.05 / 0.02;
 
 /// Made once: most of the time of this test.
-const gibbs<fpu_chain<3>, fpu_law<3>>& papers() {
+const gibbs<6>& papers() {
   static const gibbs ensemble(in_the_papers_bath, fpu_law<3>(chain));
   return ensemble;
 }

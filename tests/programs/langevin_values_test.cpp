@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {
   using state = phase_point<double, 6>;
   const fpu_chain<3> alone(50.0);
   const in_bath system(alone, bath::of_sigma(0.01, 0.05));
-  const gibbs<fpu_chain<3>, fpu_law<3>> starts(system, fpu_law<3>(alone));
+  const gibbs<6> starts(system, fpu_law<3>(alone));
   const std::uint64_t seed = program::seed_for(program::role::test, 5);
   const auto all = document(
       "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 "

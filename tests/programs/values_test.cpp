@@ -50,7 +50,7 @@ constexpr std::uint64_t seed = 5;  // the user's
 
 /// What the library says of a method on the chain at the step 0.02, for the row that the program printed.
 template <Method M>
-void must_be(const json& row, const M& method, const error_measure<6>& measure) {
+void must_be(const json& row, const M& method, const error_measure& measure) {
   const trajectory_options options{
       .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
   const auto its = trajectory_errors(chain, fine_steps<>(.02 / 200), law, method, measure, options);
@@ -69,7 +69,7 @@ void must_be(const json& row, const M& method, const error_measure<6>& measure) 
 BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
   const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
-  const auto must_all_be = [](const std::string& metric, const error_measure<6>& measure) {
+  const auto must_all_be = [](const std::string& metric, const error_measure& measure) {
     const auto all = document(
         "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b,phase_fitted_chin4a --steps 0.02 "
         "--fine-step 1e-4 "

@@ -17,27 +17,12 @@ namespace nysalt {
 /// options cannot be, or lags need more samples.
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted);
 
-/// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
-/// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from
-/// wanted.from on. The observable is called as in integrate_ensemble: for all lanes at a time if it is marked
-/// by over_lanes, which is much faster; it must bear any state.
-///
-/// A trajectory that diverges, or where a number is not finite, counts in nothing, not even with what came
-/// before: runs that are short because they go astray would bend every law. It is reported in `lost`. Neither
-/// lanes, threads nor ranks change a bit.
-///
-/// Ranks share whole groups of the jackknife, so that each sum over one keeps its order; there are 33 to 64,
-/// and more ranks than these have nothing to do. All get the result.
-///
-/// Memory: 48 bytes a trajectory, a histogram (8 bytes a bin) for each of 64 groups, which the result keeps,
-/// on each rank, and none that grows with the steps. Cost of a sample, beside the steps and the observable: a
-/// product a lag, and an increment for the histogram. Throws std::invalid_argument if the options cannot be,
-/// there are not more samples than lags, or a start does not fit.
-template <class Stepper, Ensemble<typename Stepper::system_type> E, class Observable>
-gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensemble,
-                                        const ensemble_options& options, const Observable& observable,
+namespace detail {
+/// As many trajectories at a time as T has lanes.
+template <class T, class Stepper>
+gathered_statistics statistics_in_lanes(const Stepper& stepper, const auto& ensemble,
+                                        const ensemble_options& options, const auto& observable,
                                         const statistics_wanted& wanted) {
-  using T = scalar_of_lanes<lanes_of<typename Stepper::system_type>>;
   using state = phase_point<T, Stepper::dimension>;
   const std::int64_t samples = samples_of_trajectory(options, wanted);
   const auto starts = [&](std::int64_t first, int count) {
@@ -76,6 +61,32 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
                              all.trajectories_of_thread(), numbers_of_sample(wanted), read, visitor_of);
   all.gather();
   return all.result(options.first);
+}
+}  // namespace detail
+
+/// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
+/// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from
+/// wanted.from on. The observable is called as in integrate_ensemble: for all lanes at a time if it is marked
+/// by over_lanes, which is much faster; it must bear any state.
+///
+/// A trajectory that diverges, or where a number is not finite, counts in nothing, not even with what came
+/// before: runs that are short because they go astray would bend every law. It is reported in `lost`. Neither
+/// lanes, threads nor ranks change a bit.
+///
+/// Ranks share whole groups of the jackknife, so that each sum over one keeps its order; there are 33 to 64,
+/// and more ranks than these have nothing to do. All get the result.
+///
+/// Memory: 48 bytes a trajectory, a histogram (8 bytes a bin) for each of 64 groups, which the result keeps,
+/// on each rank, and none that grows with the steps. Cost of a sample, beside the steps and the observable: a
+/// product a lag, and an increment for the histogram. Throws std::invalid_argument if the options cannot be,
+/// there are not more samples than lags, or a start does not fit.
+template <class Stepper, Ensemble<typename Stepper::system_type> E, class Observable>
+gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensemble,
+                                        const ensemble_options& options, const Observable& observable,
+                                        const statistics_wanted& wanted) {
+  return detail::with_scalar_of(stepper.system(), [&]<class T>(T) {
+    return detail::statistics_in_lanes<T>(stepper, ensemble, options, observable, wanted);
+  });
 }
 
 }  // namespace nysalt

@@ -21,14 +21,13 @@ struct run_score {
 };
 
 /// The errors of one trajectory in each lane, added up in the order of time. None is kept.
-template <int N, int W>
+template <class T>
 class error_sum {
  public:
-  using T = scalar_of_lanes<W>;        ///< double, or a pack of W
   using numbers = std::span<const T>;  ///< those of one state
 
   /// Refers to the measure. The start, where all errors are 0, may have a weight too.
-  explicit error_sum(const error_measure<N, W>& measure, double weight_of_start = 0.0)
+  explicit error_sum(const error_measure& measure, double weight_of_start = 0.0)
       : measure_(&measure), weights_(weight_of_start) {}
 
   /// Adds the errors of sample i = 1, 2, ..., in this order, in the lanes that are live.
@@ -38,7 +37,7 @@ class error_sum {
     weights_ += weight;
     const auto lost = both(!(sum_ - sum_ == T(0.0)), live);
     if (!any(lost)) return;
-    for (int k = 0; k < W; ++k) {
+    for (int k = 0; k < lanes_in<T>; ++k) {
       auto& at = lost_at_[static_cast<std::size_t>(k)];
       if (lane(lost, k) && !at) at = i;
     }
@@ -56,10 +55,10 @@ class error_sum {
   }
 
  private:
-  const error_measure<N, W>* measure_;
+  const error_measure* measure_;
   double weights_;
   T sum_{0.0};
-  std::array<std::optional<std::int64_t>, W> lost_at_{};
+  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> lost_at_{};
 };
 
 }  // namespace nysalt

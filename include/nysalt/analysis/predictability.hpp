@@ -32,18 +32,16 @@ phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t 
 /// In each lane, since which sample the errors of perturbed starts so far exceed half of the null model's, to
 /// the end: a quarter of them where they are squares, so that roots are halved. A sum that falls behind again
 /// begins anew: what hardly moves at first leaves the null model without errors for a few samples.
-template <int W>
+template <class T>
 class predictable_samples {
  public:
-  using T = scalar_of_lanes<W>;  ///< double, or a pack of W
-
   /// `how` tells whether sums of errors are of squares: all but averaging::mean.
   explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
 
   /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.
   void add(std::int64_t i, const T& perturbed, const T& null_model) {
     const auto within = perturbed <= null_model * share_;  // not if it has gone to NaN
-    for (int k = 0; k < W; ++k) {
+    for (int k = 0; k < lanes_in<T>; ++k) {
       auto& its = until_[static_cast<std::size_t>(k)];
       if (lane(within, k)) {
         its.reset();
@@ -61,7 +59,7 @@ class predictable_samples {
 
  private:
   double share_;
-  std::array<std::optional<std::int64_t>, W> until_{};
+  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> until_{};
 };
 
 }  // namespace nysalt

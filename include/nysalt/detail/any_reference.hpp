@@ -124,18 +124,14 @@ class reference_value {
   std::unique_ptr<reference_run<T>> prepare(const model& system, double t) const {
     return held_->prepare(system, t, std::type_identity<T>());
   }
-  template <class T>
-  std::unique_ptr<reference_run<T>> prepare(const basic_model<1>& system, double t) const {
-    return prepare<T>(model(system), t);
-  }
-  template <class S, Scalar T>
-    requires is_model<S>
-  void advance(const S& system, phase_point<T, Eigen::Dynamic>& x, double t, const path_place& at,
+  template <Scalar T>
+  void advance(const model& system, phase_point<T, Eigen::Dynamic>& x, double t, const path_place& at,
                std::span<vector<T, Eigen::Dynamic>> xi) const {
     prepare<T>(system, t)->advance(x, lanes_in<T>, at, xi);
   }
   reference_value finer() const { return reference_value(held_->finer()); }
   std::string description() const { return held_->description(); }
+  bool tells_noise() const { return held_->tells_noise(); }  ///< it follows paths of a system in a bath
   const std::shared_ptr<const any_reference>& held() const { return held_; }
 
  private:
@@ -150,18 +146,6 @@ template <class R>
 inline constexpr bool is_fine_paths = false;
 template <class M>
 inline constexpr bool is_fine_paths<fine_paths<M>> = true;
-
-/// As a table. A method without members is read where it is static: inlined, g++ 12 takes one in a temporary
-/// for uninitialised.
-template <class M>
-tabulated table_of(const M& method) {
-  if constexpr (std::is_empty_v<M> && std::is_default_constructible_v<M>) {
-    static const M same{};
-    return tabulated(same);
-  } else {
-    return tabulated(method);
-  }
-}
 
 /// The library's own step words as data; any other keeps its type.
 template <SeparableSystem S, Reference<S> R>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -21,8 +22,8 @@ namespace nysalt {
 /// The trajectories in the lanes of T, all at the same step. Each goes as it would alone, to the bit: one
 /// that diverges drops out, and the others go on.
 ///
-/// Divergence is looked for every 64 steps and where go_on ends, as in integrate(); where it is found, that
-/// stretch is gone through again to name the first bad step.
+/// Divergence is looked for every 64 steps and where go_on ends; where it is found, that stretch is gone
+/// through again to name the first bad step.
 template <class Stepper, Scalar T>
 class lockstep {
  public:
@@ -62,7 +63,7 @@ class lockstep {
   /// writes `width` numbers of the state to r, a span, a few steps ahead perhaps and of lost lanes too;
   /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
   template <class Read, class Take>
-  void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, const Take& take) {
+  void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, Take&& take) {
     if (every < 1)
       throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
@@ -70,10 +71,14 @@ class lockstep {
       good_ = run_;
       const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
       T* here = seen_.data();
-      stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
-        read(x, std::span<T>(here, width));
-        here += width;
-      });
+      if (next / every == run_.step / every) {
+        stepper_->advance(run_, next - run_.step);
+      } else {
+        stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
+          read(x, std::span<T>(here, width));
+          here += width;
+        });
+      }
       const condition failed = both(diverged_(stepper_->synchronous(run_)), live_);
       const bool all_well = !any(failed);
       if (!all_well) drop(failed, next);
@@ -85,13 +90,17 @@ class lockstep {
   }
   /// Goes on to step `end`, unobserved.
   void go_on(std::int64_t end) {
+    constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
     go_on(
-        end, std::max<std::int64_t>(end, 1), 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
+        end, never, 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
   }
 
   std::int64_t step() const { return run_.step; }              ///< at which all are
   const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
-  /// The states at that step. Of lanes that diverged nothing is known but when.
+  /// The run where the last stretch began, that between two checks.
+  const open_run<T, dimension>& begin_of_stretch() const { return good_; }
+  /// The states at that step. Of lanes that diverged nothing is known but when; of a single one it is the
+  /// first bad state.
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }  ///< those that go on
   /// The step at which lane k diverged; nothing while it goes on.
@@ -113,6 +122,7 @@ class lockstep {
       }
       unknown = both(unknown, !found);
     }
+    if (!any(live_)) run_ = std::move(run);  // of one trajectory the first bad step
   }
 
   condition good_at(std::int64_t n) const {
@@ -132,5 +142,42 @@ class lockstep {
   losses diverged_at_{};
   std::vector<T> seen_;
 };
+
+namespace detail {
+
+/// Reads the starts of trajectories side by side, and hands what was read over: step 0.
+template <class T, int N>
+void look_at_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
+                    auto&& take) {
+  std::vector<T> numbers(width);
+  read(starts, std::span<T>(numbers));
+  take(0, std::span<const T>(numbers), first_lanes<T>(count));
+}
+
+/// What was read of trajectories first, first + 1, ... side by side, handed to take(m, n, numbers) of one
+/// after the other, in doubles: of those alone that are good.
+template <class Take>
+class one_after_the_other {
+ public:
+  one_after_the_other(const Take& take, std::int64_t first, int count, std::size_t width)
+      : take_(&take), first_(first), count_(count), of_one_(width) {}
+
+  template <class T>
+  void operator()(std::int64_t n, std::span<const T> all, const condition_of<T>& live) {
+    for (int k = 0; k < count_; ++k) {
+      if (!lane(live, k)) continue;
+      for (std::size_t i = 0; i < of_one_.size(); ++i) of_one_[i] = lane(all[i], k);
+      (*take_)(first_ + k, n, std::span<const double>(of_one_));
+    }
+  }
+
+ private:
+  const Take* take_;
+  std::int64_t first_;
+  int count_;
+  std::vector<double> of_one_;
+};
+
+}  // namespace detail
 
 }  // namespace nysalt

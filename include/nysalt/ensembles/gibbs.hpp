@@ -1,20 +1,42 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <concepts>
 #include <cstdint>
-#include <stdexcept>
+#include <memory>
 #include <string>
-#include <utility>
 
-#include "nysalt/detail/in_digits.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/ensembles/burn_in.hpp"
+#include "nysalt/detail/over_scalars.hpp"
+#include "nysalt/ensembles/burn_in_report.hpp"
+#include "nysalt/initial_states.hpp"
+#include "nysalt/model.hpp"
 
 namespace nysalt {
 
 namespace detail {
-/// kT. Throws std::invalid_argument unless the bath has a temperature, and that is positive.
-double temperature_to_sample(const bath& its);
+
+/// The chains of gibbs.
+class gibbs_chains {
+ public:
+  gibbs_chains(const model& in_bath, initial_states from, const burn_in_options& options);
+
+  const burn_in_report& report() const { return report_; }
+  template <class T>
+  phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const;
+  std::string description() const;
+
+ private:
+  model alone_;
+  initial_states from_;
+  double temperature_;
+  burn_in_report report_;
+};
+
+extern template phase_point<double, Eigen::Dynamic> gibbs_chains::block<double>(std::uint64_t, std::int64_t,
+                                                                                int) const;
+extern template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(std::uint64_t, std::int64_t,
+                                                                              int) const;
+
 }  // namespace detail
 
 /// Independent states from exp(-H/kT) of a system in a bath that has a temperature: each is the end of a
@@ -32,63 +54,49 @@ double temperature_to_sample(const bath& its);
 /// one motion among very many that is much slower than most and is no declared mode.
 ///
 /// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
-template <NystromSystem S, Ensemble<S> E>
+template <int N>
 class gibbs {
  public:
-  /// Throws std::invalid_argument if the bath has no temperature or that is zero, if an option cannot be, or
-  /// if there is neither a step nor frequency_bands(); std::runtime_error if chains diverge, do not become
-  /// stationary, or a check fails.
-  gibbs(const detail::bathed_system<S>& system, E from, const burn_in_options& options = {})
-      : alone_(system.alone()),
-        from_(std::move(from)),
-        temperature_(detail::temperature_to_sample(system.bath())) {
-    report_ = burn_in_search<S, E>(alone_, temperature_, from_, options).find();
-  }
+  /// Of a system in its bath. Throws std::invalid_argument if the bath has no temperature or that is zero, if
+  /// an option cannot be, or if there is neither a step nor frequency_bands(); std::runtime_error if chains
+  /// diverge, do not become stationary, or a check fails.
+  template <HasBath S, Ensemble<S> E>
+    requires(NystromSystem<S> && S::dimension == N)
+  gibbs(const S& system, const E& from, const burn_in_options& options = {})
+      : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
 
   /// How chains are burned in, and what was checked.
-  const burn_in_report& report() const { return report_; }
+  const burn_in_report& report() const { return chains_->report(); }
 
   /// The start of trajectory n. Throws std::runtime_error if its chain diverges.
-  phase_point<double, S::dimension> operator()(std::uint64_t seed, std::uint64_t n) const {
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
     return block<double>(seed, static_cast<std::int64_t>(n), 1);
   }
 
   /// Those of `count` trajectories from the first on, one in each lane of T, with the bits that each has
   /// alone. Throws std::runtime_error if one diverges.
   template <class T>
-  phase_point<T, S::dimension> block(std::uint64_t seed, std::int64_t first, int count) const {
-    const burn_in_chains<S> chains(alone_, temperature_, report_.friction, report_.step, seed);
-    auto run = chains.open(sound_starts<T>(alone_, from_, seed, first, count), first, count);
-    run.go_on(report_.steps);
-    for (int k = 0; k < count; ++k) {
-      if (!run.diverged_at(k)) continue;
-      throw std::runtime_error(sentence(
-          "gibbs: chain {} of seed {} diverged at time {}: the motion of {} is not confined", first + k, seed,
-          in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6), describe(alone_)));
+  phase_point<T, N> block(std::uint64_t seed, std::int64_t first, int count) const {
+    if constexpr (std::same_as<T, double> || std::same_as<T, detail::lanes>) {
+      const auto x = chains_->block<T>(seed, first, count);
+      return {x.q, x.p};
+    } else {
+      return gather<T, N>(
+          count, [&](int k) { return (*this)(seed, static_cast<std::uint64_t>(first + k)); });
     }
-    auto x = run.synchronous();
-    chains.draw_momenta(x, first, report_.steps);
-    return x;
   }
 
-  std::string description() const {
-    return sentence("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
-                    in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
-                    in_digits(report_.friction, 4), in_digits(report_.step, 4));
-  }
+  std::string description() const { return chains_->description(); }
 
  private:
-  S alone_;
-  E from_;
-  double temperature_;
-  burn_in_report report_;
+  std::shared_ptr<const detail::gibbs_chains> chains_;
 };
 
-/// Deduced from the system in its bath and the ensemble.
-template <NystromSystem S, class E>
-gibbs(const in_bath<S>&, E) -> gibbs<S, E>;
-/// Deduced likewise.
-template <NystromSystem S, class E>
-gibbs(const in_bath<S>&, E, const burn_in_options&) -> gibbs<S, E>;
+/// Takes the dimension from the system.
+template <HasBath S, class E>
+gibbs(const S&, const E&) -> gibbs<S::dimension>;
+/// Takes the dimension from the system.
+template <HasBath S, class E>
+gibbs(const S&, const E&, const burn_in_options&) -> gibbs<S::dimension>;
 
 }  // namespace nysalt

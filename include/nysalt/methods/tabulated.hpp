@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -46,11 +47,10 @@ class tabulated : public method_properties {
     }
   }
 
-  /// A method whose word is a type. A tuned one guards its step and system: take its anywhere().
+  /// Any other method. A tuned one guards its step and system: take its anywhere().
   template <Method M>
-    requires TypeLevelWord<typename M::word>
   explicit tabulated(const M& method)
-      : tabulated(method.name(), run_time_word(typename M::word{}), to_vector(method.coefficients()),
+      : tabulated(method.name(), run_time_word(word_of(method)), to_vector(method.coefficients()),
                   {method.order, method.symmetric, method.requires_quadratic_kinetic}) {
     static_assert(
         !requires { method.require_validity(std::string(), 1.0); },
@@ -69,5 +69,34 @@ class tabulated : public method_properties {
   run_time_word letters_;
   std::vector<double> coefficients_;
 };
+
+namespace detail {
+
+/// As a table. A method without members is read where it is static: inlined, g++ 12 takes one in a temporary
+/// for uninitialised.
+template <Method M>
+tabulated table_of(const M& method) {
+  if constexpr (std::is_empty_v<M> && std::is_default_constructible_v<M>) {
+    static const M same{};
+    return tabulated(same);
+  } else {
+    return tabulated(method);
+  }
+}
+
+/// The table of a method that is to step this system at this step. Throws std::invalid_argument where a tuned
+/// method is not valid.
+template <System S, Method M>
+tabulated table_for(const M& method, const S& system, double step) {
+  require_suited<M, S>();
+  if constexpr (requires { method.require_validity(std::string(), step); }) {
+    method.require_validity(describe(system), step);
+    return table_of(method.anywhere());
+  } else {
+    return table_of(method);
+  }
+}
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -41,23 +41,4 @@ class in_bath : public S {
   nysalt::bath bath_;
 };
 
-namespace detail {
-template <class S>
-struct bathed : std::type_identity<in_bath<S>> {};
-template <ErasedSystem S>
-struct bathed<S> : std::type_identity<S> {};
-/// The system in a bath: a model is in one already, perhaps one that does not act.
-template <class S>
-using bathed_system = typename bathed<S>::type;
-
-template <System S>
-bathed_system<S> put_in_bath(const S& alone, const nysalt::bath& its_bath) {
-  if constexpr (ErasedSystem<S>) {
-    return alone.in(its_bath);
-  } else {
-    return {alone, its_bath};
-  }
-}
-}  // namespace detail
-
 }  // namespace nysalt

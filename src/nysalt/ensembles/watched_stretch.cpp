@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/ensembles/watched_stretch.hpp"
+#include "watched_stretch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -26,25 +26,25 @@ concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 /// trajectories and times of sum_j |I_j - I_j^ref|, over that of I^ref. The system is copied. There is no
 /// such error where I^ref is 0 on all trajectories at all times.
 template <HasStiffEnergies S>
-error_measure<S::dimension, lanes_of<S>> exchange_measure(const S& system) {
-  using T = scalar_of_lanes<lanes_of<S>>;
-  using numbers = std::span<const T>;
-  const auto read = [system](const auto& x, std::span<T> result) {
+error_measure exchange_measure(const S& system) {
+  constexpr int N = S::dimension;
+  const auto read = [system]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
+    const auto& same = detail::of_dimension<N>(x);
     for (std::size_t j = 0; j < result.size(); ++j) {
       const auto energy = [&](const auto& y) { return system.stiff_energy(y, static_cast<Eigen::Index>(j)); };
       if constexpr (HasStiffEnergiesOver<S, T>) {
-        result[j] = energy(x);
+        result[j] = energy(same);
       } else {
-        result[j] = value_in_lanes<T>(energy, x);
+        result[j] = value_in_lanes<T>(energy, same);
       }
     }
   };
-  const auto whole = [](numbers expected) {
+  const auto whole = []<class T>(std::span<const T> expected) {
     T total(0.0);
     for (const T& energy : expected) total += energy;
     return total;
   };
-  const auto error = [](numbers seen, numbers expected) {
+  const auto error = []<class T>(std::span<const T> seen, std::span<const T> expected) {
     using std::abs;
     T differences(0.0);
     for (std::size_t j = 0; j < expected.size(); ++j) differences += abs(seen[j] - expected[j]);

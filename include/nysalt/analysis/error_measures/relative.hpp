@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <span>
 #include <utility>
 
 #include "nysalt/analysis/error_measures/path.hpp"
 
 namespace nysalt {
+
+namespace detail {
+error_measure relative_measure(error_measure path);
+}  // namespace detail
 
 /// The paper's average relative error of an observable o: the mean over trajectories of sqrt(mean over times
 /// of
@@ -15,21 +18,8 @@ namespace nysalt {
 /// (tail_of). The observable is copied, and called as that of path_measure. Source: [li_lu_tao_ye_2023,
 /// equations (5.6-7)].
 template <System S, class Observable>
-error_measure<S::dimension, lanes_of<S>> relative_measure(const S& system, Observable observable) {
-  using T = scalar_of_lanes<lanes_of<S>>;
-  using numbers = std::span<const T>;
-  auto result = path_measure(system, std::move(observable));
-  result.name = "relative";
-  result.error = [](numbers seen, numbers expected) {
-    const T difference = seen[0] - expected[0];
-    return difference * difference / (expected[0] * expected[0]);
-  };
-  result.scale = [](numbers expected) { return expected[0]; };
-  result.relative_to = {};
-  result.no_scale =
-      "the relative error divides by the observable on the reference, which is 0 or changes its sign; take "
-      "the path error, or another observable";
-  return result;
+error_measure relative_measure(const S& system, Observable observable) {
+  return detail::relative_measure(path_measure(system, std::move(observable)));
 }
 
 }  // namespace nysalt

@@ -9,11 +9,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "burn_in_chains.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/ensembles/burn_in_chains.hpp"
-#include "nysalt/ensembles/watched_stretch.hpp"
+#include "watched_stretch.hpp"
+
 
 namespace nysalt {
 
@@ -23,22 +24,20 @@ struct chain_diverged : std::runtime_error {
 };
 
 /// Chains 0, 1, ... from starts of their numbers, with noise from `first_noise` on.
-template <NystromSystem S, Ensemble<S> E>
+template <class T>
 class burn_in_pilot {
-  using T = scalar_of_lanes<lanes_of<S>>;
-  using state = phase_point<T, S::dimension>;
+  using state = phase_point<T, Eigen::Dynamic>;
   static constexpr int width = lanes_in<T>;
-  using chains_type = burn_in_chains<S>;
 
   struct block {
     state start;
     int count;
-    lockstep<typename chains_type::stepper_type, T> run;
+    lockstep<burn_in_chains::stepper_type, T> run;
   };
 
  public:
   /// Refers to the weights of the slowest mode, which may be empty.
-  burn_in_pilot(const S& alone, const E& from, double temperature, double friction, double step,
+  burn_in_pilot(const model& alone, const initial_states& from, double temperature, double friction, double step,
                 const burn_in_options& options, int count, std::int64_t first_noise,
                 const Eigen::VectorXd& slowest)
       : chains_(alone, temperature, friction, step, options.seed),
@@ -77,16 +76,16 @@ class burn_in_pilot {
 
  private:
   void read(const state& x, std::span<T> out) const {
-    const S& alone = chains_.system();
-    auto f = make_vector<T>(alone);
+    const model& system = chains_.system();
+    auto f = make_vector<T>(system);
     auto p = x.p;
-    force<T>(alone, x.q, f);
+    force<T>(system, x.q, f);
     T virial(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       virial -= x.q[i] * f[i];
       p[i] += f[i] * (0.5 * chains_.step());
     }
-    velocity<T>(alone, p, f);
+    velocity<T>(system, p, f);
     T twice_kinetic(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) twice_kinetic += p[i] * f[i];
     const double each = 1.0 / (chains_.temperature() * static_cast<double>(x.size()));
@@ -99,16 +98,8 @@ class burn_in_pilot {
   }
   /// 0 where the system knows no potential.
   T potential_of(const state& x) const {
-    const S& alone = chains_.system();
-    if (!has_potential(alone)) return T(0.0);
-    if constexpr (HasPotential<S, T>) {
-      return alone.potential(x.q);
-    } else if constexpr (HasPotential<S, double>) {
-      return value_in_lanes<T>(
-          [&](const phase_point<double, S::dimension>& y) { return alone.potential(y.q); }, x);
-    } else {
-      return T(0.0);
-    }
+    const model& system = chains_.system();
+    return has_potential(system) ? system.kernels<T>().potential(x.q) : T(0.0);
   }
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
@@ -164,7 +155,7 @@ class burn_in_pilot {
     }
   }
 
-  chains_type chains_;
+  burn_in_chains chains_;
   int threads_;
   int count_;
   const Eigen::VectorXd* slowest_;

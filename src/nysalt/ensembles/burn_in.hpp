@@ -9,11 +9,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "burn_in_pilot.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/ensembles/burn_in_pilot.hpp"
-#include "nysalt/ensembles/highest_frequency.hpp"
-#include "nysalt/ensembles/slowest_mode.hpp"
+#include "highest_frequency.hpp"
+#include "slowest_mode.hpp"
 
 namespace nysalt {
 
@@ -28,12 +28,12 @@ void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* wha
 }  // namespace detail
 
 /// The search for a burn-in.
-template <NystromSystem S, Ensemble<S> E>
+template <class T>
 class burn_in_search {
  public:
   /// Of chains that start at states of `from`, of a system that comes without its bath; refers to both.
   /// Throws std::invalid_argument if an option cannot be.
-  burn_in_search(const S& alone, double temperature, const E& from, const burn_in_options& options)
+  burn_in_search(const model& alone, double temperature, const initial_states& from, const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
     detail::require_burn_in(options);
     slowest_ = slowest_mode(alone);
@@ -59,7 +59,7 @@ class burn_in_search {
  private:
   static constexpr int most_halvings = 6;
 
-  burn_in_pilot<S, E> pilot(double friction, double step, int count) {
+  burn_in_pilot<T> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
     const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
     return {*alone_, *from_, temperature_, friction, step, options_, count, noise, slowest_};
@@ -147,9 +147,9 @@ class burn_in_search {
     }
   }
 
-  const S* alone_;
+  const model* alone_;
   double temperature_;
-  const E* from_;
+  const initial_states* from_;
   burn_in_options options_;
   Eigen::VectorXd slowest_;
   std::int64_t pilots_ = 0;

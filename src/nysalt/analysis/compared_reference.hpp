@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "reference_along.hpp"
 #include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/analysis/predictability.hpp"
-#include "nysalt/analysis/reference_along.hpp"
 #include "nysalt/analysis/sample_weights.hpp"
 
 namespace nysalt {
@@ -28,30 +28,26 @@ struct reference_checks {
 /// What measures expect along trajectories side by side: the numbers of the reference, or those at the start.
 /// Beside them go the reference's finer self, one from perturbed starts on the same noise, and the null model
 /// in which all stays as it was at the start; each only as far as it is wanted.
-template <SeparableSystem S, Reference<S> R>
+template <class T>
 class compared_reference {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
-  using measure_type = typename measures_type::measure_type;         ///< one of them
-  using T = typename measure_type::T;          ///< double, or a pack of as many lanes as the system takes
-  using state = phase_point<T, S::dimension>;  ///< states of all lanes
-  using errors_type = error_sum<S::dimension, lanes_of<S>>;  ///< of one run by one measure
-  using path_type = recorded_path<T, S::dimension>;          ///< the reference's noise
+  using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
+  using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
-  compared_reference(const S& system, const R& reference, std::span<const measure_type> measures, double step,
+  compared_reference(const model& system, const detail::reference_value& reference, std::span<const error_measure> measures, double step,
                      const state& start, int count, const reference_checks& checks, const path_place& at,
                      path_type& path, int noise_parts, const sample_weights& weights)
-      : measures_(measures, measures_type::which::of_reference),
+      : measures_(measures, joined_measures::which::of_reference),
         step_(step),
         weights_(weights),
         checks_(checks),
         live_(first_lanes<T>(count)) {
-    for (const measure_type& measure : measures) {
+    for (const error_measure& measure : measures) {
       at_start_.push_back(measure.numbers_of(start));
       if (!measure.needs_reference && measure.scale) require_scale(measure, at_start_.back(), count);
-      const errors_type none(measure, weights(0));
-      errors_.push_back({none, none, none, predictable_samples<lanes_of<S>>(measure.how)});
+      const error_sum<T> none(measure, weights(0));
+      errors_.push_back({none, none, none, predictable_samples<T>(measure.how)});
       if (measure.relative_to) {  // of what needs no reference that is all
         const double weight = measure.needs_reference ? weights(0) : weights.total();
         errors_.back().size = measure.relative_to(at_start_.back()) * weight;
@@ -114,14 +110,14 @@ class compared_reference {
 
  private:
   struct errors_of_measure {
-    errors_type finer;
-    errors_type null_model;
-    errors_type perturbed;
-    predictable_samples<lanes_of<S>> predictable;
+    error_sum<T> finer;
+    error_sum<T> null_model;
+    error_sum<T> perturbed;
+    predictable_samples<T> predictable;
     T size{0.0};  // what they are relative to, summed over time
   };
 
-  std::span<const T> seen_by(const reference_along<S, R>& run, std::size_t i, std::int64_t n) const {
+  std::span<const T> seen_by(const reference_along<T>& run, std::size_t i, std::int64_t n) const {
     return measures_.part(i, run.at(n - from_ - 1));
   }
 
@@ -139,14 +135,14 @@ class compared_reference {
     }
   }
 
-  static void require_scale(const measure_type& measure, std::span<const T> at_start, int count) {
+  static void require_scale(const error_measure& measure, std::span<const T> at_start, int count) {
     const T scale = measure.scale(at_start);
     for (int k = 0; k < count; ++k) {
       if (lane(scale, k) == 0.0) throw std::invalid_argument(measure.no_scale);
     }
   }
 
-  measures_type measures_;  // those that need a reference
+  joined_measures measures_;  // those that need a reference
   double step_;
   sample_weights weights_;
   reference_checks checks_;
@@ -154,10 +150,10 @@ class compared_reference {
   std::int64_t from_ = 0;
   std::vector<std::vector<T>> at_start_;
   std::vector<errors_of_measure> errors_;
-  std::optional<reference_along<S, R>> reference_;
-  std::optional<R> its_finer_self_;
-  std::optional<reference_along<S, R>> finer_;
-  std::optional<reference_along<S, R>> perturbed_;
+  std::optional<reference_along<T>> reference_;
+  std::optional<detail::reference_value> its_finer_self_;
+  std::optional<reference_along<T>> finer_;
+  std::optional<reference_along<T>> perturbed_;
 };
 
 }  // namespace nysalt

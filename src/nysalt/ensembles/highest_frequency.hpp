@@ -6,24 +6,20 @@
 #include <stdexcept>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/system.hpp"
+#include "nysalt/model.hpp"
 
 namespace nysalt {
 
 /// The highest frequency of the system's bands; nothing where it declares none.
-template <System S>
-std::optional<double> highest_frequency(const S& system) {
+inline std::optional<double> highest_frequency(const model& system) {
   double highest = 0.0;
-  if constexpr (HasFrequencyBands<S>) {
-    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  }
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
   return highest > 0.0 ? std::optional(highest) : std::nullopt;
 }
 
 /// The step h = z/omega at the highest frequency omega. Throws std::invalid_argument, in the name of who
 /// asks, where that is not known.
-template <System S>
-double step_of_frequency(const S& system, double z, const char* who) {
+inline double step_of_frequency(const model& system, double z, const char* who) {
   if (const auto omega = highest_frequency(system)) return z / *omega;
   throw std::invalid_argument(sentence(
       "{}: the step has no default, for {} tells no frequency_bands(); give one", who, describe(system)));

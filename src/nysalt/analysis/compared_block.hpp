@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
-#include "nysalt/analysis/compared_reference.hpp"
+#include "compared_reference.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/method.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/along_path.hpp"
 
 namespace nysalt {
@@ -24,23 +23,17 @@ struct shared_noise {
   std::int64_t first = 0;  ///< number of the trajectory in lane 0
 };
 
-/// Methods of one type beside the reference, from the same starts and with its noise; one trajectory in each
-/// lane. All measures look at the same runs.
-template <Method M, SeparableSystem S, Reference<S> R>
+/// Methods beside the reference, from the same starts and with its noise; one trajectory in each lane. All
+/// measures look at the same runs.
+template <class T>
 class compared_block {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
-  using measure_type = typename measures_type::measure_type;         ///< one of them
-  using T = typename measure_type::T;          ///< double, or a pack of as many lanes as the system takes
-  using state = phase_point<T, S::dimension>;  ///< states of all lanes
-  using errors_type = error_sum<S::dimension, lanes_of<S>>;  ///< of one method by one measure
-  using path_type = recorded_path<T, S::dimension>;          ///< the reference's noise
-  /// What methods see of it.
-  using noise_type = std::conditional_t<PathReference<R, S>, along_path<T, S::dimension>, no_noise>;
+  using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
+  using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and partly to itself.
-  compared_block(const S& system, const R& reference, std::span<const M> methods, double step,
-                 std::span<const measure_type> measures, const state& start, int count,
+  compared_block(const model& system, const detail::reference_value& reference, std::span<const tabulated> methods, double step,
+                 std::span<const error_measure> measures, const state& start, int count,
                  const reference_checks& checks, const shared_noise& noise, const sample_weights& weights)
       : measures_(measures),
         step_(step),
@@ -48,10 +41,12 @@ class compared_block {
         path_(path_in(system, step, noise)),
         reference_(system, reference, measures, step, start, count, checks,
                    {noise.seed, static_cast<std::uint64_t>(noise.first), 0}, path_, noise.parts, weights) {
-    for (const M& method : methods)
-      steppers_.push_back(make_stepper(system, method, step, noise_of(method, noise)));
-    std::vector<errors_type> none;
-    for (const measure_type& measure : measures) none.emplace_back(measure, weights(0));
+    for (const tabulated& method : methods) {
+      const noise_type along(path_, intervals(method, noise), step);
+      steppers_.push_back(make_stepper(system, method, step, along));
+    }
+    std::vector<error_sum<T>> none;
+    for (const error_measure& measure : measures) none.emplace_back(measure, weights(0));
     for (const auto& stepper : steppers_) runs_.push_back({{stepper, start, count, noise.first}, none});
   }
 
@@ -75,39 +70,35 @@ class compared_block {
     }
   }
 
-  const compared_reference<S, R>& reference() const { return reference_; }  ///< with its checks, after run()
+  const compared_reference<T>& reference() const { return reference_; }  ///< with its checks, after run()
   /// The score of a method by a measure, in lane k; after run().
   run_score score(std::size_t measure, std::size_t method, int k) const {
     return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
   }
 
  private:
-  using stepper_type = stepper<S, typename M::word, double, noise_type>;
+  using noise_type = along_path<T, Eigen::Dynamic>;
+  using stepper_type = stepper<model, run_time_word, double, noise_type>;
   struct watched_run {
     lockstep<stepper_type, T> run;
-    std::vector<errors_type> errors;  // one a measure
+    std::vector<error_sum<T>> errors;  // one a measure
   };
 
   /// Held in parts of a step.
-  static path_type path_in(const S& system, double step, const shared_noise& noise) {
-    double friction = 0.0;
-    if constexpr (HasBath<S>) friction = static_cast<const bath&>(system.bath()).friction();
-    return {std::abs(step) / std::max(noise.parts, 1), friction, static_cast<std::uint64_t>(noise.first)};
+  static path_type path_in(const model& system, double step, const shared_noise& noise) {
+    return {std::abs(step) / std::max(noise.parts, 1), system.bath().friction(),
+            static_cast<std::uint64_t>(noise.first)};
   }
-  noise_type noise_of(const M& method, const shared_noise& noise) const {
-    if constexpr (PathReference<R, S>) {
-      if (noise.parts == 0) return {path_, {}, step_};
-      return {path_, intervals_of_noise(word_of(method), method.coefficients()), step_};
-    } else {
-      return {};
-    }
+  static noise_intervals intervals(const tabulated& method, const shared_noise& noise) {
+    if (noise.parts == 0) return {};
+    return intervals_of_noise(method.letters(), method.coefficients());
   }
 
-  measures_type measures_;
+  joined_measures measures_;
   double step_;
   sample_weights weights_;
   path_type path_;  // of the stretch at hand
-  compared_reference<S, R> reference_;
+  compared_reference<T> reference_;
   std::vector<stepper_type> steppers_;
   std::vector<watched_run> runs_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/ensembles/burn_in.hpp"
+#include "burn_in.hpp"
 
 #include <fmt/format.h>
 

@@ -6,51 +6,30 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <type_traits>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "nysalt/analysis/joined_measures.hpp"
+#include "joined_measures.hpp"
+#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/noises/recorded_path.hpp"
-#include "nysalt/reference.hpp"
 
 namespace nysalt {
 
-namespace detail {
-/// A reference that is prepared once for many samples.
-template <class R, class S, class T>
-concept IsPrepared = requires(const R& reference, const S& system) {
-  reference.template prepare<T>(system, 1.0);
-};
-template <class R, class S, class T>
-struct find_flow : std::type_identity<std::monostate> {};
-template <class R, class S, class T>
-  requires IsPrepared<R, S, T>
-struct find_flow<R, S, T> : std::type_identity<decltype(std::declval<const R&>().template prepare<T>(
-                                std::declval<const S&>(), 1.0))> {
-};
-template <class R, class S, class T>
-using prepared_flow = typename find_flow<R, S, T>::type;
-}  // namespace detail
-
 /// What measures read along a reference, a stretch of samples at a time; one trajectory in each lane. In a
 /// bath the noise of that stretch is kept for those who follow.
-template <SeparableSystem S, Reference<S> R>
+template <class T>
 class reference_along {
  public:
-  using measures_type = joined_measures<S::dimension, lanes_of<S>>;  ///< all measures as one
-  using T = typename measures_type::T;         ///< double, or a pack of as many lanes as the system takes
-  using state = phase_point<T, S::dimension>;  ///< states of all lanes
-  using path_type = recorded_path<T, S::dimension>;  ///< noise, in parts of a step
+  using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
+  using path_type = recorded_path<T, Eigen::Dynamic>;  ///< noise, in parts of a step
 
   /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
   /// place's. The noise of each step is added to the path in so many parts.
-  reference_along(const S& system, const R& reference, const measures_type& measures, const state& start,
+  reference_along(const model& system, const detail::reference_value& reference, const joined_measures& measures, const state& start,
                   int count, const path_place& at = {}, path_type* path = nullptr, int noise_parts = 0)
       : system_(&system),
         reference_(&reference),
@@ -69,12 +48,8 @@ class reference_along {
     // A letter O that ends the step before the stretch is still to come.
     if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
     for (std::int64_t i = 0; i < samples; ++i) {
-      if constexpr (detail::IsPrepared<R, S, T>) {
-        if (!flow_) flow_ = reference_->template prepare<T>(*system_, step);
-        flow_->advance(x_, count_, at_, noise_);
-      } else {
-        advance_lanes(*system_, *reference_, x_, step, count_, at_, std::span(noise_));
-      }
+      if (!flow_) flow_ = reference_->template prepare<T>(*system_, step);
+      flow_->advance(x_, count_, at_, noise_);
       for (const auto& xi : noise_) path_->add(xi);
       ++at_.step;
       const auto here = std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
@@ -139,18 +114,18 @@ class reference_along {
     return its * scale > 0.0 || std::isnan(scale);
   }
 
-  const S* system_;
-  const R* reference_;
-  const measures_type* measures_;
+  const model* system_;
+  const detail::reference_value* reference_;
+  const joined_measures* measures_;
   state x_;
   int count_;
   path_place at_;
   path_type* path_;
-  std::vector<vector<T, S::dimension>> noise_;
+  std::vector<vector<T, Eigen::Dynamic>> noise_;
   std::vector<T> numbers_;
-  [[no_unique_address]] detail::prepared_flow<R, S, T> flow_;
-  std::array<std::optional<failure>, lanes_of<S>> failures_{};
-  std::vector<std::array<double, lanes_of<S>>> signs_;  // of the scale of each measure
+  std::unique_ptr<detail::reference_run<T>> flow_;
+  std::array<std::optional<failure>, static_cast<std::size_t>(lanes_in<T>)> failures_{};
+  std::vector<std::array<double, static_cast<std::size_t>(lanes_in<T>)>> signs_;  // of the scale of each measure
 };
 
 }  // namespace nysalt

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/analysis/evaluations.hpp"
+
+#include <algorithm>
+
+#include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+
+namespace nysalt::detail {
+
+std::int64_t evaluations_of_run(const model& system, const tabulated& method, double step, std::int64_t steps,
+                                const phase_point<double, Eigen::Dynamic>& start) {
+  if (!is_black_box(system)) {
+    run_time_word word = method.letters();
+    if (!system.bath().acts()) word = conservative_part(word);
+    return evaluations_of(system, word.evaluations_to_open + steps * word.evaluations_per_step,
+                          steps * word.force_derivatives);
+  }
+  const model watched = system.separate();
+  const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise
+  auto run = stepper.open(start);
+  std::int64_t before_last = watched.calls();
+  for (std::int64_t n = 0; n < std::min<std::int64_t>(steps, 2); ++n) {
+    before_last = watched.calls();
+    stepper.advance(run, 1);  // the first may find no force at hand
+  }
+  return watched.calls() + std::max<std::int64_t>(steps - 2, 0) * (watched.calls() - before_last);
+}
+
+}  // namespace nysalt::detail

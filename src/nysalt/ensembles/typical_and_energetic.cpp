@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/ensembles/typical_and_energetic.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace nysalt {
+
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+/// Those of the ensemble are made as many at a time as T has lanes.
+template <class T>
+std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
+                                        std::uint64_t seed, std::int64_t first, std::int64_t most_of_dear) {
+  constexpr auto plain = static_cast<std::int64_t>(plain_starts);
+  constexpr std::int64_t energetic = 64;
+  constexpr std::int64_t pool = 896;
+  constexpr double numbers = 2e6;  // 16 MB
+  const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
+  std::int64_t most = std::min(ensemble.is_dear() ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
+  most = std::min(most, ensemble.size() - first);
+  std::vector<state> result;
+  std::vector<std::pair<double, state>> by_energy;
+  for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
+    const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
+    phase_point<T, Eigen::Dynamic> block;
+    try {
+      block = sound_starts<T>(system, ensemble, seed, first + n, count);
+    } catch (const std::exception&) {  // it has no more
+      break;
+    }
+    for (int k = 0; k < count; ++k) {
+      state start = lane(block, k);
+      if (n + k < plain) {
+        result.push_back(std::move(start));
+      } else if (has_energy(system)) {
+        by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
+      }
+    }
+  }
+  const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
+  const auto is_higher = [](const auto& a, const auto& b) { return a.first > b.first; };
+  std::partial_sort(by_energy.begin(), by_energy.begin() + taken, by_energy.end(), is_higher);
+  for (std::ptrdiff_t k = 0; k < taken; ++k) {
+    result.push_back(std::move(by_energy[static_cast<std::size_t>(k)].second));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
+                                                std::uint64_t seed, std::int64_t first,
+                                                std::int64_t most_of_dear) {
+  return detail::with_scalar_of(system, [&]<class T>(T) {
+    return starts_made_in_lanes<T>(system, ensemble, seed, first, most_of_dear);
+  });
+}
+
+}  // namespace nysalt
