@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -67,32 +66,24 @@ class lockstep {
     if (every < 1)
       throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
-    while (run_.step < end && any(live_)) {
-      good_ = run_;
-      const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
+    const auto advance = [&](std::int64_t next) {
       T* here = seen_.data();
-      if (next / every == run_.step / every) {
-        stepper_->advance(run_, next - run_.step);
-      } else {
-        stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
-          read(x, std::span<T>(here, width));
-          here += width;
-        });
-      }
-      const condition failed = both(diverged_(stepper_->synchronous(run_)), live_);
-      const bool all_well = !any(failed);
-      if (!all_well) drop(failed, next);
-      here = seen_.data();
+      stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
+        read(x, std::span<T>(here, width));
+        here += width;
+      });
+    };
+    follow(end, advance, [&](std::int64_t next, bool all_well) {
+      const T* here = seen_.data();
       for (std::int64_t n = (good_.step / every + 1) * every; n <= next; n += every, here += width) {
         take(n, std::span<const T>(here, width), all_well ? live_ : good_at(n));
       }
-    }
+    });
   }
   /// Goes on to step `end`, unobserved.
   void go_on(std::int64_t end) {
-    constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
-    go_on(
-        end, never, 0, [](const state&, std::span<T>) {}, [](auto&&...) {});
+    follow(
+        end, [&](std::int64_t next) { stepper_->advance(run_, next - run_.step); }, [](auto&&...) {});
   }
 
   std::int64_t step() const { return run_.step; }              ///< at which all are
@@ -107,6 +98,20 @@ class lockstep {
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[static_cast<std::size_t>(k)]; }
 
  private:
+  /// A stretch after the other: advance(next) takes the run to step `next`, seen(next, all_well) comes when
+  /// those that diverged are known.
+  void follow(std::int64_t end, const auto& advance, const auto& seen) {
+    while (run_.step < end && any(live_)) {
+      good_ = run_;
+      const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
+      advance(next);
+      const condition failed = both(diverged_(stepper_->synchronous(run_)), live_);
+      const bool all_well = !any(failed);
+      if (!all_well) drop(failed, next);
+      seen(next, all_well);
+    }
+  }
+
   /// The last stretch once more, a step at a time, until the first bad step of each lane that failed is
   /// known.
   void drop(const condition& failed, std::int64_t end) {
