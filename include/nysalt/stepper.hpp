@@ -172,6 +172,19 @@ class stepper {
     x = {std::move(state.q), std::move(state.p)};
   }
 
+  /// A whole run of so many steps from q and p alone (f is scratch): what a loss over several steps
+  /// differentiates. Its noise is that of the trajectory. Cost: the word's evaluations_to_open, and for each
+  /// step its evaluations_per_step.
+  template <SteppedBy<C> T>
+  void run(flow_state<T, dimension>& x, std::int64_t steps, std::uint64_t trajectory = 0) const {
+    auto cursor = cursor_at<T>(trajectory, 0);
+    with_letters([&](const auto& letters) {
+      letters.open(*system_, x, cursor);
+      letters.advance(*system_, x, steps, cursor);
+      letters.close(*system_, x, cursor);
+    });
+  }
+
  private:
   static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // while running, not compiling
   using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C, dimension>;

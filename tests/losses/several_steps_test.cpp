@@ -79,8 +79,10 @@ void check_bits(const asked& what, std::size_t stretches) {
       BOOST_TEST(!same(squares_at(loss, beside), expected));
       // A pass for each two parameters, and one without derivatives.
       const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
-      BOOST_TEST(loss.evaluations() == passes * options.steps * F::word::evaluations_of_plain_step *
-                                           static_cast<std::int64_t>(stretches));
+      using word = typename F::word;
+      const std::int64_t of_run =
+          word::evaluations_to_open + options.steps * std::int64_t{word::evaluations_per_step};
+      BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(stretches));
     }
   }
 }

@@ -60,7 +60,13 @@ class sample_blocks {
     const std::size_t pair = stretches_[stretch].first_pair;
     const phase_point<double, S::dimension> first = data_->start[pair];
     auto x = first.template cast<C>();
-    for (int n = 0; n < options_.steps; ++n) one.step(x);
+    if (options_.steps == 1) {
+      one.step(x);
+    } else {  // a run
+      auto run = one.open(x);
+      one.advance(run, options_.steps);
+      x = one.synchronous(run);
+    }
     residuals<C> r(residuals_of_stretch());
     if (of_energy_) {
       if constexpr (HasEnergy<S, C>) {

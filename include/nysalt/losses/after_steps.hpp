@@ -111,16 +111,20 @@ class after_steps {
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
   /// the residuals, so many terms, added in the order of time. Throws what the error does, on all ranks if on
-  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: K plain steps over
-  /// dual<R, 2> for each stretch and two parameters.
+  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: a plain step, or a run
+  /// of K steps, over dual<R, 2> for each stretch and two parameters.
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
                                     const terms_of_stretch<R>& of_stretch) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
     const run_time_word& word = family_.letters;
-    const std::int64_t of_step =
-        detail::evaluations_of(system_, word.evaluations_of_plain_step, word.force_derivatives);
+    const std::int64_t steps = options_.steps;
+    const std::int64_t of_stretch_of_one =
+        detail::evaluations_of(system_,
+                               steps == 1 ? word.evaluations_of_plain_step
+                                          : word.evaluations_to_open + steps * word.evaluations_per_step,
+                               steps * word.force_derivatives);
     const auto visit = [&](std::int64_t index) {
       const auto& part = (*parts_)[static_cast<std::size_t>(index)];
       if (part.entries.empty()) return;  // trajectories that are too short
@@ -154,7 +158,7 @@ class after_steps {
       }
       result[trajectory] = sum * weight_;
       const std::int64_t of_each = is_black_box(watched) ? watched.calls() / std::ssize(part.entries)
-                                                         : std::ssize(steppers) * options_.steps * of_step;
+                                                         : std::ssize(steppers) * of_stretch_of_one;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
@@ -199,7 +203,11 @@ class after_steps {
       x.q[i] = C(entry.start.q[i]);
       x.p[i] = C(entry.start.p[i]);
     }
-    for (int n = 0; n < options_.steps; ++n) stepper.step(x, number, n);
+    if (options_.steps == 1) {
+      stepper.step(x, number);
+    } else {
+      stepper.run(x, options_.steps, number);
+    }
     error_.of(entry.start, x, entry.finish, r.data());
   }
 
