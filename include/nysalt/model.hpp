@@ -91,7 +91,7 @@ class model {
   /// The system's functions over T.
   template <detail::Served T>
   const detail::kernels<T>& kernels() const {
-    return *system_;
+    return system_->template over<T>();
   }
   /// f = -grad V(q).
   template <detail::Served T>

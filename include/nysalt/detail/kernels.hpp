@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "nysalt/bath.hpp"
@@ -62,11 +63,17 @@ class kernels {
 };
 
 /// A system without its type.
-class any_system : public kernels<double>,
-                   public kernels<lanes>,
-                   public kernels<slopes>,
-                   public kernels<lanes_with_slopes> {
+class any_system {
  public:
+  virtual ~any_system() = default;
+  any_system(const any_system&) = delete;  // kernels are those of one object
+  any_system& operator=(const any_system&) = delete;
+
+  /// The system's functions over T.
+  template <Served T>
+  const kernels<T>& over() const {
+    return *std::get<const kernels<T>*>(kernels_);
+  }
   virtual std::unique_ptr<any_system> clone() const = 0;
   /// Force evaluations of this copy so far, of a black box: how many a derivative takes is known afterwards.
   virtual std::int64_t calls() const = 0;
@@ -78,6 +85,17 @@ class any_system : public kernels<double>,
   virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;
   /// p += c force(q) by the system's own kick.
   virtual void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const = 0;
+
+ protected:
+  /// Refers to the kernels, which a derived class holds.
+  any_system(const kernels<double>& of_one, const kernels<lanes>& of_lanes, const kernels<slopes>& of_slopes,
+             const kernels<lanes_with_slopes>& of_lanes_with_slopes)
+      : kernels_(&of_one, &of_lanes, &of_slopes, &of_lanes_with_slopes) {}
+
+ private:
+  std::tuple<const kernels<double>*, const kernels<lanes>*, const kernels<slopes>*,
+             const kernels<lanes_with_slopes>*>
+      kernels_;
 };
 
 /// What is known of a system while running; concepts tell the same of its type.

@@ -73,9 +73,14 @@ consteval bool serves_energy() {
   return false;
 }
 
+/// What a model holds of a system: a black box is counted.
+template <class S>
+using held_system = typename std::conditional_t<BlackBoxForce<S>, std::type_identity<counted<S>>,
+                                                std::type_identity<S>>::type;
+
 /// The functions of S over T.
-template <class S, class T, class Base>
-class with_kernels : public Base {
+template <class S, class T>
+class typed_kernels final : public kernels<T> {
   static constexpr int N = S::dimension;
   using column = vector<T, Eigen::Dynamic>;
   using C = coefficient_of<T>;
@@ -91,7 +96,8 @@ class with_kernels : public Base {
   }();
 
  public:
-  using Base::Base;
+  /// Refers to the system.
+  explicit typed_kernels(const held_system<S>& system) : system_(&system) {}
 
   void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                const step_program<C>& letters, std::int64_t steps, const callback& other,
@@ -99,7 +105,7 @@ class with_kernels : public Base {
     if constexpr (serves) {
       room_of_letters<T, N> own(room);
       state_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p), as_fixed<N>(f)};
-      take_steps_of_word(this->system(), x, own.room, letters, steps, other, watched);
+      take_steps_of_word((*system_), x, own.room, letters, steps, other, watched);
     } else {
       refuse_kernel();
     }
@@ -107,9 +113,9 @@ class with_kernels : public Base {
   void force(field of, const column& q, column& f) const final {
     if constexpr (serves_force) {
       if constexpr (HasSoftForce<S, T>) {
-        if (of == field::soft) return this->system().soft_force(as_fixed<N>(q), as_fixed<N>(f));
+        if (of == field::soft) return (*system_).soft_force(as_fixed<N>(q), as_fixed<N>(f));
       }
-      nysalt::force<T>(this->system(), as_fixed<N>(q), as_fixed<N>(f));
+      nysalt::force<T>((*system_), as_fixed<N>(q), as_fixed<N>(f));
     } else {
       refuse_kernel();
     }
@@ -130,45 +136,45 @@ class with_kernels : public Base {
     if constexpr (serves) {
       positions_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p)};
       no_room room;
-      nysalt::drift::apply(this->system(), c, x, room);
+      nysalt::drift::apply((*system_), c, x, room);
     } else {
       refuse_kernel();
     }
   }
   void velocity(const column& p, column& v) const final {
     if constexpr (serves) {
-      nysalt::velocity<T>(this->system(), as_fixed<N>(p), as_fixed<N>(v));
+      nysalt::velocity<T>((*system_), as_fixed<N>(p), as_fixed<N>(v));
     } else {
       refuse_kernel();
     }
   }
   T kinetic_energy(const column& p) const final {
     if constexpr (serves_kinetic) {
-      return this->system().kinetic_energy(as_fixed<N>(p));
+      return (*system_).kinetic_energy(as_fixed<N>(p));
     } else if constexpr (serves_energy<S, T>()) {
-      return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p));
+      return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p));
     } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
       return in_each_lane(p, p,
-                          [&](const auto& x) { return nysalt::kinetic_energy<double>(this->system(), x.p); });
+                          [&](const auto& x) { return nysalt::kinetic_energy<double>((*system_), x.p); });
     } else {
       refuse_kernel();
     }
   }
   T potential(const column& q) const final {
     if constexpr (serves_potential) {
-      return this->system().potential(as_fixed<N>(q));
+      return (*system_).potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasPotential<S, double> && lanes_in<T> > 1) {
-      return in_each_lane(q, q, [&](const auto& x) { return this->system().potential(x.q); });
+      return in_each_lane(q, q, [&](const auto& x) { return (*system_).potential(x.q); });
     } else {
       refuse_kernel();
     }
   }
   T energy(const column& q, const column& p) const final {
     if constexpr (serves_energy<S, T>()) {
-      return nysalt::kinetic_energy<T>(this->system(), as_fixed<N>(p)) +
-             this->system().potential(as_fixed<N>(q));
+      return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p)) +
+             (*system_).potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
-      return in_each_lane(q, p, [&](const auto& x) { return nysalt::energy<double>(this->system(), x); });
+      return in_each_lane(q, p, [&](const auto& x) { return nysalt::energy<double>((*system_), x); });
     } else {
       refuse_kernel();
     }
@@ -179,10 +185,10 @@ class with_kernels : public Base {
   void along(const column& q, const column& v, column& g, lifted_room<T, Eigen::Dynamic>& room,
              double reach) const {
     if constexpr (N == Eigen::Dynamic) {
-      nysalt::force_along<F, T>(this->system(), q, v, g, room, reach);
+      nysalt::force_along<F, T>((*system_), q, v, g, room, reach);
     } else {
       lifted_room<T, N> own;
-      nysalt::force_along<F, T>(this->system(), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own, reach);
+      nysalt::force_along<F, T>((*system_), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own, reach);
     }
   }
   static T in_each_lane(const column& q, const column& p, const auto& value) {
@@ -197,45 +203,29 @@ class with_kernels : public Base {
     }
     return result;
   }
+
+  const held_system<S>* system_;
 };
-
-/// A black box is counted.
-template <class S>
-class holds_system : public any_system {
-  using held = typename std::conditional_t<BlackBoxForce<S>, std::type_identity<counted<S>>,
-                                           std::type_identity<S>>::type;
-
- public:
-  explicit holds_system(const S& system) : system_(system) {}
-  const held& system() const { return system_; }
-  std::int64_t calls() const final {
-    if constexpr (BlackBoxForce<S>) return system_.evaluations;
-    return 0;
-  }
-
- private:
-  held system_;
-};
-
-template <class S>
-using kernels_of =
-    with_kernels<S, lanes_with_slopes,
-                 with_kernels<S, slopes, with_kernels<S, lanes, with_kernels<S, double, holds_system<S>>>>>;
 
 /// S as an any_system.
 template <class S>
-class typed_system final : public kernels_of<S> {
+class typed_system final : public any_system {
  public:
-  using kernels_of<S>::kernels_of;
+  explicit typed_system(const S& system)
+      : any_system(of_one_, of_lanes_, of_slopes_, of_lanes_with_slopes_), system_(system) {}
 
+  std::int64_t calls() const override {
+    if constexpr (BlackBoxForce<S>) return system_.evaluations;
+    return 0;
+  }
   std::unique_ptr<any_system> clone() const override {
-    return std::make_unique<typed_system>(this->system());
+    return std::make_unique<typed_system>(system_);
   }
   void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
                               Eigen::VectorXd& g) const override {
     if constexpr (BlackBoxForce<S>) {
       constexpr int N = S::dimension;
-      nysalt::directional_derivative(this->system(), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
+      nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
                                      as_fixed<N>(g));
     } else {
       refuse_kernel();
@@ -243,30 +233,37 @@ class typed_system final : public kernels_of<S> {
   }
   normal_modes modes() const override {
     if constexpr (HasModes<S>) {
-      return this->system().modes();
+      return system_.modes();
     } else {
       refuse_kernel();
     }
   }
   std::vector<frequency_band> frequency_bands(bool in_bath) const override {
     if constexpr (requires {
-                    { this->system().alone() } -> HasFrequencyBands;
+                    { system_.alone() } -> HasFrequencyBands;
                   }) {
-      if (!in_bath) return this->system().alone().frequency_bands();
+      if (!in_bath) return system_.alone().frequency_bands();
     }
     if constexpr (HasFrequencyBands<S>) {
-      return this->system().frequency_bands();
+      return system_.frequency_bands();
     } else {
       return {};
     }
   }
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
     if constexpr (HasKick<S, double>) {
-      this->system().kick(as_fixed<S::dimension>(q), as_fixed<S::dimension>(p), c);
+      system_.kick(as_fixed<S::dimension>(q), as_fixed<S::dimension>(p), c);
     } else {
       refuse_kernel();
     }
   }
+
+ private:
+  held_system<S> system_;
+  typed_kernels<S, double> of_one_{system_};
+  typed_kernels<S, lanes> of_lanes_{system_};
+  typed_kernels<S, slopes> of_slopes_{system_};
+  typed_kernels<S, lanes_with_slopes> of_lanes_with_slopes_{system_};
 };
 
 template <class S, class T>
