@@ -16,8 +16,8 @@
 #include "ensemble_run.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
@@ -127,8 +127,7 @@ void race_langevin() {
   };
   add_stepper("ours", make_stepper(chain, baoab{}, h, counter_noise(1)));
   static const model by_library = chain;
-  add_stepper("ours, by the library",
-              make_stepper(by_library, tabulated(baoab{}), h, counter_noise(1)));
+  add_stepper("ours, by the library", make_stepper(by_library, tabulated(baoab{}), h, counter_noise(1)));
   add_peer("Boost's ziggurat", baoab_ziggurat<contraction::off>);
   add_peer("Boost's ziggurat, splitmix64", baoab_ziggurat_splitmix<contraction::off>);
   add_peer("std::normal_distribution", baoab_std<contraction::off>);

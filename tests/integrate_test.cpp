@@ -2,6 +2,7 @@
 // One run: what it refuses, when it is looked at, and when it is given up.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <vector>
 
 #include "laws/models.hpp"
@@ -51,6 +52,14 @@ void gives_up_in_time(const S& system, const M& method, double step,
                       const phase_point<double, S::dimension>& x) {
   const std::int64_t first = first_bad_step(system, method, step, x, 5000);
   BOOST_REQUIRE(first > 0);
+  const auto fixed = make_stepper(system, method, step);
+  auto run = fixed.open(x);
+  fixed.advance(run, first);
+  const auto bad = fixed.synchronous(run);
+  // Numbers are equal, or no numbers both.
+  const auto same = [](const auto& a, const auto& b) {
+    return std::ranges::equal(a, b, [](double u, double v) { return u == v || (u != u && v != v); });
+  };
   for (const std::int64_t every : {1, 2, 7, 64, 100, 5000}) {
     std::int64_t last_seen = -1;
     const auto look = [&](std::int64_t n, double, const auto&) { last_seen = n; };
@@ -59,6 +68,7 @@ void gives_up_in_time(const S& system, const M& method, double step,
       BOOST_REQUIRE(end.diverged_at.has_value());
       BOOST_TEST(*end.diverged_at == first);
       BOOST_TEST(end.steps == first);
+      BOOST_TEST((same(end.finish.q, bad.q) && same(end.finish.p, bad.p)));
       BOOST_TEST(last_seen == (first - 1) / every * every);  // nobody sees the bad state
     }
   }

@@ -4,8 +4,12 @@
 
 #include "laws/models.hpp"
 #include "laws/run_laws.hpp"
+#include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/scalars/pack.hpp"
+#include "nysalt/systems/in_bath.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;
@@ -49,6 +53,26 @@ BOOST_AUTO_TEST_CASE(a_word_that_does_not_merge_runs_as_its_plain_steps_to_the_b
   BOOST_TEST(run.step == 50);
   BOOST_TEST(same_bits(fixed.synchronous(run), x));
   BOOST_TEST(evaluations_of_run(system, euler_b(), 0.1, somewhere(), 50) == 50);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_from_q_and_p_is_an_open_run_to_the_bit) {
+  const in_bath warm(pendulum(), bath::of_temperature(0.5, 0.1));
+  const auto check = [&](const auto& method) {
+    const auto fixed = make_stepper(warm, method, 0.1, counter_noise(1));
+    const auto run_of = [&](std::uint64_t trajectory, int steps) {
+      auto run = fixed.open(somewhere(), trajectory);
+      fixed.advance(run, steps);
+      return fixed.synchronous(run);
+    };
+    flow_state<double, 1> x{somewhere(), vector<double, 1>(0.0)};
+    fixed.run(x, 5, 3);
+    BOOST_TEST(same_bits(phase_point<double, 1>(x), run_of(3, 5)));
+    BOOST_TEST(!same_bits(phase_point<double, 1>(x), run_of(2, 5)));
+    BOOST_TEST(!same_bits(phase_point<double, 1>(x), run_of(3, 4)));
+  };
+  check(baoab());
+  check(obabo());
+  check(tabulated(obabo()));
 }
 
 BOOST_AUTO_TEST_CASE(verlet_is_verlet) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"

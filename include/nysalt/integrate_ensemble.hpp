@@ -43,6 +43,18 @@ struct own_trajectories {
   std::int64_t count;  ///< how many
 };
 
+/// f(stepper), of a black box with a stepper of a copy of its own.
+template <class Stepper>
+void with_own_system(const Stepper& stepper, const auto& f) {
+  if constexpr (ErasedSystem<typename Stepper::system_type>) {
+    if (is_black_box(stepper.system())) {
+      const auto own = stepper.system().separate();
+      return f(stepper.with_system(own));
+    }
+  }
+  f(stepper);
+}
+
 /// The driver of ensembles: follows the trajectories of this rank, as many at a time as T has lanes, on
 /// several threads. Of trajectories place .. place + count - 1 of the ensemble, counted from options.first
 /// on, visitor_of(place, count) makes a visitor: take(n, numbers, live) is called with what read(x, numbers)
@@ -61,9 +73,11 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
       visitor.take(n, seen, live);
     };
     look_at_starts(start, count, width, read, take);
-    lockstep<Stepper, T> run(stepper, start, count, first);
-    run.go_on(options.steps, options.every, width, read, take);
-    visitor.end(run);
+    with_own_system(stepper, [&](const Stepper& own) {
+      lockstep<Stepper, T> run(own, start, count, first);
+      run.go_on(options.steps, options.every, width, read, take);
+      visitor.end(run);
+    });
   };
   const auto follow = [&](std::int64_t place, int count) {
     for (int done = 0; done < count; done += lanes_in<T>) {

@@ -51,8 +51,8 @@ struct learned {
 /// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss
 /// (or two of them), a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be
 /// trusted is returned with usable = false. Cost: some 20 to 80 passes over the data for each start, each a
-/// plain step with derivatives a pair. Memory: two or three copies
-/// of the data.
+/// plain step with derivatives a pair, or a run of K steps for a loss over K. Memory: two or three copies of
+/// the data.
 template <SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
 fit learn(const run_time_family& family, const S& system, const flow_map_data& data,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,20 @@ template <class... L>
   return ((L::letter == letter && (f(L{}), true)) || ...);
 }
 }  // namespace detail
+
+/// Whether all letters of a word are of known_letters, so that it can be data.
+template <TypeLevelWord W>
+consteval bool are_known_letters() {
+  const auto is_known = []<class L>(std::type_identity<L>) {
+    return []<class... Known>(std::type_identity<std::tuple<Known...>>) {
+      return (std::same_as<L, Known> || ...);
+    }(std::type_identity<known_letters>());
+  };
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return (is_known(std::type_identity<typename W::template letter<I>>()) && ...);
+  }
+  (std::make_index_sequence<W::length>());
+}
 
 /// What word<...> knows at compile time, found when it is made: which letters merge, where the force is at
 /// hand, and how many evaluations that leaves.

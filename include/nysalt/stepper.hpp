@@ -172,6 +172,13 @@ class stepper {
     x = {std::move(state.q), std::move(state.p)};
   }
 
+  /// The same steps of another copy of the system, which outlives them.
+  stepper with_system(const S& copy) const {
+    stepper result = *this;
+    result.system_ = &copy;
+    return result;
+  }
+
   /// A whole run of so many steps from q and p alone (f is scratch): what a loss over several steps
   /// differentiates. Its noise is that of the trajectory. Cost: the word's evaluations_to_open, and for each
   /// step its evaluations_per_step.

@@ -139,8 +139,7 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
   options.first += begin;
   with_scalar_of(system, [&]<class T>(T) {
     const auto follow = [&](std::int64_t first, int n) {
-      evaluations +=
-          follow_reference<T>(system, ensemble, reference, options, first, n, data, energies);
+      evaluations += follow_reference<T>(system, ensemble, reference, options, first, n, data, energies);
     };
     for_each_block(count, lanes_in<T>, options.threads, follow,
                    progress_of_share(all.ranks(), count, options.trajectories, options.progress));

@@ -12,7 +12,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -92,9 +91,7 @@ class bundled_model final : public bundled_system {
     return detail::frequency_to_fit(system_);
   }
   std::vector<std::string> observables() const override { return observable_names(system_, springs_); }
-  void require_observable(const std::string& name) const override {
-    observable(system_, springs_, name);
-  }
+  void require_observable(const std::string& name) const override { observable(system_, springs_, name); }
   std::string default_observable() const override { return facts_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {

@@ -29,7 +29,7 @@ using energy_of_spring = T(const phase_point<T, Eigen::Dynamic>& x, Eigen::Index
 
 /// The energies of the stiff springs of a system that has some.
 struct stiff_springs {
-  Eigen::Index pairs = 0;  ///< 0: there are none
+  Eigen::Index pairs = 0;                                   ///< 0: there are none
   nysalt::detail::over_scalars<energy_of_spring> energy{};  ///< of spring j, and of all if j < 0
 };
 

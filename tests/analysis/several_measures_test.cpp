@@ -37,7 +37,7 @@ const fine_steps<> reference(5e-4);
 const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
 const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
 const std::vector<error_measure> all{energy_measure(chain), state_measure(chain), exchange_measure(chain),
-                                    path_measure(chain, stiff_energy)};
+                                     path_measure(chain, stiff_energy)};
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const estimate& a, const estimate& b) {

@@ -12,6 +12,7 @@
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
+#include "nysalt/families/bab.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/losses/energy_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -130,6 +131,14 @@ BOOST_AUTO_TEST_CASE(any_number_of_parameters_goes_two_at_a_time) {
   check_bits<aba<4>>({}, 81);          // three
   check_bits<aba<4>>(five_steps, 57);
   check_bits<aba<6>>(ten_of_energy, 36);  // five
+}
+
+// A run of five steps of B A B A B takes eleven evaluations, five plain ones fifteen.
+BOOST_AUTO_TEST_CASE(words_that_begin_with_a_kick_take_an_evaluation_less_a_step) {
+  using word = bab<2>::word;
+  static_assert(word::evaluations_to_open + 5 * word::evaluations_per_step == 11);
+  static_assert(5 * word::evaluations_of_plain_step == 15);
+  check_bits<bab<2>>(five_steps, 57);
 }
 
 BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {

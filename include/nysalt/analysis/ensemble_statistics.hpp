@@ -2,7 +2,6 @@
 // What an ensemble of trajectories shows in the mean, none of them kept.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>

@@ -32,8 +32,8 @@ struct error_measure {
   detail::over_scalars<detail::of_two_samples> error;
   averaging how;                ///< makes one number of all errors
   bool needs_reference = true;  ///< false: the reference is the start
-  /// What `error` divides by, sample by sample, from the numbers of the reference. Where that is 0 there is no
-  /// error, and where its sign is not the same everywhere its mean does not exist: `no_scale` says so. Not
+  /// What `error` divides by, sample by sample, from the numbers of the reference. Where that is 0 there is
+  /// no error, and where its sign is not the same everywhere its mean does not exist: `no_scale` says so. Not
   /// given: nothing.
   detail::over_scalars<detail::of_sample> scale = {};
   std::string no_scale = {};  ///< the sentence that is thrown where there is no scale
@@ -41,6 +41,7 @@ struct error_measure {
   /// mean error is divided by the mean of this over all trajectories and times, which is a property of their
   /// law, and positive unless all is 0 (`no_scale` then). Not given: absolute.
   detail::over_scalars<detail::of_sample> relative_to = {};
+  Eigen::Index dimension = 0;  ///< degrees of freedom of the systems that it can measure; 0: any
 
   /// What a trajectory contributes whose errors, weighted by time, add up to `sum`.
   double score(double sum, double weights) const;

@@ -4,7 +4,6 @@
 
 #include <ranges>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -34,11 +35,18 @@ class over_scalars : std::function<Signature<double>>, std::function<Signature<l
     requires(!std::derived_from<F, over_scalars> && std::constructible_from<of_one, F> &&
              std::constructible_from<of_lanes, F>)
   over_scalars(F f)  // NOLINT(google-explicit-constructor)
-      : of_one(f), of_lanes(std::move(f)) {}
+      : over_scalars(std::make_shared<const F>(std::move(f))) {}
 
   using of_lanes::operator();
   using of_one::operator();
   explicit operator bool() const { return static_cast<bool>(static_cast<const of_one&>(*this)); }
+
+ private:
+  /// One copy serves both.
+  template <class F>
+  explicit over_scalars(const std::shared_ptr<const F>& f)
+      : of_one([f](const auto&... x) -> decltype(auto) { return (*f)(x...); }),
+        of_lanes([f](const auto&... x) -> decltype(auto) { return (*f)(x...); }) {}
 };
 
 template <class T>

@@ -113,7 +113,7 @@ class typed_kernels final : public kernels<T> {
   void force(field of, const column& q, column& f) const final {
     if constexpr (serves_force) {
       if constexpr (HasSoftForce<S, T>) {
-        if (of == field::soft) return (*system_).soft_force(as_fixed<N>(q), as_fixed<N>(f));
+        if (of == field::soft) return system_->soft_force(as_fixed<N>(q), as_fixed<N>(f));
       }
       nysalt::force<T>((*system_), as_fixed<N>(q), as_fixed<N>(f));
     } else {
@@ -150,7 +150,7 @@ class typed_kernels final : public kernels<T> {
   }
   T kinetic_energy(const column& p) const final {
     if constexpr (serves_kinetic) {
-      return (*system_).kinetic_energy(as_fixed<N>(p));
+      return system_->kinetic_energy(as_fixed<N>(p));
     } else if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p));
     } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
@@ -162,17 +162,16 @@ class typed_kernels final : public kernels<T> {
   }
   T potential(const column& q) const final {
     if constexpr (serves_potential) {
-      return (*system_).potential(as_fixed<N>(q));
+      return system_->potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasPotential<S, double> && lanes_in<T> > 1) {
-      return in_each_lane(q, q, [&](const auto& x) { return (*system_).potential(x.q); });
+      return in_each_lane(q, q, [&](const auto& x) { return system_->potential(x.q); });
     } else {
       refuse_kernel();
     }
   }
   T energy(const column& q, const column& p) const final {
     if constexpr (serves_energy<S, T>()) {
-      return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p)) +
-             (*system_).potential(as_fixed<N>(q));
+      return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p)) + system_->potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
       return in_each_lane(q, p, [&](const auto& x) { return nysalt::energy<double>((*system_), x); });
     } else {
@@ -218,15 +217,12 @@ class typed_system final : public any_system {
     if constexpr (BlackBoxForce<S>) return system_.evaluations;
     return 0;
   }
-  std::unique_ptr<any_system> clone() const override {
-    return std::make_unique<typed_system>(system_);
-  }
+  std::unique_ptr<any_system> clone() const override { return std::make_unique<typed_system>(system_); }
   void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
                               Eigen::VectorXd& g) const override {
     if constexpr (BlackBoxForce<S>) {
       constexpr int N = S::dimension;
-      nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
-                                     as_fixed<N>(g));
+      nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f), as_fixed<N>(g));
     } else {
       refuse_kernel();
     }

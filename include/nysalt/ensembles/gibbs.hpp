@@ -61,7 +61,7 @@ class gibbs {
   /// an option cannot be, or if there is neither a step nor frequency_bands(); std::runtime_error if chains
   /// diverge, do not become stationary, or a check fails.
   template <HasBath S, Ensemble<S> E>
-    requires(NystromSystem<S> && S::dimension == N)
+    requires(NystromSystem<S>&& S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
       : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
 
@@ -81,8 +81,7 @@ class gibbs {
       const auto x = chains_->block<T>(seed, first, count);
       return {x.q, x.p};
     } else {
-      return gather<T, N>(
-          count, [&](int k) { return (*this)(seed, static_cast<std::uint64_t>(first + k)); });
+      return gather<T, N>(count, [&](int k) { return (*this)(seed, static_cast<std::uint64_t>(first + k)); });
     }
   }
 

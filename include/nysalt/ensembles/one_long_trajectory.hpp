@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"

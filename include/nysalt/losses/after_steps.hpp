@@ -111,8 +111,8 @@ class after_steps {
 
   /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
   /// the residuals, so many terms, added in the order of time. Throws what the error does, on all ranks if on
-  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: a plain step, or a run
-  /// of K steps, over dual<R, 2> for each stretch and two parameters.
+  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: a plain step, or a
+  /// run of K steps, over dual<R, 2> for each stretch and two parameters.
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
                                     const terms_of_stretch<R>& of_stretch) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);

@@ -43,7 +43,7 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
       m));
 }
 
-void require_served_by_rule(const model& system, const tabulated& method, double temperature) {
+void require_metropolis_applies(const model& system, const tabulated& method, double temperature) {
   if (!method.symmetric) {
     throw std::invalid_argument(
         sentence("acceptance: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
@@ -51,12 +51,11 @@ void require_served_by_rule(const model& system, const tabulated& method, double
                  method.name()));
   }
   if (system.bath().acts()) {
-    throw std::invalid_argument(sentence(
-        "acceptance: H is not conserved in {}; take the system without its bath", describe(system)));
+    throw std::invalid_argument(
+        sentence("acceptance: H is not conserved in {}; take the system without its bath", describe(system)));
   }
   if (!(temperature > 0.0) || !std::isfinite(temperature)) {
-    throw std::invalid_argument(
-        sentence("acceptance: kT must be positive and finite, got {}", temperature));
+    throw std::invalid_argument(sentence("acceptance: kT must be positive and finite, got {}", temperature));
   }
 }
 
@@ -64,7 +63,7 @@ void require_served_by_rule(const model& system, const tabulated& method, double
 
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
-  require_served_by_rule(system, method, temperature);
+  require_metropolis_applies(system, method, temperature);
   together(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
@@ -94,9 +93,8 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
                                    .progress = options.progress,
                                    .ranks = options.ranks};
   const auto stepper = make_stepper(system, method, options.step);
-  const auto diverged = with_scalar_of(system, [&]<class T>(T) {
-    return integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take);
-  });
+  const auto diverged = with_scalar_of(
+      system, [&]<class T>(T) { return integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take); });
   shard(options.trajectories, *options.ranks).gather(of_each);
 
   acceptance_result result{mean_and_error(of_each), of_each, {}};

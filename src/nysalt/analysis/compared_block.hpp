@@ -32,9 +32,10 @@ class compared_block {
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and partly to itself.
-  compared_block(const model& system, const detail::reference_value& reference, std::span<const tabulated> methods, double step,
-                 std::span<const error_measure> measures, const state& start, int count,
-                 const reference_checks& checks, const shared_noise& noise, const sample_weights& weights)
+  compared_block(const model& system, const detail::reference_value& reference,
+                 std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
+                 const state& start, int count, const reference_checks& checks, const shared_noise& noise,
+                 const sample_weights& weights)
       : measures_(measures),
         step_(step),
         weights_(weights),

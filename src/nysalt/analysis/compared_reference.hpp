@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "reference_along.hpp"
 #include "nysalt/analysis/error_sum.hpp"
 #include "nysalt/analysis/predictability.hpp"
 #include "nysalt/analysis/sample_weights.hpp"
+#include "reference_along.hpp"
 
 namespace nysalt {
 
@@ -35,9 +35,10 @@ class compared_reference {
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
-  compared_reference(const model& system, const detail::reference_value& reference, std::span<const error_measure> measures, double step,
-                     const state& start, int count, const reference_checks& checks, const path_place& at,
-                     path_type& path, int noise_parts, const sample_weights& weights)
+  compared_reference(const model& system, const detail::reference_value& reference,
+                     std::span<const error_measure> measures, double step, const state& start, int count,
+                     const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
+                     const sample_weights& weights)
       : measures_(measures, joined_measures::which::of_reference),
         step_(step),
         weights_(weights),

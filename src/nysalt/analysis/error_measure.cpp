@@ -27,7 +27,8 @@ estimate error_measure::average(std::span<const double> scores, std::span<const 
   return {root, mean.standard_error / (2.0 * root)};
 }
 
-std::vector<double> error_measure::parts(std::span<const double> scores, std::span<const double> sizes) const {
+std::vector<double> error_measure::parts(std::span<const double> scores,
+                                         std::span<const double> sizes) const {
   std::vector<double> result(scores.begin(), scores.end());
   const double mean = mean_and_error(scores).mean;
   const bool is_root = how == averaging::root_of_all && mean != 0.0;

@@ -29,8 +29,9 @@ class reference_along {
 
   /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
   /// place's. The noise of each step is added to the path in so many parts.
-  reference_along(const model& system, const detail::reference_value& reference, const joined_measures& measures, const state& start,
-                  int count, const path_place& at = {}, path_type* path = nullptr, int noise_parts = 0)
+  reference_along(const model& system, const detail::reference_value& reference,
+                  const joined_measures& measures, const state& start, int count, const path_place& at = {},
+                  path_type* path = nullptr, int noise_parts = 0)
       : system_(&system),
         reference_(&reference),
         measures_(&measures),
@@ -125,7 +126,8 @@ class reference_along {
   std::vector<T> numbers_;
   std::unique_ptr<detail::reference_run<T>> flow_;
   std::array<std::optional<failure>, static_cast<std::size_t>(lanes_in<T>)> failures_{};
-  std::vector<std::array<double, static_cast<std::size_t>(lanes_in<T>)>> signs_;  // of the scale of each measure
+  std::vector<std::array<double, static_cast<std::size_t>(lanes_in<T>)>>
+      signs_;  // of the scale of each measure
 };
 
 }  // namespace nysalt

@@ -39,6 +39,17 @@ void require_comparable(const model& system, const reference_value& reference,
   for (const tabulated& method : methods) make_stepper(system, method, options.step, counter_noise(0));
 }
 
+void require_measurable(const model& system, std::span<const error_measure> measures) {
+  for (const error_measure& measure : measures) {
+    if (measure.dimension == 0 || measure.dimension == system.size()) continue;
+    throw std::invalid_argument(
+        sentence("trajectory_errors: the {} error is of systems of {} degrees of freedom, and {} has {}; "
+                 "make the measure of "
+                 "the system that is stepped",
+                 measure.name, measure.dimension, describe(system), system.size()));
+  }
+}
+
 /// Trajectories first .. first + count - 1, whose starts are in the lanes of T; what is found is put into
 /// their places, measure by measure.
 struct comparison {
@@ -55,11 +66,12 @@ struct comparison {
 
   template <class T>
   void follow(std::int64_t first, int n, std::vector<measured_trajectories>& found) const {
-    const auto start = sound_starts<T>(system, ensemble, options.seed, first, n);
+    const model own = own_copy(system);
+    const auto start = sound_starts<T>(own, ensemble, options.seed, first, n);
     const auto of_block = [&](std::size_t wanted) {
       return static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(wanted) - first, 0, n));
     };
-    compared_block<T> block(system, reference, methods, options.step, measures, start, n,
+    compared_block<T> block(own, reference, methods, options.step, measures, start, n,
                             {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
                             {parts, options.seed, first}, weights);
     block.run(options.steps);
@@ -104,8 +116,8 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
   const auto trajectories = static_cast<std::size_t>(options.trajectories);
   const std::size_t checks = std::min(trajectories, most_checks);
   const std::size_t perturbed = options.perturbation ? checks : 0;
-  comparison compared{system, reference, ensemble,  methods, measures,
-                      options, checks,   perturbed, 0,       sample_weights(options.steps)};
+  comparison compared{system,  reference, ensemble,  methods, measures,
+                      options, checks,    perturbed, 0,       sample_weights(options.steps)};
   std::vector<measured_trajectories> found;
   const auto follow_own = [&](std::int64_t block, int n) {
     if (system.facts().in_lanes) return compared.follow<lanes>(own.first() + block, n, found);
@@ -115,8 +127,8 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
     require_room(options, methods.size(), joined_measures(measures).width(), measures.size());
     compared.parts = parts_of_noise(system, methods);
     require_comparable(system, reference, methods, compared.parts, options);
-    if (options.horizon)
-      compared.weights = sample_weights(options.step, options.steps, *options.horizon);
+    require_measurable(system, measures);
+    if (options.horizon) compared.weights = sample_weights(options.step, options.steps, *options.horizon);
     found.assign(measures.size(), {methods.size(), trajectories, checks, options.null_model, perturbed});
     for_each_block(own.count(), system.facts().in_lanes ? default_lanes : 1, options.threads, follow_own,
                    progress_of_share(ranks, own.count(), options.trajectories, options.progress));

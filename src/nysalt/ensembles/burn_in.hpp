@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "burn_in_pilot.hpp"
+#include "highest_frequency.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "highest_frequency.hpp"
 #include "slowest_mode.hpp"
 
 namespace nysalt {
@@ -33,7 +33,8 @@ class burn_in_search {
  public:
   /// Of chains that start at states of `from`, of a system that comes without its bath; refers to both.
   /// Throws std::invalid_argument if an option cannot be.
-  burn_in_search(const model& alone, double temperature, const initial_states& from, const burn_in_options& options)
+  burn_in_search(const model& alone, double temperature, const initial_states& from,
+                 const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
     detail::require_burn_in(options);
     slowest_ = slowest_mode(alone);

@@ -18,18 +18,18 @@ namespace nysalt {
 /// drawn from Maxwell's law p_i ~ N(0, m_i kT) where that is asked for.
 class burn_in_chains {
  public:
-  /// That of BAOAB on the system in its bath.
+  /// BAOAB on the system in the chains' bath.
   using stepper_type = stepper<model, run_time_word, double, counter_noise>;
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const model& alone, double temperature, double friction, double step, std::uint64_t seed)
-      : system_(alone.in(bath::of_temperature(friction, temperature))),
+      : system_(detail::own_copy(alone).in(bath::of_temperature(friction, temperature))),
         stepper_(
             make_stepper(system_, tabulated(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
 
-  const model& system() const { return system_; }   ///< the system in the chains' bath
+  const model& system() const { return system_; }                      ///< the system in the chains' bath
   double step() const { return stepper_.step_size(); }                 ///< h of BAOAB
   double temperature() const { return system_.bath().temperature(); }  ///< kT, an energy
 

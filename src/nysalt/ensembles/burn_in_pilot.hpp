@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -14,7 +15,6 @@
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "watched_stretch.hpp"
-
 
 namespace nysalt {
 
@@ -30,6 +30,7 @@ class burn_in_pilot {
   static constexpr int width = lanes_in<T>;
 
   struct block {
+    std::shared_ptr<const burn_in_chains> chains;
     state start;
     int count;
     lockstep<burn_in_chains::stepper_type, T> run;
@@ -37,19 +38,22 @@ class burn_in_pilot {
 
  public:
   /// Refers to the weights of the slowest mode, which may be empty.
-  burn_in_pilot(const model& alone, const initial_states& from, double temperature, double friction, double step,
-                const burn_in_options& options, int count, std::int64_t first_noise,
+  burn_in_pilot(const model& alone, const initial_states& from, double temperature, double friction,
+                double step, const burn_in_options& options, int count, std::int64_t first_noise,
                 const Eigen::VectorXd& slowest)
-      : chains_(alone, temperature, friction, step, options.seed),
+      : chains_(std::make_shared<burn_in_chains>(alone, temperature, friction, step, options.seed)),
         threads_(options.threads),
         count_(count),
         slowest_(&slowest) {
     for (int first = 0; first < count; first += width) {
       const int here = std::min(width, count - first);
       const state start = sound_starts<T>(alone, from, options.seed, first, here);
-      blocks_.push_back({start, here, chains_.open(start, first_noise + first, here)});
+      const auto chains = !is_black_box(alone) ? chains_
+                                               : std::make_shared<const burn_in_chains>(
+                                                     alone, temperature, friction, step, options.seed);
+      blocks_.push_back({chains, start, here, chains->open(start, first_noise + first, here)});
     }
-    zero_ = lane(potential_of(blocks_.front().start), 0);
+    zero_ = lane(potential_of(*chains_, blocks_.front().start), 0);
   }
 
   /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
@@ -61,7 +65,7 @@ class burn_in_pilot {
     std::vector<double> begin(chains);
     std::vector<double> finish(chains);
     const std::int64_t before = blocks_.front().run.step();
-    result.duration = static_cast<double>(end - before) * chains_.step();
+    result.duration = static_cast<double>(end - before) * chains_->step();
     for_each_block(count_, width, threads_, [&](std::int64_t first, int) {
       block& here = blocks_[static_cast<std::size_t>(first / width)];
       read_way(here, first, begin);
@@ -75,30 +79,30 @@ class burn_in_pilot {
   }
 
  private:
-  void read(const state& x, std::span<T> out) const {
-    const model& system = chains_.system();
+  void read(const burn_in_chains& chains, const state& x, std::span<T> out) const {
+    const model& system = chains.system();
     auto f = make_vector<T>(system);
     auto p = x.p;
     force<T>(system, x.q, f);
     T virial(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       virial -= x.q[i] * f[i];
-      p[i] += f[i] * (0.5 * chains_.step());
+      p[i] += f[i] * (0.5 * chains_->step());
     }
     velocity<T>(system, p, f);
     T twice_kinetic(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) twice_kinetic += p[i] * f[i];
-    const double each = 1.0 / (chains_.temperature() * static_cast<double>(x.size()));
+    const double each = 1.0 / (chains_->temperature() * static_cast<double>(x.size()));
     out[0] = twice_kinetic * each;
     out[1] = virial * each;
-    out[2] = (potential_of(x) - zero_) * each;
+    out[2] = (potential_of(chains, x) - zero_) * each;
     T of_mode(0.0);
     for (Eigen::Index i = 0; i < slowest_->size(); ++i) of_mode += x.q[i] * (*slowest_)[i];
-    out[3] = of_mode * of_mode / chains_.temperature();
+    out[3] = of_mode * of_mode / chains_->temperature();
   }
   /// 0 where the system knows no potential.
-  T potential_of(const state& x) const {
-    const model& system = chains_.system();
+  static T potential_of(const burn_in_chains& chains, const state& x) {
+    const model& system = chains.system();
     return has_potential(system) ? system.kernels<T>().potential(x.q) : T(0.0);
   }
 
@@ -109,9 +113,9 @@ class burn_in_pilot {
     of_watched<T> squares;
     sum.fill(T(0.0));
     squares.fill(T(0.0));
-    read(here.run.synchronous(), begin);
+    read(*here.chains, here.run.synchronous(), begin);
     std::int64_t looks = 0;
-    const auto look = [&](const state& x, std::span<T> out) { read(x, out); };
+    const auto look = [&](const state& x, std::span<T> out) { read(*here.chains, x, out); };
     here.run.go_on(end, every, watched_numbers, look,
                    [&](std::int64_t, std::span<const T> seen, const auto&) {
                      ++looks;
@@ -149,13 +153,13 @@ class burn_in_pilot {
             sentence("gibbs: pilot chain {} diverged at time {} with the step {}: the motion of {} is not "
                      "confined, or the step is too large",
                      b * width + static_cast<std::size_t>(k),
-                     in_digits(static_cast<double>(*lost) * chains_.step(), 6), in_digits(chains_.step(), 6),
-                     describe(chains_.system())));
+                     in_digits(static_cast<double>(*lost) * chains_->step(), 6),
+                     in_digits(chains_->step(), 6), describe(chains_->system())));
       }
     }
   }
 
-  burn_in_chains chains_;
+  std::shared_ptr<const burn_in_chains> chains_;
   int threads_;
   int count_;
   const Eigen::VectorXd* slowest_;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "burn_in.hpp"
+#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
 
@@ -29,9 +31,8 @@ double temperature_to_sample(const bath& in) {
 
 gibbs_chains::gibbs_chains(const model& in_bath, initial_states from, const burn_in_options& options)
     : alone_(in_bath.alone()), from_(std::move(from)), temperature_(temperature_to_sample(in_bath.bath())) {
-  report_ = with_scalar_of(alone_, [&]<class T>(T) {
-    return burn_in_search<T>(alone_, temperature_, from_, options).find();
-  });
+  report_ = with_scalar_of(
+      alone_, [&]<class T>(T) { return burn_in_search<T>(alone_, temperature_, from_, options).find(); });
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 
 #include "highest_frequency.hpp"
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/tabulated.hpp"
@@ -41,15 +42,14 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
   const auto keep = [&](std::int64_t n, double, const phase_point<double, Eigen::Dynamic>& x) {
     if (n >= first) states_.push_back(x);
   };
-  const auto stepper = make_stepper(in_bath, tabulated(baoab{}), step_,
-                                    counter_noise(options.seed, noise_purpose::burn_in));
+  const auto stepper =
+      make_stepper(in_bath, tabulated(baoab{}), step_, counter_noise(options.seed, noise_purpose::burn_in));
   const auto end = integrate(stepper, sound_start(in_bath, from, options.seed, 0), steps, keep, every);
   if (end.diverged_at) {
-    throw std::runtime_error(
-        sentence("one_long_trajectory: it diverged at time {}: the motion of {} is not confined, or the "
-                 "step {} is too large",
-                 in_digits(static_cast<double>(*end.diverged_at) * step_, 6), describe(in_bath),
-                 in_digits(step_, 6)));
+    throw std::runtime_error(sentence(
+        "one_long_trajectory: it diverged at time {}: the motion of {} is not confined, or the "
+        "step {} is too large",
+        in_digits(static_cast<double>(*end.diverged_at) * step_, 6), describe(in_bath), in_digits(step_, 6)));
   }
   if (states_.empty()) {
     throw std::invalid_argument(

@@ -20,7 +20,8 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
   constexpr std::int64_t pool = 896;
   constexpr double numbers = 2e6;  // 16 MB
   const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
-  std::int64_t most = std::min(ensemble.is_dear() ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
+  std::int64_t most =
+      std::min(ensemble.is_dear() ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
   most = std::min(most, ensemble.size() - first);
   std::vector<state> result;
   std::vector<std::pair<double, state>> by_energy;
@@ -29,8 +30,9 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
     phase_point<T, Eigen::Dynamic> block;
     try {
       block = sound_starts<T>(system, ensemble, seed, first + n, count);
-    } catch (const std::exception&) {  // it has no more
-      break;
+    } catch (const std::exception&) {
+      if (n == 0) throw;
+      break;  // it has no more
     }
     for (int k = 0; k < count; ++k) {
       state start = lane(block, k);

@@ -32,7 +32,9 @@ error_measure exchange_measure(const S& system) {
     const auto& same = detail::of_dimension<N>(x);
     for (std::size_t j = 0; j < result.size(); ++j) {
       const auto energy = [&](const auto& y) { return system.stiff_energy(y, static_cast<Eigen::Index>(j)); };
-      if constexpr (HasStiffEnergiesOver<S, T>) {
+      if constexpr (lanes_of<S> == 1) {  // packs are not even tried
+        result[j] = value_in_lanes<T>(energy, same);
+      } else if constexpr (HasStiffEnergiesOver<S, T>) {
         result[j] = energy(same);
       } else {
         result[j] = value_in_lanes<T>(energy, same);
@@ -58,7 +60,8 @@ error_measure exchange_measure(const S& system) {
           .no_scale =
               "the exchange error is relative to the stiff energy on the reference, which is 0; take "
               "starts at which the stiff springs move, or measure states",
-          .relative_to = whole};
+          .relative_to = whole,
+          .dimension = size(system)};
 }
 
 }  // namespace nysalt

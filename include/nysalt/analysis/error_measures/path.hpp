@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <span>
 #include <utility>
 
 #include "nysalt/analysis/error_measure.hpp"
@@ -29,7 +28,7 @@ struct observable_of_any_dimension {
   }
 };
 
-error_measure path_measure(const over_scalars<of_state>& observable);
+error_measure path_measure(const over_scalars<of_state>& observable, Eigen::Index dimension);
 
 }  // namespace detail
 
@@ -39,10 +38,10 @@ error_measure path_measure(const over_scalars<of_state>& observable);
 /// other, or for all lanes at a time if it is marked by over_lanes. There is no such error where o_ref is 0
 /// on all trajectories at all times.
 template <System S, class Observable>
-  requires IsObservable<Observable, double, S::dimension> error_measure
-  path_measure(const S&, Observable observable) {
-    return detail::path_measure(
-        detail::observable_of_any_dimension<S::dimension, Observable>{std::move(observable)});
+  requires IsObservable<Observable, double, S::dimension> error_measure path_measure(const S& system,
+                                                                                     Observable observable) {
+    const detail::observable_of_any_dimension<S::dimension, Observable> of_any{std::move(observable)};
+    return detail::path_measure(of_any, size(system));
   }
 
 }  // namespace nysalt

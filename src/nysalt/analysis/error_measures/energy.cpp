@@ -23,7 +23,8 @@ error_measure detail::energy_measure(const model& system) {
           .no_scale =
               "the energy error is relative to the energy at the starts, which is 0 at all; take other "
               "starts, or another measure",
-          .relative_to = square};
+          .relative_to = square,
+          .dimension = system.size()};
 }
 
 }  // namespace nysalt

@@ -7,7 +7,7 @@
 
 namespace nysalt {
 
-error_measure detail::path_measure(const over_scalars<of_state>& observable) {
+error_measure detail::path_measure(const over_scalars<of_state>& observable, Eigen::Index dimension) {
   const auto read = [observable]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
     result[0] = observable(x);
   };
@@ -24,7 +24,8 @@ error_measure detail::path_measure(const over_scalars<of_state>& observable) {
           .no_scale =
               "the path error is relative to the observable on the reference, which is 0; take another "
               "observable, or measure states",
-          .relative_to = square};
+          .relative_to = square,
+          .dimension = dimension};
 }
 
 error_measure detail::relative_measure(error_measure path) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -63,11 +64,11 @@ weighted_modes modes_with_weights(const model& system) {
 
 error_measure state_measure(const model& system) {
   const auto n = static_cast<std::size_t>(system.size());
-  const auto read = [n, modes = modes_with_weights(system)]<class T>(
-                        const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
+  const auto modes = std::make_shared<const weighted_modes>(modes_with_weights(system));
+  const auto read = [n, modes]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
     std::fill(result.begin(), result.end(), T(0.0));
-    for (const auto& [k, i, value] : modes.to_x) result[k] += x.q[i] * value;
-    for (const auto& [k, i, value] : modes.to_y) result[n + k] += x.p[i] * value;
+    for (const auto& [k, i, value] : modes->to_x) result[k] += x.q[i] * value;
+    for (const auto& [k, i, value] : modes->to_y) result[n + k] += x.p[i] * value;
   };
   const auto error = []<class T>(std::span<const T> seen, std::span<const T> expected) {
     T sum(0.0);
@@ -76,7 +77,12 @@ error_measure state_measure(const model& system) {
     }
     return sum;
   };
-  return {"state", 2 * n, read, error, averaging::root_of_all};
+  return {.name = "state",
+          .width = 2 * n,
+          .read = read,
+          .error = error,
+          .how = averaging::root_of_all,
+          .dimension = system.size()};
 }
 
 }  // namespace nysalt

@@ -1,0 +1,42 @@
+// expect: nysalt: a table knows the letters of known_letters alone
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/verlet.hpp"
+
+/// A kick of twice the force that calls itself B.
+struct strong_kick {
+  static constexpr char letter = 'B';
+  static constexpr std::size_t slots = 1;
+  static constexpr nysalt::field reads = nysalt::field::whole;
+  static constexpr int force_derivatives = 0;
+  static constexpr bool moves_q = false;
+  static constexpr bool additive = true;
+  template <nysalt::System S, nysalt::Scalar T>
+  static constexpr bool serves = true;
+  template <nysalt::Scalar C>
+  static C prepare(const C& c, double h) {
+    return c * h;
+  }
+  static void apply(const auto&, const auto& c, auto& x, auto&) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += 2.0 * c * x.f[i];
+  }
+};
+
+#ifdef NYSALT_CONTROL
+using kicked = nysalt::kick;
+#else
+// [mistake]
+using kicked = strong_kick;
+// [/mistake]
+#endif
+
+struct method {
+  using word = nysalt::word<kicked, nysalt::drift>;
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::array<double, 2> coefficients() { return {1.0, 1.0}; }
+  static std::string name() { return "strong"; }
+};
+
+int main() { nysalt::tabulated table{method()}; }
