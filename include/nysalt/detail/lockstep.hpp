@@ -99,8 +99,8 @@ class lockstep {
 
  private:
   /// A stretch after the other: advance(next) takes the run to step `next`, seen(next, all_well) comes when
-  /// those that diverged are known. Inlined: with two users g++ would not inline the force.
-  [[gnu::always_inline]] void follow(std::int64_t end, const auto& advance, const auto& seen) {
+  /// those that diverged are known.
+  void follow(std::int64_t end, const auto& advance, const auto& seen) {
     while (run_.step < end && any(live_)) {
       good_ = run_;
       const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
