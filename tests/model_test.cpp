@@ -5,8 +5,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -403,8 +405,26 @@ BOOST_AUTO_TEST_CASE(what_the_library_finds_out_of_a_system_it_finds_out_of_its_
         const auto other = law(2, 5 + n);
         BOOST_TEST(!(starts[n].q == other.q && starts[n].p == other.p));
       }
+      if constexpr (HasEnergy<S>) {  // the 64 most energetic of the 896 that come next
+        std::vector<double> energies;
+        for (std::uint64_t n = 0; n < 896; ++n) {
+          energies.push_back(energy<double>(system, law(1, 5 + plain_starts + n)));
+        }
+        std::ranges::sort(energies, std::greater<>());
+        for (std::size_t k = 0; k < 64; ++k) {
+          BOOST_TEST(energy<double>(erased, starts[plain_starts + k]) == energies[k]);
+        }
+      }
     }
   });
+}
+
+BOOST_AUTO_TEST_CASE(starts_of_another_dimension_are_refused) {
+  const normal_around<2> of_two({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
+  BOOST_TEST(
+      refuses<std::invalid_argument>([&] { typical_and_energetic_starts(pendulum(), of_two, 1, 0, 10); },
+                                     {"has not the dimension of pendulum"}));
+  BOOST_TEST(!typical_and_energetic_starts(henon_heiles(), of_two, 1, 0, 10).empty());
 }
 
 BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {

@@ -60,7 +60,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
     } else {
       auto again = run.begin_of_stretch();
       for (std::int64_t n = next_sample; n <= last; n += every) {
-        stepper.advance(again, n - again.step);  // unwatched: with loops of both kinds g++ inlines no force
+        stepper.advance(again, n - again.step);  // a watched loop beside it keeps g++ from inlining the force
         show(n, stepper.synchronous(again));
       }
     }

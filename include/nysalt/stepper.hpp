@@ -179,9 +179,9 @@ class stepper {
     return result;
   }
 
-  /// A whole run of so many steps from q and p alone (f is scratch): what a loss over several steps
-  /// differentiates. Its noise is that of the trajectory. Cost: the word's evaluations_to_open, and for each
-  /// step its evaluations_per_step.
+  /// Opens a run at q and p (f is scratch), takes `steps` steps and makes the state synchronous, in place:
+  /// what losses over several steps differentiate. Its noise is that of steps 0 .. steps - 1 of the
+  /// trajectory. Cost: the word's evaluations_to_open, and steps times its evaluations_per_step.
   template <SteppedBy<C> T>
   void run(flow_state<T, dimension>& x, std::int64_t steps, std::uint64_t trajectory = 0) const {
     auto cursor = cursor_at<T>(trajectory, 0);

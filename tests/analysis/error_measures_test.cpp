@@ -203,6 +203,28 @@ BOOST_AUTO_TEST_CASE(the_exchange_error_is_relative_to_the_whole_stiff_energy) {
   static_assert(!HasStiffEnergies<henon_heiles>);
 }
 
+namespace {
+
+/// A spring that is slack where it is not stretched: with lanes = 1 its energy may branch.
+struct slack_spring : harmonic_oscillator {
+  static constexpr int lanes = 1;
+  slack_spring() : harmonic_oscillator(1.0) {}
+  Eigen::Index pairs() const { return 1; }
+  template <class T>
+  T stiff_energy(const phase_point<T, 1>& x, Eigen::Index) const {
+    if (x.q[0] < 0.0) return T(0.0);
+    return 0.5 * x.q[0] * x.q[0];
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_exchange_error_leaves_a_system_of_one_lane_in_peace) {
+  const auto measure = exchange_measure(slack_spring());
+  BOOST_TEST(measure.error(measure.numbers_of(at(2.0, 0.0)), measure.numbers_of(at(-2.0, 0.0))) == 2.0);
+  BOOST_TEST(measure.error(measure.numbers_of(at(-1.0, 0.0)), measure.numbers_of(at(-2.0, 0.0))) == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(the_energy_error_is_relative_to_the_energies_of_the_starts) {
   const auto measure = energy_measure(oscillator);
   BOOST_TEST(!measure.needs_reference);

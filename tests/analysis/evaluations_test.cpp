@@ -4,15 +4,19 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "../support/refusal.hpp"
 #include "nysalt/methods/baoab.hpp"
 #include "nysalt/methods/mclachlan.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/methods/verlet.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 
@@ -59,6 +63,17 @@ BOOST_AUTO_TEST_CASE(letters_of_the_bath_cost_no_force) {
 // The two kicks of A B O B A are at one q, with a letter between them: the force is asked for once.
 BOOST_AUTO_TEST_CASE(a_force_is_used_again_beyond_a_letter_of_the_bath) {
   for (const galaxy& system : {warm, damped, at_rest}) check(system, aboba(), 0, 1);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_stepped_is_not_counted) {
+  const auto refused = [](const auto& system, const auto& method, double step, std::int64_t steps) {
+    return refuses<std::invalid_argument>([&] { evaluations_of_run(system, method, step, steps, start); },
+                                          {});
+  };
+  BOOST_TEST(!refused(warm, baoab(), 0.1, 5));
+  BOOST_TEST(refused(warm, baoab(), 0.0, 5));
+  BOOST_TEST(refused(warm, baoab(), 0.1, -5));
+  BOOST_TEST(refused(warm, verlet(), 0.1, 5));  // no letter O
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_not_taken_to_be_counted) {

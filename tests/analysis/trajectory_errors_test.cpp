@@ -6,7 +6,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <memory>
 #include <thread>
@@ -22,8 +21,10 @@
 #include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/blanes_moan.hpp"
@@ -31,6 +32,8 @@
 #include "nysalt/methods/verlet.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/trial_run.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -534,7 +537,7 @@ struct one_thread_at_a_time {
 
   void force(const vector<double, 1>& q, vector<double, 1>& f) const {
     if (is_busy.exchange(true)) throw std::logic_error("two threads at a time");
-    std::this_thread::sleep_for(std::chrono::microseconds(20));
+    std::this_thread::yield();
     f = -q;
     is_busy = false;
   }
@@ -551,4 +554,17 @@ BOOST_AUTO_TEST_CASE(threads_have_copies_of_a_black_box) {
     return trajectory_errors(box, fine_steps<>(.05), starts, verlet(), path_measure(box, first), options);
   };
   BOOST_TEST(judge(2).methods[0].error.mean == judge(1).methods[0].error.mean);
+
+  const auto try_out = [&](int threads) {
+    const auto some = typical_and_energetic_starts(box, starts, 1, 0, 40);
+    return trial_run(box, tabulated(verlet()), .1, some, {.steps = 10, .threads = threads}).report();
+  };
+  BOOST_TEST(try_out(2) == try_out(1));
+  const auto warm_up = [&](int threads) {
+    const in_bath warm(box, bath::of_temperature(1.0, 0.5));
+    const burn_in_options options{
+        .friction = 1.0, .step = 0.5, .length = 10.0, .pilots = 16, .threads = threads};
+    return gibbs(warm, starts, options).report().tau;
+  };
+  BOOST_TEST(warm_up(2) == warm_up(1));
 }

@@ -1,22 +1,9 @@
 // expect: nysalt: a table knows the letters of known_letters alone
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/verlet.hpp"
 
 /// A kick of twice the force that calls itself B.
-struct strong_kick {
-  static constexpr char letter = 'B';
-  static constexpr std::size_t slots = 1;
-  static constexpr nysalt::field reads = nysalt::field::whole;
-  static constexpr int force_derivatives = 0;
-  static constexpr bool moves_q = false;
-  static constexpr bool additive = true;
-  template <nysalt::System S, nysalt::Scalar T>
-  static constexpr bool serves = true;
-  template <nysalt::Scalar C>
-  static C prepare(const C& c, double h) {
-    return c * h;
-  }
+struct strong_kick : nysalt::kick {
   static void apply(const auto&, const auto& c, auto& x, auto&) {
     for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += 2.0 * c * x.f[i];
   }

@@ -12,7 +12,8 @@ namespace nysalt::detail {
 
 std::int64_t evaluations_of_run(const model& system, const tabulated& method, double step, std::int64_t steps,
                                 const phase_point<double, Eigen::Dynamic>& start) {
-  if (steps < 0) throw std::invalid_argument(sentence("evaluations_of_run: {} steps cannot be", steps));
+  if (steps < 0)
+    throw std::invalid_argument(sentence("evaluations_of_run: steps must not be negative, got {}", steps));
   make_stepper(system, method, step, counter_noise(0));  // refuses what cannot be stepped
   if (!is_black_box(system)) {
     run_time_word word = method.letters();
