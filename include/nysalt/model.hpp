@@ -37,7 +37,7 @@ class model {
   template <class S>
     requires(!std::same_as<S, model> && SeparableSystem<S>)
   model(const S& system)  // NOLINT(google-explicit-constructor)
-      : system_(std::make_shared<detail::typed_system<S>>(system)),
+      : system_(detail::erased(system)),
         facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {
     detail::library_is_compiled_for<default_lanes>();
   }
@@ -87,7 +87,9 @@ class model {
   }
   normal_modes modes() const { return system_->modes(); }  ///< of its quadratic part, if it has_modes()
   /// Those that the system declares, or none.
-  std::vector<frequency_band> frequency_bands() const { return system_->frequency_bands(is_in_bath_); }
+  std::vector<frequency_band> frequency_bands() const {
+    return system_->frequency_bands(is_in_bath_ ? &facts_->in : nullptr);
+  }
 
   /// The system's functions over T.
   template <detail::Served T>

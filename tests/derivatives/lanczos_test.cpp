@@ -2,6 +2,7 @@
 // Both ends of a symmetric spectrum are bounded, and nearly met.
 #include <boost/test/unit_test.hpp>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/lanczos.hpp"
@@ -22,7 +23,7 @@ Eigen::MatrixXd symmetric(draws& random, const Eigen::VectorXd& eigenvalues) {
   const Eigen::Index n = eigenvalues.size();
   Eigen::MatrixXd a(n, n);
   for (Eigen::Index k = 0; k < n; ++k) a.col(k) = random_vector(random, n);
-  const Eigen::MatrixXd basis = a.householderQr().householderQ();
+  const Eigen::MatrixXd basis = orthogonal_basis(a);
   return basis * eigenvalues.asDiagonal() * basis.transpose();
 }
 

@@ -2,10 +2,9 @@
 // Stability windows have the known ends.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
-
 #include "../laws/models.hpp"
 #include "../laws/stability_law.hpp"
+#include "../support/dense.hpp"
 #include "nysalt/scalars/series.hpp"
 
 using namespace nysalt;
@@ -68,7 +67,7 @@ std::vector<double> ends_by_eigenvalues(const tabulated& method) {
     companion.diagonal(-1).setOnes();
     for (Eigen::Index i = 0; i < degree; ++i)
       companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
-    for (const auto& x : companion.eigenvalues()) {
+    for (const auto& x : eigenvalues(companion)) {
       if (x.real() > 0.0 && std::abs(x.imag()) <= 1e-9 * x.real()) ends.push_back(std::sqrt(x.real()));
     }
   }

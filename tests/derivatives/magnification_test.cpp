@@ -2,10 +2,9 @@
 // Magnification is the largest norm of the powers of a step's matrix.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/SVD>
-
 #include <numbers>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/magnification.hpp"
@@ -30,7 +29,7 @@ double by_powers(const run_time_word& word, const std::vector<double>& c, double
   Eigen::Matrix2d power = one;
   double largest = 1.0;
   for (int n = 1; n <= steps; ++n) {
-    largest = std::max(largest, power.jacobiSvd().singularValues()[0]);
+    largest = std::max(largest, spectral_norm(power));
     power = one * power;
   }
   return largest;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -62,7 +63,7 @@ stiffness_range by_eigenvalues(const S& system, const states_of<S>& states) {
         a.col(i) *= std::sqrt(system.inverse_mass(i));
       }
     }
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues();
+    const Eigen::VectorXd values = symmetric_eigen(a).values;
     result.lowest = std::min(result.lowest, values[0]);
     result.highest = std::max(result.highest, values[a.rows() - 1]);
   }

@@ -4,9 +4,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/stepper.hpp"
@@ -49,7 +49,7 @@ double growth_of_step(const auto& system, const run_time_word& word, const std::
     one.step(x);
     step.col(j) << x.q, x.p;
   }
-  return std::log(Eigen::EigenSolver<Eigen::Matrix4d>(step).eigenvalues().cwiseAbs().maxCoeff());
+  return std::log(spectral_radius(step));
 }
 
 const run_time_word impulse("SRS");

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "../support/dense.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/linear_chain.hpp"
@@ -25,8 +26,8 @@ struct two_masses {  // joined to a wall and to each other, of masses 1 and 4
   normal_modes modes() const {
     Eigen::Matrix2d stiffness;  // M^{-1/2} K M^{-1/2}
     stiffness << 2.0, -0.5, -0.5, 0.25;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(stiffness);
-    return {solved.eigenvectors(), solved.eigenvalues().cwiseSqrt()};
+    const symmetric_eigen solved(stiffness);
+    return {solved.vectors, solved.values.cwiseSqrt()};
   }
 };
 

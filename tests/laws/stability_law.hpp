@@ -2,13 +2,14 @@
 // What a stability window claims, checked without the code that found it.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "../support/dense.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
@@ -28,7 +29,7 @@ inline phase_point<double, 1> at_one() { return {vector<double, 1>(1.0), vector<
 template <Method M>
 double spectral_radius(const M& method, double z) {
   const Eigen::MatrixXd step = jacobian(step_map(unit_oscillator(), method, z), at_one());
-  return step.eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(step);
 }
 
 /// What rounding may add to it where the eigenvalues are apart: the determinant, 1, is their squared size,

@@ -3,12 +3,13 @@
 // above 1 it is.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstring>
 #include <vector>
 
+#include "../support/dense.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
@@ -74,9 +75,8 @@ double band_defect(const S& system, const std::vector<frequency_band>& bands,
     for (Eigen::Index i = 0; i < n; ++i) root[i] = std::sqrt(system.inverse_mass(i));
   }
   const Eigen::MatrixXd weighted = root.asDiagonal() * hessian(system, q) * root.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
   double worst = 0.0;
-  for (const double square : solver.eigenvalues()) {
+  for (const double square : symmetric_eigen(weighted).values) {
     double outside = std::numeric_limits<double>::infinity();  // in squares; a negative one oscillates not
     for (const auto [low, high] : bands) {
       const double x = std::max(square, 0.0);

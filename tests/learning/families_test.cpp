@@ -2,8 +2,9 @@
 // Larger families: the member that made the data is found, and several starts find the same to the last bit.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -45,8 +46,8 @@ data_sets made_by(const auto& reference, int threads = 1) {
 double recovery_error(const data_sets& sets, const run_time_family& family, const Eigen::VectorXd& theta) {
   const metric measure(galaxy, sets.data, coordinates::qp);
   const after_steps loss(family, galaxy, sets.data, state_error(measure));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares_at(loss, theta).normal_matrix);
-  return std::sqrt(4.0) * 100.0 * eps / 0.1 / std::sqrt(solver.eigenvalues()[0]);
+  const symmetric_eigen of_loss(squares_at(loss, theta).normal_matrix);
+  return std::sqrt(4.0) * 100.0 * eps / 0.1 / std::sqrt(of_loss.values[0]);
 }
 
 template <Family F>

@@ -2,8 +2,9 @@
 // However a person writes the force, the same is learned, and the summary says where derivatives came from.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "../support/dense.hpp"
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -62,10 +63,9 @@ flow_map_data data_of(std::uint64_t seed) {
 double allowed(const flow_map_data& data, const parameters_of<nystrom>& theta, double relative) {
   const metric measure(exact, data, coordinates::qp);
   const one_step<nystrom> loss(exact, data, measure);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
-  const double jacobian =
-      std::sqrt(0.5 * solver.eigenvalues()[1]);  // the Hessian is 2 J^T J and a little more
-  return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / solver.eigenvalues()[0];
+  const symmetric_eigen of_loss(hessian(loss, theta));
+  const double jacobian = std::sqrt(0.5 * of_loss.values[1]);  // the Hessian is 2 J^T J and a little more
+  return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }
 
 double distance_of(const learned<nystrom>& a, const learned<nystrom>& b) {

@@ -2,8 +2,9 @@
 // In a bath the learner finds the member that made the data, from their noise, and no other way.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
@@ -61,8 +62,8 @@ double distance_of(const parameters& a, const parameters& b) {
 double recovery_error(const data_sets& sets, const parameters& theta, const galaxy& system = warm) {
   const metric measure(system, sets.data, coordinates::qp);
   const one_step<family> loss(system, sets.data, measure);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
-  return std::sqrt(4.0) * 40.0 * eps / 0.1 / std::sqrt(0.5 * solver.eigenvalues()[0]);
+  const symmetric_eigen of_loss(hessian(loss, theta));
+  return std::sqrt(4.0) * 40.0 * eps / 0.1 / std::sqrt(0.5 * of_loss.values[0]);
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 // The search ends at the minimum: the member that made the data, wherever it lies, from wherever it starts.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "../laws/models.hpp"
+#include "../support/dense.hpp"
 #include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -62,8 +63,8 @@ double recovery_error(const data_sets& sets, const parameters_of<nystrom>& theta
   }
   const double least = std::sqrt(squares.minCoeff() / static_cast<double>(sets.data.pairs()));
   const double residual = std::sqrt(4.0) * 24.0 * eps * magnified / least;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hessian(loss, theta));
-  return residual / std::sqrt(0.5 * solver.eigenvalues()[0]);
+  const symmetric_eigen of_loss(hessian(loss, theta));
+  return residual / std::sqrt(0.5 * of_loss.values[0]);
 }
 
 double distance_of(const parameters_of<nystrom>& a, const parameters_of<nystrom>& b) {

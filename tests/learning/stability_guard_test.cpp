@@ -2,10 +2,10 @@
 // The guard admits what is stable on the frequencies of a system, and nothing else.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
+#include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -40,7 +40,7 @@ stability_guard guard_of_one(double omega) {
 
 double spectral_radius(const run_time_word& word, const std::vector<double>& c, double z) {
   const auto m = matrix_on_oscillator(word, c, z * z);
-  return Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}}.eigenvalues().cwiseAbs().maxCoeff();
+  return test::spectral_radius(Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}});
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
   for (int n = 0; n < 20; ++n) {
     states.push_back(random.state(ring, 0.8));
     const Eigen::MatrixXd a = hessian(ring, states.back().q);
-    stiffest = std::max(stiffest, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[3]);
+    stiffest = std::max(stiffest, symmetric_eigen(a).values[3]);
   }
   const stability_guard guard(ring, states);
   BOOST_TEST(guard.description().find("estimated 0..") == 0U);

@@ -3,13 +3,15 @@
 // A, B and O on it are linear maps with normal noise, known here without the library.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "dense.hpp"
 
 namespace nysalt::test {
 
@@ -66,7 +68,7 @@ square<N> stationary(const gaussian_step<N>& step) {
       }
     }
   }
-  const Eigen::Matrix<double, N * N, 1> solution = equations.partialPivLu().solve(right);
+  const Eigen::VectorXd solution = solution_of(equations, right);
   return Eigen::Map<const square<N>>(solution.data());  // symmetric: the order of entries does not matter
 }
 

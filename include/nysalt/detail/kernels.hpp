@@ -81,8 +81,8 @@ class any_system {
   virtual void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                       const Eigen::VectorXd& f, Eigen::VectorXd& g) const = 0;
   virtual normal_modes modes() const = 0;
-  /// Of the system in its bath, or without it.
-  virtual std::vector<frequency_band> frequency_bands(bool in_bath) const = 0;
+  /// Of the system in a bath, or in none.
+  virtual std::vector<frequency_band> frequency_bands(const bath* in) const = 0;
   /// p += c force(q) by the system's own kick.
   virtual void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const = 0;
 

@@ -17,6 +17,7 @@
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/systems/counted.hpp"
+#include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt::detail {
 
@@ -234,17 +235,18 @@ class typed_system final : public any_system {
       refuse_kernel();
     }
   }
-  std::vector<frequency_band> frequency_bands(bool in_bath) const override {
-    if constexpr (requires {
-                    { system_.alone() } -> HasFrequencyBands;
-                  }) {
-      if (!in_bath) return system_.alone().frequency_bands();
+  std::vector<frequency_band> frequency_bands(const bath* in) const override {
+    if constexpr (HasBath<S>) {
+      if constexpr (requires {
+                      { system_.alone() } -> HasFrequencyBands;
+                    }) {
+        if (!in) return system_.alone().frequency_bands();
+      }
+      if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
+    } else if constexpr (HasFrequencyBands<S>) {
+      return in ? frequency_bands_in(static_cast<const S&>(system_), *in) : system_.frequency_bands();
     }
-    if constexpr (HasFrequencyBands<S>) {
-      return system_.frequency_bands();
-    } else {
-      return {};
-    }
+    return {};
   }
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
     if constexpr (HasKick<S, double>) {
@@ -261,6 +263,16 @@ class typed_system final : public any_system {
   typed_kernels<S, slopes> of_slopes_{system_};
   typed_kernels<S, lanes_with_slopes> of_lanes_with_slopes_{system_};
 };
+
+/// The system without its type: its kernels do not depend on the bath that it is in.
+template <class S>
+std::shared_ptr<const any_system> erased(const S& system) {
+  return std::make_shared<typed_system<S>>(system);
+}
+template <class S>
+std::shared_ptr<const any_system> erased(const in_bath<S>& system) {
+  return erased<S>(system.alone());
+}
 
 template <class S, class T>
 std::string letters_served() {

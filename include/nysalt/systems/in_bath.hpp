@@ -11,6 +11,17 @@
 
 namespace nysalt {
 
+namespace detail {
+/// Those of the system, at the temperature of the bath if the system tells frequency_bands_at(temperature).
+template <HasFrequencyBands S>
+std::vector<frequency_band> frequency_bands_in(const S& system, const bath& in) {
+  if constexpr (requires { system.frequency_bands_at(1.0); }) {
+    if (in.acts() && in.has_temperature()) return system.frequency_bands_at(in.temperature());
+  }
+  return system.frequency_bands();
+}
+}  // namespace detail
+
 /// A Hamiltonian system in a bath: a Langevin system, dq = M^{-1} p dt,
 /// dp = force(q) dt - gamma p dt + sigma M^{1/2} dW. All else is the system's own.
 template <NystromSystem S>
@@ -23,12 +34,9 @@ class in_bath : public S {
   const nysalt::bath& bath() const { return bath_; }
   const S& alone() const { return *this; }  ///< without the bath
 
-  /// Those of the system, at the temperature of the bath if the system tells frequency_bands_at(temperature).
+  /// Those of the system in this bath.
   std::vector<frequency_band> frequency_bands() const requires HasFrequencyBands<S> {
-    if constexpr (requires { alone().frequency_bands_at(1.0); }) {
-      if (bath_.acts() && bath_.has_temperature()) return alone().frequency_bands_at(bath_.temperature());
-    }
-    return alone().frequency_bands();
+    return detail::frequency_bands_in(alone(), bath_);
   }
 
   /// The system, and the bath that it is in; one that does not act goes without saying.
