@@ -49,11 +49,11 @@ int main() {
   fmt::print("usable: {}; derivatives by {}\n", fit.usable ? "yes" : fit.reason, fit.derivatives);
 
   // At equal cost: the steps are such that each evaluates the force twenty times in a unit of time.
-  const auto report = [&](const tabulated& other, double its_step, std::int64_t evaluations) {
+  const auto report = [&](const tabulated& other, double method_step, std::int64_t evaluations) {
     const std::vector one{other};
     const auto result =
         trajectory_errors(chain, reference, starts, one, state_measure(chain),
-                          {.step = its_step, .steps = 80 / evaluations, .trajectories = 50, .seed = 3});
+                          {.step = method_step, .steps = 80 / evaluations, .trajectories = 50, .seed = 3});
     fmt::print("{:<8} error of the state after 80 evaluations: {:.1e} +- {:.0e}\n", other.name(),
                result.methods[0].error.mean, result.methods[0].error.standard_error);
   };

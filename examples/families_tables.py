@@ -57,8 +57,9 @@ def gains_of(table, step, by_median):
         if not is_learned(name) or step not in rows:
             continue
         own, seconds = error_in(rows, step, by_median), rows[step]["seconds"]
-        rival = min(error_in(its, step, by_median) * min(1.0, its[step]["seconds"] / seconds) ** order_of(its, by_median)
-                    for its in classical.values())
+        rival = min(error_in(rival_rows, step, by_median)
+                    * min(1.0, rival_rows[step]["seconds"] / seconds) ** order_of(rival_rows, by_median)
+                    for rival_rows in classical.values())
         gains[name] = (least / own, rival / own)
     return best, least, gains
 

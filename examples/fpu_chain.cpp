@@ -36,12 +36,13 @@ int main() {
   // [measure]
   const auto measure = relative_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
   // [/measure]
-  const auto report = [&](const auto& other, double its_step, std::int64_t steps) {
-    const auto result = trajectory_errors(chain, reference, law, other, measure,
-                                          {.step = its_step, .steps = steps, .trajectories = 100, .seed = 3});
+  const auto report = [&](const auto& other, double method_step, std::int64_t steps) {
+    const auto result =
+        trajectory_errors(chain, reference, law, other, measure,
+                          {.step = method_step, .steps = steps, .trajectories = 100, .seed = 3});
     const auto& of_method = result.methods[0];
     fmt::print("{:<16} step {:.3f} {:5.1f} evaluations/time  error {:.1e} +- {:.0e}\n", other.name(),
-               its_step, of_method.evaluations_per_time, of_method.error.mean,
+               method_step, of_method.evaluations_per_time, of_method.error.mean,
                of_method.error.standard_error);
   };
   report(method, step, 16);

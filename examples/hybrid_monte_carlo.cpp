@@ -113,9 +113,9 @@ int main() {
     std::vector<double> accepted;
     std::vector<double> virial;
     for (std::uint64_t chain = 0; chain < 100; ++chain) {
-      const chain_result its = sample(stepper, steps, chain, 100, 1000, accepts_all);
-      accepted.push_back(its.accepted);
-      virial.push_back(its.virial);
+      const chain_result result = sample(stepper, steps, chain, 100, 1000, accepts_all);
+      accepted.push_back(result.accepted);
+      virial.push_back(result.virial);
     }
     // Chains are independent, so that the spread of their means is an honest error bar.
     const auto a = mean_and_error(accepted);

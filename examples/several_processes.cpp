@@ -32,10 +32,10 @@ void learn_and_look(const communicator& ranks) {
   const shard ours(options.trajectories, ranks);
   std::vector<double> squares(static_cast<std::size_t>(ours.count()));
   std::vector<double> at_start(squares.size());
-  const auto take = [&](std::int64_t m, std::int64_t n, double its_energy) {
+  const auto take = [&](std::int64_t m, std::int64_t n, double current_energy) {
     const auto slot = static_cast<std::size_t>(m - ours.first());
-    if (n == 0) at_start[slot] = its_energy;
-    if (n > 0) squares[slot] = std::pow(its_energy - at_start[slot], 2);
+    if (n == 0) at_start[slot] = current_energy;
+    if (n > 0) squares[slot] = std::pow(current_energy - at_start[slot], 2);
   };
   const auto total_energy = over_lanes([&](const auto& x) { return energy_in_lanes(chain, x); });
   integrate_ensemble(chain, method, fit.step, starts, options, total_energy, take);

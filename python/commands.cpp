@@ -27,9 +27,9 @@ std::string dumped(const json& document) {
 }
 
 py::tuple learn(const held_system& system, const py::dict& arguments) {
-  const given its(arguments);
-  const auto common = common_of(its, system.calls_python());
-  const auto command = learn_of(its, system.settings);
+  const given asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = learn_of(asked, system.settings);
   std::string document;
   std::string file;
   compute(system.calls_python(), [&] {
@@ -42,9 +42,9 @@ py::tuple learn(const held_system& system, const py::dict& arguments) {
 }
 
 std::string compare(const held_system& system, const py::dict& arguments) {
-  const given its(arguments);
-  const auto common = common_of(its, system.calls_python());
-  const auto command = compare_of(its, system.settings);
+  const given asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = compare_of(asked, system.settings);
   std::string document;
   compute(system.calls_python(), [&] {
     program::comparison all(command, common);
@@ -56,9 +56,9 @@ std::string compare(const held_system& system, const py::dict& arguments) {
 }
 
 py::tuple recommend(const held_system& system, const py::dict& arguments) {
-  const given its(arguments);
-  const auto common = common_of(its, system.calls_python());
-  const auto command = recommend_of(its, system.settings);
+  const given asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = recommend_of(asked, system.settings);
   std::string document;
   py::object file = py::none();
   std::optional<std::string> scheme;
@@ -75,16 +75,16 @@ py::tuple recommend(const held_system& system, const py::dict& arguments) {
 /// What a file of a method says, and whether it is one. Of a scheme at a step, or at that with which it
 /// begins.
 py::dict method(const std::string& text, const std::string& name, const py::object& step) {
-  const auto its = program::method_file_in(text, name);
-  double at = its.learned ? its.learned->curve.steps().front() : 0.0;
+  const auto file = program::method_file_in(text, name);
+  double at = file.learned ? file.learned->curve.steps().front() : 0.0;
   py::dict arguments;
   arguments["step"] = step;
   given(arguments).take("step", at);
-  const tabulated found = its.learned ? its.learned->at(at) : *its.table;
+  const tabulated found = file.learned ? file.learned->at(at) : *file.table;
   py::list coefficients;
   for (const double c : found.coefficients()) coefficients.append(c);
   py::dict all;
-  all["is_learned"] = its.learned.has_value();
+  all["is_learned"] = file.learned.has_value();
   all["letters"] = found.letters().letters();
   all["coefficients"] = coefficients;
   all["order"] = found.order;

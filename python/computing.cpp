@@ -29,7 +29,7 @@ void compute_apart(const std::function<void()>& work) {
   program::quiet_caller caller;
   bool ends = false;
   auto done = std::async(std::launch::async, [&] {
-    const program::work_for its(caller);
+    const program::work_for work_scope(caller);
     work();
   });
   PyThreadState* const state = PyEval_SaveThread();
@@ -56,7 +56,7 @@ void compute(bool calls_python, const std::function<void()>& work) {
   const under_way here;
   if (!calls_python) return compute_apart(work);
   program::quiet_caller caller;
-  const program::work_for its(caller);
+  const program::work_for work_scope(caller);
   work();
 }
 

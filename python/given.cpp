@@ -118,117 +118,117 @@ void given::take(const char* name, std::vector<std::string>& to) const {
 
 void given::take(const char* name, program::held_methods& to) const {
   if (!has(name)) return;
-  for (const auto& [its_name, text] : py::dict(arguments_[name])) {
-    to[text_in(name, its_name)] = text_in(name, text);
+  for (const auto& [method_name, text] : py::dict(arguments_[name])) {
+    to[text_in(name, method_name)] = text_in(name, text);
   }
 }
 
 program::common_settings common_of(const given& arguments, bool calls_python) {
-  program::common_settings its;
-  std::int64_t seed = static_cast<std::int64_t>(its.seed);
+  program::common_settings settings;
+  std::int64_t seed = static_cast<std::int64_t>(settings.seed);
   arguments.take("seed", seed);
   if (seed < 0) refuse("seed must not be negative, got {}", seed);
-  its.seed = static_cast<std::uint64_t>(seed);
+  settings.seed = static_cast<std::uint64_t>(seed);
   std::int64_t threads = program::usual_threads();
   arguments.take("threads", threads);
   if (!std::in_range<int>(threads)) refuse("threads must be a number of threads, got {}", threads);
-  its.threads = static_cast<int>(threads);
-  arguments.take("force", its.force);
-  its.json = true;
-  require_sound(its);
-  if (calls_python) its.threads = 1;
-  return its;
+  settings.threads = static_cast<int>(threads);
+  arguments.take("force", settings.force);
+  settings.json = true;
+  require_sound(settings);
+  if (calls_python) settings.threads = 1;
+  return settings;
 }
 
 program::system_settings system_of(const given& arguments) {
-  program::system_settings its;
-  arguments.take("name", its.name);
-  arguments.take("pairs", its.pairs);
-  arguments.take("omega", its.omega);
-  arguments.take("masses", its.masses);
-  arguments.take("spring", its.spring);
-  arguments.take("atoms", its.atoms);
-  arguments.take("space", its.space);
-  arguments.take("eccentricity", its.eccentricity);
-  arguments.take("spread", its.spread);
-  arguments.take("start", its.start);
-  arguments.take("friction", its.bath.friction);
-  arguments.take("sigma", its.bath.sigma);
-  arguments.take("temperature", its.bath.temperature);
-  return its;
+  program::system_settings settings;
+  arguments.take("name", settings.name);
+  arguments.take("pairs", settings.pairs);
+  arguments.take("omega", settings.omega);
+  arguments.take("masses", settings.masses);
+  arguments.take("spring", settings.spring);
+  arguments.take("atoms", settings.atoms);
+  arguments.take("space", settings.space);
+  arguments.take("eccentricity", settings.eccentricity);
+  arguments.take("spread", settings.spread);
+  arguments.take("start", settings.start);
+  arguments.take("friction", settings.bath.friction);
+  arguments.take("sigma", settings.bath.sigma);
+  arguments.take("temperature", settings.bath.temperature);
+  return settings;
 }
 
 program::learn_command learn_of(const given& arguments, const program::system_settings& system) {
-  program::learn_command its;
-  its.system = system;
-  take_learning(arguments, "", its.learning);
-  arguments.take("family", its.family);
-  arguments.take("placement", its.placement);
-  arguments.take("step", its.step);
-  arguments.take("steps", its.steps);
-  arguments.take("enough", its.enough);
-  if (its.enough && arguments.has("trajectories")) {
+  program::learn_command command;
+  command.system = system;
+  take_learning(arguments, "", command.learning);
+  arguments.take("family", command.family);
+  arguments.take("placement", command.placement);
+  arguments.take("step", command.step);
+  arguments.take("steps", command.steps);
+  arguments.take("enough", command.enough);
+  if (command.enough && arguments.has("trajectories")) {
     refuse("enough finds how many trajectories it takes: leave trajectories away");
   }
-  return its;
+  return command;
 }
 
 program::run_command run_of(const given& arguments, const program::system_settings& system) {
-  program::run_command its;
-  its.system = system;
-  arguments.take("method", its.method);
-  arguments.take("held", its.held);
-  arguments.take("placement", its.placement);
-  arguments.take("step", its.step);
-  arguments.take("horizon", its.horizon);
-  arguments.take("trajectories", its.trajectories);
-  arguments.take("observables", its.observables);
-  arguments.take("sample_every", its.sample_every);
-  return its;
+  program::run_command command;
+  command.system = system;
+  arguments.take("method", command.method);
+  arguments.take("held", command.held);
+  arguments.take("placement", command.placement);
+  arguments.take("step", command.step);
+  arguments.take("horizon", command.horizon);
+  arguments.take("trajectories", command.trajectories);
+  arguments.take("observables", command.observables);
+  arguments.take("sample_every", command.sample_every);
+  return command;
 }
 
 program::compare_command compare_of(const given& arguments, const program::system_settings& system) {
-  program::compare_command its;
-  its.system = system;
-  take_learning(arguments, "learn_", its.learning);
-  arguments.take("methods", its.methods);
-  arguments.take("held", its.held);
-  arguments.take("placement", its.placement);
-  arguments.take("steps", its.steps);
-  arguments.take("equal_cost", its.equal_cost);
-  arguments.take("horizon", its.horizon);
-  arguments.take("trajectories", its.trajectories);
-  arguments.take("metric", its.metrics);
-  arguments.take("observable", its.observable);
-  arguments.take("levels", its.levels);
-  arguments.take("range", its.range);
-  arguments.take("bins", its.bins);
-  arguments.take("longest_lag", its.longest_lag);
-  arguments.take("hmc_temperature", its.hmc_temperature);
-  require_fitting(its, [&](const char* option) {
+  program::compare_command command;
+  command.system = system;
+  take_learning(arguments, "learn_", command.learning);
+  arguments.take("methods", command.methods);
+  arguments.take("held", command.held);
+  arguments.take("placement", command.placement);
+  arguments.take("steps", command.steps);
+  arguments.take("equal_cost", command.equal_cost);
+  arguments.take("horizon", command.horizon);
+  arguments.take("trajectories", command.trajectories);
+  arguments.take("metric", command.metrics);
+  arguments.take("observable", command.observable);
+  arguments.take("levels", command.levels);
+  arguments.take("range", command.range);
+  arguments.take("bins", command.bins);
+  arguments.take("longest_lag", command.longest_lag);
+  arguments.take("hmc_temperature", command.hmc_temperature);
+  require_fitting(command, [&](const char* option) {
     std::string name = option + 2;
     std::ranges::replace(name, '-', '_');
     return arguments.has(name.c_str());
   });
-  return its;
+  return command;
 }
 
 program::recommend_command recommend_of(const given& arguments, const program::system_settings& system) {
-  program::recommend_command its;
-  its.system = system;
-  take_learning(arguments, "learn_", its.learning);
-  arguments.take("families", its.families);
-  arguments.take("placement", its.placement);
-  arguments.take("budget", its.budget);
-  arguments.take("budget_seconds", its.budget_seconds);
-  arguments.take("error", its.error);
-  arguments.take("horizon", its.horizon);
-  arguments.take("trajectories", its.trajectories);
-  arguments.take("metric", its.metric);
-  arguments.take("observable", its.observable);
-  arguments.take("hmc_temperature", its.hmc_temperature);
-  arguments.take("reversible", its.reversible);
-  return its;
+  program::recommend_command command;
+  command.system = system;
+  take_learning(arguments, "learn_", command.learning);
+  arguments.take("families", command.families);
+  arguments.take("placement", command.placement);
+  arguments.take("budget", command.budget);
+  arguments.take("budget_seconds", command.budget_seconds);
+  arguments.take("error", command.error);
+  arguments.take("horizon", command.horizon);
+  arguments.take("trajectories", command.trajectories);
+  arguments.take("metric", command.metric);
+  arguments.take("observable", command.observable);
+  arguments.take("hmc_temperature", command.hmc_temperature);
+  arguments.take("reversible", command.reversible);
+  return command;
 }
 
 }  // namespace nysalt::python

@@ -88,28 +88,28 @@ std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimen
 }  // namespace
 
 own_functions own_functions_of(const given& arguments, std::shared_ptr<functions_of_python>& kept) {
-  own_functions its{};
-  its.name = name_in(arguments);
-  its.dimension = dimension_in(arguments);
-  its.inverse_masses = inverse_masses_in(arguments, its.dimension);
-  arguments.take("frequency", its.frequency);
-  if (arguments.has("frequency") && !(its.frequency > 0.0)) {
-    refuse("frequency must be positive, got {}", its.frequency);
+  own_functions functions{};
+  functions.name = name_in(arguments);
+  functions.dimension = dimension_in(arguments);
+  functions.inverse_masses = inverse_masses_in(arguments, functions.dimension);
+  arguments.take("frequency", functions.frequency);
+  if (arguments.has("frequency") && !(functions.frequency > 0.0)) {
+    refuse("frequency must be positive, got {}", functions.frequency);
   }
   kept = std::make_shared<functions_of_python>();
   kept->potential = function_in(arguments, "potential", "V");
   kept->force = function_in(arguments, "force", "-grad V");
   kept->starts = function_in(arguments, "starts", "to know where trajectories start");
-  its.potential = [kept](std::span<const double> q) {
+  functions.potential = [kept](std::span<const double> q) {
     const double found = number_in(answer(kept->potential, py::make_tuple(column(q))));
     require_no_signal();
     return found;
   };
-  its.force = [kept](std::span<const double> q, std::span<double> f) {
+  functions.force = [kept](std::span<const double> q, std::span<double> f) {
     put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f);
     require_no_signal();
   };
-  its.start = [kept](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
+  functions.start = [kept](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
     const py::object found = answer(kept->starts, py::make_tuple(seed, n));
     if (PySequence_Check(found.ptr()) == 0 || py::len(found) != 2) {
       refuse("starts(seed, n) must be a pair (q, p), got {}", shown(found));
@@ -117,7 +117,7 @@ own_functions own_functions_of(const given& arguments, std::shared_ptr<functions
     put(found[py::int_(0)], "q of starts(seed, n)", q);
     put(found[py::int_(1)], "p of starts(seed, n)", p);
   };
-  return its;
+  return functions;
 }
 
 }  // namespace nysalt::python

@@ -21,49 +21,52 @@ class own_hamiltonian {
   static constexpr int dimension = Eigen::Dynamic;
   static constexpr int lanes = 1;
 
-  explicit own_hamiltonian(std::shared_ptr<const own_functions> its) : its_(std::move(its)) {}
+  explicit own_hamiltonian(std::shared_ptr<const own_functions> functions)
+      : functions_(std::move(functions)) {}
 
-  Eigen::Index size() const { return its_->dimension; }
-  double potential(const column& q) const { return its_->potential(numbers(q)); }
-  void force(const column& q, column& f) const { its_->force(numbers(q), numbers(f)); }
-  double inverse_mass(Eigen::Index i) const { return its_->inverse_masses[static_cast<std::size_t>(i)]; }
-  std::string description() const { return its_->name; }
+  Eigen::Index size() const { return functions_->dimension; }
+  double potential(const column& q) const { return functions_->potential(numbers(q)); }
+  void force(const column& q, column& f) const { functions_->force(numbers(q), numbers(f)); }
+  double inverse_mass(Eigen::Index i) const {
+    return functions_->inverse_masses[static_cast<std::size_t>(i)];
+  }
+  std::string description() const { return functions_->name; }
 
  private:
-  std::shared_ptr<const own_functions> its_;
+  std::shared_ptr<const own_functions> functions_;
 };
 static_assert(BlackBoxForce<own_hamiltonian> && NystromSystem<own_hamiltonian> && HasEnergy<own_hamiltonian>);
 
 class own_starts {
  public:
-  explicit own_starts(std::shared_ptr<const own_functions> its) : its_(std::move(its)) {}
+  explicit own_starts(std::shared_ptr<const own_functions> functions) : functions_(std::move(functions)) {}
 
   phase_point<double, Eigen::Dynamic> operator()(std::uint64_t seed, std::uint64_t n) const {
-    phase_point<double, Eigen::Dynamic> start{column(its_->dimension), column(its_->dimension)};
-    its_->start(seed, n, numbers(start.q), numbers(start.p));
+    phase_point<double, Eigen::Dynamic> start{column(functions_->dimension), column(functions_->dimension)};
+    functions_->start(seed, n, numbers(start.q), numbers(start.p));
     return start;
   }
-  std::string description() const { return "starts of " + its_->name; }
+  std::string description() const { return "starts of " + functions_->name; }
 
  private:
-  std::shared_ptr<const own_functions> its_;
+  std::shared_ptr<const own_functions> functions_;
 };
 
-/// For who uses it no longer than it lives here.
+/// A pointer without ownership, for a user that lives no longer than the object.
 template <class T>
 std::shared_ptr<T> lent(T& it) {
   return {std::shared_ptr<T>(), &it};
 }
 
-void require_force(const own_functions& its) {
-  const own_hamiltonian system(lent(its));
-  const own_starts starts(lent(its));
+void require_force(const own_functions& functions) {
+  const own_hamiltonian system(lent(functions));
+  const own_starts starts(lent(functions));
   std::vector<column> points;
   for (std::uint64_t n = 0; n < 4; ++n) {
     points.push_back(sound_start(system, starts, 1, static_cast<std::int64_t>(n)).q);
   }
   const force_check found = check_force(system, points);
-  if (!found.passed()) program::refuse("{}: {}", its.name, found.report());
+  if (!found.passed()) program::refuse("{}: {}", functions.name, found.report());
 }
 
 }  // namespace
@@ -71,23 +74,23 @@ void require_force(const own_functions& its) {
 std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
                                                   const program::surroundings& in) {
   const program::json parameters{{"name", functions->name}};
-  constexpr double fine_angle = 0.05;  // calls of Python are dear, and what this leaves of error is measured
+  constexpr double fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
   const program::model_facts facts{parameters, functions->frequency, "energy", fine_angle};
   return program::make_bundled(own_hamiltonian(functions), in, own_starts(functions), facts);
 }
 
-void examine(own_functions& its) {
-  require_force(its);
-  if (its.frequency > 0.0) return;
+void examine(own_functions& functions) {
+  require_force(functions);
+  if (functions.frequency > 0.0) return;
   constexpr std::uint64_t starts = 64;
   const program::surroundings nowhere{bath::of_sigma(0.0, 0.0), program::start::law};
-  const auto found = make_own(lent(std::as_const(its)), nowhere)->frequency_along_starts(1, starts);
-  its.frequency = found.value_or(0.0);
-  if (its.frequency > 0.0) return;
+  const auto found = make_own(lent(std::as_const(functions)), nowhere)->frequency_along_starts(1, starts);
+  functions.frequency = found.value_or(0.0);
+  if (functions.frequency > 0.0) return;
   program::refuse(
       "{}: no frequency is seen along its starts: give --frequency, the highest angular frequency of its "
       "motion, by which the step of the reference is chosen",
-      its.name);
+      functions.name);
 }
 
 }  // namespace nysalt::python

@@ -22,12 +22,12 @@ struct own_functions {
   std::function<void(std::span<const double> q, std::span<double> f)> force;
   /// The start of trajectory n: a function of both numbers alone.
   std::function<void(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p)> start;
-  double frequency = 0.0;  // the highest of its motion; 0: not known yet
+  double frequency = 0.0;  // the highest of the motion; 0: not known yet
 };
 
 /// Looks for a force that is not -grad V at four starts, and where the frequency is not known for that of 64
 /// starts. Throws refusal for what is found. Cost: some hundred forces for each degree of freedom.
-void examine(own_functions& its);
+void examine(own_functions& functions);
 
 /// One trajectory at a time. The functions are called by the thread that computes.
 std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,

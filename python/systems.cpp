@@ -19,7 +19,7 @@ namespace py = pybind11;
 using program::refuse;
 
 std::int64_t states_in(const held_system& system, const std::vector<std::int64_t>& shape, const char* name) {
-  const std::int64_t n = system.its->dimension();
+  const std::int64_t n = system.model->dimension();
   if (shape == std::vector<std::int64_t>{n}) return 1;
   if (shape.size() == 2 && shape[0] >= 1 && shape[1] == n) return shape[0];
   refuse("{} must have the shape ({},) or (trajectories, {}), it has {}", name, n, n, shape_text(shape));
@@ -30,19 +30,19 @@ namespace {
 std::unique_ptr<held_system> bundled(const py::dict& arguments) {
   auto made = std::make_unique<held_system>();
   made->settings = system_of(given(arguments));
-  made->its = make_system(made->settings);
+  made->model = make_system(made->settings);
   return made;
 }
 
 std::unique_ptr<held_system> own(const py::dict& arguments) {
-  const given its(arguments);
+  const given asked(arguments);
   auto made = std::make_unique<held_system>();
-  auto functions = std::make_shared<own_functions>(own_functions_of(its, made->functions));
+  auto functions = std::make_shared<own_functions>(own_functions_of(asked, made->functions));
   examine(*functions);
-  made->settings = system_of(its);
+  made->settings = system_of(asked);
   made->settings.start = "law";
   made->settings.own = [functions](const program::surroundings& in) { return make_own(functions, in); };
-  made->its = make_system(made->settings);
+  made->model = make_system(made->settings);
   return made;
 }
 
@@ -65,12 +65,12 @@ py::object energy(const held_system& system, const py::object& of_q, const py::o
   }
   py::array_t<double> result(static_cast<py::ssize_t>(count));
   double* to = result.mutable_data();
-  const auto n = static_cast<std::size_t>(system.its->dimension());
+  const auto n = static_cast<std::size_t>(system.model->dimension());
   const auto all_q = numbers_in(q);
   const auto all_p = numbers_in(p);
   for_states(system, q, [&](std::int64_t m) {
     const auto first = static_cast<std::size_t>(m) * n;
-    to[m] = system.its->energy(all_q.subspan(first, n), all_p.subspan(first, n));
+    to[m] = system.model->energy(all_q.subspan(first, n), all_p.subspan(first, n));
   });
   if (q.ndim() == 1) return py::float_(result.at(0));
   return result;
@@ -81,11 +81,11 @@ py::array force(const held_system& system, const py::object& of_q) {
   states_in(system, shape_of(q), "q");
   py::array_t<double> result(std::vector<py::ssize_t>(q.shape(), q.shape() + q.ndim()));
   const std::span<double> to(result.mutable_data(), static_cast<std::size_t>(result.size()));
-  const auto n = static_cast<std::size_t>(system.its->dimension());
+  const auto n = static_cast<std::size_t>(system.model->dimension());
   const auto all = numbers_in(q);
   for_states(system, q, [&](std::int64_t m) {
     const auto first = static_cast<std::size_t>(m) * n;
-    system.its->force(all.subspan(first, n), to.subspan(first, n));
+    system.model->force(all.subspan(first, n), to.subspan(first, n));
   });
   return result;
 }
@@ -98,15 +98,15 @@ program::role role_named(const std::string& name) {
 }
 
 py::tuple starts(const held_system& system, const py::dict& arguments) {
-  const given its(arguments);
+  const given asked(arguments);
   std::int64_t count = 1;
-  its.take("trajectories", count);
+  asked.take("trajectories", count);
   if (count < 1) refuse("trajectories must be at least 1, got {}", count);
   std::string role = "test";
-  its.take("role", role);
-  const auto common = common_of(its, system.calls_python());
+  asked.take("role", role);
+  const auto common = common_of(asked, system.calls_python());
   const std::uint64_t seed = seed_for(role_named(role), common.seed);
-  const std::int64_t n = system.its->dimension();
+  const std::int64_t n = system.model->dimension();
   py::array_t<double> q({count, n});
   py::array_t<double> p({count, n});
   const std::span<double> to_q(q.mutable_data(), static_cast<std::size_t>(q.size()));
@@ -126,20 +126,21 @@ py::tuple starts(const held_system& system, const py::dict& arguments) {
 }
 
 py::dict facts(const held_system& system) {
-  const program::bundled_system& its = *system.its;
+  const program::bundled_system& described_system = *system.model;
   py::list bands;
-  for (const auto& band : its.frequency_bands()) bands.append(py::make_tuple(band.low, band.high));
+  for (const auto& band : described_system.frequency_bands())
+    bands.append(py::make_tuple(band.low, band.high));
   py::list observables;
-  for (const auto& name : its.observables()) observables.append(name);
+  for (const auto& name : described_system.observables()) observables.append(name);
   py::dict all;
-  all["description"] = its.description();
-  all["dimension"] = its.dimension();
+  all["description"] = described_system.description();
+  all["dimension"] = described_system.dimension();
   all["observables"] = observables;
-  all["default_observable"] = its.default_observable();
+  all["default_observable"] = described_system.default_observable();
   all["frequency_bands"] = bands;
-  all["highest_frequency"] = its.frequency_of_law();
-  all["starts"] = its.starts();
-  all["parameters"] = its.parameters().dump();
+  all["highest_frequency"] = described_system.frequency_of_law();
+  all["starts"] = described_system.starts();
+  all["parameters"] = described_system.parameters().dump();
   all["calls_python"] = system.calls_python();
   return all;
 }
@@ -155,15 +156,15 @@ void let_python_collect(PyHeapTypeObject* type) {
   type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
   type->ht_type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
-    if (const auto* its = functions_of(self)) {
-      Py_VISIT(its->potential.ptr());
-      Py_VISIT(its->force.ptr());
-      Py_VISIT(its->starts.ptr());
+    if (const auto* functions = functions_of(self)) {
+      Py_VISIT(functions->potential.ptr());
+      Py_VISIT(functions->force.ptr());
+      Py_VISIT(functions->starts.ptr());
     }
     return 0;
   };
   type->ht_type.tp_clear = [](PyObject* self) {
-    if (auto* its = functions_of(self)) *its = functions_of_python();
+    if (auto* functions = functions_of(self)) *functions = functions_of_python();
     return 0;
   };
 }

@@ -14,8 +14,9 @@
 namespace nysalt::python {
 
 struct held_system {
-  program::system_settings settings;             // of which each command makes its own
-  std::unique_ptr<program::bundled_system> its;  // for what is asked of it here; its starts are not prepared
+  program::system_settings settings;  // of which each command makes its own
+  // For what Python asks of the system alone; the starts of the model are not prepared.
+  std::unique_ptr<program::bundled_system> model;
   std::shared_ptr<functions_of_python> functions;  // null of a bundled one
 
   bool calls_python() const { return functions != nullptr; }

@@ -64,14 +64,14 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   std::int64_t evaluations = 0;
   compute(system.calls_python(), [&] {
     program::progress shown;
-    auto& its = planned->system();
-    prepare_starts(its, common, shown);
+    auto& planned_system = planned->system();
+    prepare_starts(planned_system, common, shown);
     warnings = planned->warnings();
     for (const auto& text : planned->warnings_of_starts()) warnings.push_back(text);
     const program::sampled_plan sampled{.trajectories = plan,
                                         .observables = observables,
                                         .every = every,
-                                        .stretch = program::short_stretch(its.dimension()),
+                                        .stretch = program::short_stretch(planned_system.dimension()),
                                         .reached = [](const program::standing&) {}};
     const auto take = [&](std::int64_t m, const program::record& one) {
       const std::int64_t row = m * samples + one.first / every;
@@ -79,8 +79,8 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
       if (one.diverged_at) lost[m] = *one.diverged_at;
     };
     std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
-    its.run(planned->method(), sampled, take, shown.counter(1000));
-    evaluations = its.count_evaluations(planned->method(), plan);
+    planned_system.run(planned->method(), sampled, take, shown.counter(1000));
+    evaluations = planned_system.count_evaluations(planned->method(), plan);
   });
   py::dict result;
   result["t"] = t;
@@ -132,8 +132,8 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   if (shape_of(p) != shape) {
     refuse("p must have the shape of q, {}, it has {}", shape_text(shape), shape_text(shape_of(p)));
   }
-  require_finite(numbers_in(q), system.its->dimension(), "q");
-  require_finite(numbers_in(p), system.its->dimension(), "p");
+  require_finite(numbers_in(q), system.model->dimension(), "q");
+  require_finite(numbers_in(p), system.model->dimension(), "p");
   const auto [to_q, to_p] = pair_to_fill(out, shape);
   const std::span<double> all_q = writable(to_q, "q of out", shape);
   const std::span<double> all_p = writable(to_p, "p of out", shape);
@@ -145,7 +145,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
     const auto source = program::find_method(command.method, command.held);
-    const auto method = coefficients_at(source, *system.its, command.step, common.force,
+    const auto method = coefficients_at(source, *system.model, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
     // From here on nothing is refused.
     if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
@@ -154,7 +154,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
     const program::trajectories_plan plan{command.step, steps, count,
                                           seed_for(program::role::test, common.seed), common.threads};
     program::progress shown;
-    system.its->integrate(method, plan, all_q, all_p, shown.counter(1000));
+    system.model->integrate(method, plan, all_q, all_p, shown.counter(1000));
   });
   return py::make_tuple(to_q, to_p, list_of(warnings));
 }

@@ -28,7 +28,7 @@ bool has_scale(const S& system, double scale, double start = 0.0) {
 }
 
 const harmonic_oscillator alone(1.0);
-in_bath<harmonic_oscillator> in(const bath& its) { return {alone, its}; }
+in_bath<harmonic_oscillator> in(const bath& heat_bath) { return {alone, heat_bath}; }
 
 }  // namespace
 
@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(the_scale_is_the_energy_at_the_start_or_one) {
   BOOST_TEST(!has_scale(alone, 7.0));
 }
 
-BOOST_AUTO_TEST_CASE(in_a_bath_it_is_at_least_that_of_all_its_degrees_of_freedom) {
+BOOST_AUTO_TEST_CASE(in_a_bath_the_scale_is_at_least_that_of_all_degrees_of_freedom) {
   BOOST_TEST(has_scale(in(bath::of_temperature(0.1, 5.0)), 5.0));
   BOOST_TEST(has_scale(in(bath::of_temperature(0.1, 5.0)), 7.0, 7.0));
   BOOST_TEST(has_scale(in(bath::of_temperature(0.1, 0.2)), 1.0));

@@ -70,10 +70,10 @@ followed cut(const Stepper& stepper, const auto& ensemble, const std::vector<std
   saved_runs saved;
   const auto go_on = [&]<class P>(std::int64_t end, int threads) {
     using run = ensemble_run<P, Stepper>;
-    auto its =
+    auto current_run =
         saved.step == 0 ? run(stepper, ensemble, 3, 0, count) : run(stepper, ensemble, 3, 0, count, saved);
-    its.go_on(end, every, 1, read_q1<P>, keep_in(seen), threads);
-    saved = its.save();
+    current_run.go_on(end, every, 1, read_q1<P>, keep_in(seen), threads);
+    saved = current_run.save();
   };
   bool odd = false;
   for (const std::int64_t end : cuts) {

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(the_noise_is_that_of_the_path_in_parts) {
 BOOST_AUTO_TEST_CASE(a_coarse_step_with_the_noise_of_the_data_is_near_and_without_it_far) {
   const auto data = made({.step = 0.012, .horizon = 0.06, .trajectories = 20, .seed = 7, .noise_parts = 1});
   const auto c = baoab::coefficients();
-  const bath& its = chain.bath();
+  const bath& heat_bath = chain.bath();
   const auto distances = [&](std::size_t shift) {
     double sum = 0.0;
     for (std::size_t n = 0; n + shift < data.pairs(); ++n) {
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(a_coarse_step_with_the_noise_of_the_data_is_near_and_withou
       force<double>(chain, x.q, f);
       x.p += f * (c[0] * data.step);
       x.q += x.p * (c[1] * data.step);
-      x.p = x.p * its.decay(data.step) + data.noise[n + shift] * its.deviation(data.step);
+      x.p = x.p * heat_bath.decay(data.step) + data.noise[n + shift] * heat_bath.deviation(data.step);
       x.q += x.p * (c[3] * data.step);
       force<double>(chain, x.q, f);
       x.p += f * (c[4] * data.step);

@@ -39,9 +39,9 @@ seen by(const S& system, int threads, const communicator& ranks = alone) {
   const ensemble_options options{
       .trajectories = trajectories, .steps = steps, .every = every, .threads = threads, .ranks = &ranks};
   const auto take = [&](std::int64_t m, std::int64_t n, double value) {
-    auto& its = result.values[static_cast<std::size_t>(m)];
-    if (n != every * std::ssize(its)) throw std::logic_error("out of the order of time");
-    its.push_back(value);
+    auto& samples = result.values[static_cast<std::size_t>(m)];
+    if (n != every * std::ssize(samples)) throw std::logic_error("out of the order of time");
+    samples.push_back(value);
   };
   result.diverged_at = integrate_ensemble(system, verlet(), 0.1, law, options, first_coordinate, take);
   return result;

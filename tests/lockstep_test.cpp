@@ -73,14 +73,14 @@ std::vector<watched<N>> together(const Stepper& stepper, const std::vector<phase
   const auto take = [&](std::int64_t step, std::span<const T> numbers, const auto& live) {
     for (int k = 0; k < count; ++k) {
       if (!lane(live, k)) continue;
-      auto& its = result[static_cast<std::size_t>(k)];
+      auto& trajectory = result[static_cast<std::size_t>(k)];
       phase_point<double, N> x = starts.front();
       for (std::size_t i = 0; i < n; ++i) {
         x.q[static_cast<Eigen::Index>(i)] = lane(numbers[i], k);
         x.p[static_cast<Eigen::Index>(i)] = lane(numbers[n + i], k);
       }
-      its.steps.push_back(step);
-      its.states.push_back(x);
+      trajectory.steps.push_back(step);
+      trajectory.states.push_back(x);
     }
   };
   all.go_on(steps, every, 2 * n, read, take);

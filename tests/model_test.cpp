@@ -181,22 +181,22 @@ void compare_all(const std::vector<tabulated>& words, const Noise& noise, const 
     if (!is_served<run_time_word, S, double>(word, system)) continue;
     ++compared;
     BOOST_TEST_CONTEXT(describe(system) << ", " << method.name()) {
-      compare(system, method, step, [&](const auto& its, const tabulated& table, double h) {
-        return numbers_of_run<double>(its, table, h, starts, noise);
+      compare(system, method, step, [&](const auto& tested, const tabulated& table, double h) {
+        return numbers_of_run<double>(tested, table, h, starts, noise);
       });
       if constexpr (detail::serves<S, lanes>) {
-        compare(system, method, step, [&](const auto& its, const tabulated& table, double h) {
-          return numbers_of_run<lanes>(its, table, h, starts, noise);
+        compare(system, method, step, [&](const auto& tested, const tabulated& table, double h) {
+          return numbers_of_run<lanes>(tested, table, h, starts, noise);
         });
       }
       if (!is_served<run_time_word, S, slopes>(word, system)) continue;
-      compare(system, method, step, [&](const auto& its, const tabulated& table, double h) {
-        return numbers_of_step<double>(its, table, h, starts, lifted);
+      compare(system, method, step, [&](const auto& tested, const tabulated& table, double h) {
+        return numbers_of_step<double>(tested, table, h, starts, lifted);
       });
       if constexpr (detail::serves<S, lanes_with_slopes> && std::is_same_v<Lifted, no_noise>) {
         if (!is_served<run_time_word, S, lanes_with_slopes>(word, system)) continue;
-        compare(system, method, step, [&](const auto& its, const tabulated& table, double h) {
-          return numbers_of_step<lanes>(its, table, h, starts, lifted);
+        compare(system, method, step, [&](const auto& tested, const tabulated& table, double h) {
+          return numbers_of_step<lanes>(tested, table, h, starts, lifted);
         });
       }
     }
@@ -274,7 +274,7 @@ BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) 
   BOOST_TEST(served > 50);
 }
 
-BOOST_AUTO_TEST_CASE(its_stepper_refuses_in_the_same_words) {
+BOOST_AUTO_TEST_CASE(the_stepper_of_a_model_refuses_in_the_same_words) {
   const auto warm = a_warm_fpu::make();
   const model erased(warm);
   const std::vector<double> half{0.5, 1.0, 0.5};
@@ -362,19 +362,19 @@ BOOST_AUTO_TEST_CASE(forces_and_energies_have_the_bits_of_the_system) {
     draws random;
     const auto starts = starts_of<Model>(random);
     const auto compare_over = [&]<Scalar T>(T) {
-      const auto values = [&](const auto& its) {
-        constexpr int N = std::remove_cvref_t<decltype(its)>::dimension;
+      const auto values = [&](const auto& tested) {
+        constexpr int N = std::remove_cvref_t<decltype(tested)>::dimension;
         const auto x = gathered<T, N>(starts);
         auto f = x.q;
         auto v = x.q;
-        force<T>(its, x.q, f);
-        velocity<T>(its, x.p, v);
+        force<T>(tested, x.q, f);
+        velocity<T>(tested, x.p, v);
         std::vector<double> all;
         add_vector(all, f);
         add_vector(all, v);
         if constexpr (HasEnergy<S, T>) {
-          add(all, energy<T>(its, x));
-          add(all, kinetic_energy<T>(its, x.p));
+          add(all, energy<T>(tested, x));
+          add(all, kinetic_energy<T>(tested, x.p));
         }
         return all;
       };
@@ -444,10 +444,10 @@ BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {
 BOOST_AUTO_TEST_CASE(copies_share_a_system_and_a_separate_one_has_its_own) {
   const model first{black_box()};
   const model copy = first;
-  const auto evaluate = [](const model& its) {
+  const auto evaluate = [](const model& system) {
     Eigen::VectorXd q = Eigen::VectorXd::Constant(1, 0.3);
     Eigen::VectorXd f(1);
-    its.force(q, f);
+    system.force(q, f);
     return f[0];
   };
   for (int n = 0; n < 3; ++n) evaluate(first);
@@ -487,12 +487,12 @@ BOOST_AUTO_TEST_CASE(a_model_keeps_a_copy_of_its_system) {
 
 BOOST_AUTO_TEST_CASE(alone_a_system_is_without_its_bath) {
   const auto warm = a_warm_fpu::make();
-  const model in_its_bath(warm);
-  const model alone = in_its_bath.alone();
-  BOOST_TEST(in_its_bath.bath().acts());
+  const model coupled(warm);
+  const model alone = coupled.alone();
+  BOOST_TEST(coupled.bath().acts());
   BOOST_TEST(!alone.bath().acts());
   BOOST_TEST(describe(alone) == describe(warm.alone()));
-  BOOST_TEST(describe(in_its_bath) == describe(warm));
+  BOOST_TEST(describe(coupled) == describe(warm));
   draws random;
   const auto starts = starts_of<a_warm_fpu>(random);
   const tabulated method{verlet()};

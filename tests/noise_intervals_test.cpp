@@ -52,8 +52,8 @@ BOOST_AUTO_TEST_CASE(placements_need_one_part_or_two) {
   BOOST_TEST(equals(of(thermostat<placement::middle>(plain)), 1, {{0, 1}}));
   BOOST_TEST(equals(of(thermostat<placement::symmetric>(plain)), 2, {{0, 1}, {1, 2}}));
   using family = thermostatted_family<nystrom, placement::symmetric>;
-  const auto its = intervals_of_noise(family::word{}, family::coefficients(family::start()));
-  BOOST_TEST(equals(its, 2, {{0, 1}, {1, 2}}));
+  const auto intervals = intervals_of_noise(family::word{}, family::coefficients(family::start()));
+  BOOST_TEST(equals(intervals, 2, {{0, 1}, {1, 2}}));
 }
 
 BOOST_AUTO_TEST_CASE(parts_are_as_few_as_cut_no_letter) {

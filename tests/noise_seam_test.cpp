@@ -26,10 +26,10 @@ const potential_only system_of_unit_masses;
 
 /// c and h are such that the two halves differ.
 struct meeting {
-  bath its;
-  O::prepared<double> end = O::prepare(0.3, 0.5, its);
-  O::prepared<double> begin = O::prepare(0.7, 0.5, its);
-  noise_seam<double> seam{end, begin, its.sigma() > 0.0};
+  bath heat_bath;
+  O::prepared<double> end = O::prepare(0.3, 0.5, heat_bath);
+  O::prepared<double> begin = O::prepare(0.7, 0.5, heat_bath);
+  noise_seam<double> seam{end, begin, heat_bath.sigma() > 0.0};
 };
 
 cursor at(std::uint64_t trajectory, std::int64_t step, bool bath_is_warm = true) {
@@ -170,8 +170,8 @@ BOOST_AUTO_TEST_CASE(a_cold_bath_damps_and_draws_nothing) {
 
 // Letters O with coefficient 0 at both ends are odd, but not NaN.
 BOOST_AUTO_TEST_CASE(a_seam_without_a_duration_does_nothing) {
-  const auto its = bath::of_sigma(0.8, 0.6);
-  const auto none = O::prepare(0.0, 0.5, its);
+  const auto heat_bath = bath::of_sigma(0.8, 0.6);
+  const auto none = O::prepare(0.0, 0.5, heat_bath);
   const noise_seam<double> seam(none, none, true);
   auto x = moving(1.0);
   auto where = at(0, 3);

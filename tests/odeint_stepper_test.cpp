@@ -79,10 +79,10 @@ BOOST_AUTO_TEST_CASE(integrate_const_and_n_steps_see_our_states) {
   for (const auto& method : methods_as_data(random)) {
     if (suits(henon_heiles(), method)) check_integrations(method);
   }
-  check_integrations(srkn6b());  // by its type
+  check_integrations(srkn6b());  // a method by its type
 }
 
-BOOST_AUTO_TEST_CASE(it_tells_its_order) {
+BOOST_AUTO_TEST_CASE(a_stepper_tells_its_order) {
   BOOST_TEST(odeint_stepper<verlet>().order() == 2);
   BOOST_TEST(odeint_stepper<srkn11b>().order() == 6);
 }

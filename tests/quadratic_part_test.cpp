@@ -20,12 +20,12 @@ namespace {
 /// Two springs whose modes are told from outside.
 struct told {
   static constexpr int dimension = 2;
-  normal_modes its;
+  normal_modes given_modes;
   template <class T>
   void force(const vector<T, 2>& q, vector<T, 2>& f) const {
     f = -q;
   }
-  normal_modes modes() const { return its; }
+  normal_modes modes() const { return given_modes; }
   std::string description() const { return "two springs"; }
 };
 

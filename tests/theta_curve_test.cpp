@@ -43,12 +43,12 @@ BOOST_AUTO_TEST_CASE(between_four_steps_cubics_are_met_and_others_nearly) {
     // Some ten products of numbers of order one for each of four terms, whose weights are below 2.
     BOOST_TEST((curve.at(h) - exact).cwiseAbs().maxCoeff() <= 80.0 * std::numeric_limits<double>::epsilon());
   }
-  // Through three points it is a parabola: it cannot be a cubic.
+  // Through three points the curve is a parabola: it cannot be a cubic.
   const auto coarse = cubic({0.1, 0.3, 0.6});
   BOOST_TEST(std::abs(coarse.at(0.2)[0] - (1.0 + 0.2 * (-2.0 + 0.2 * (3.0 - 0.2)))) > 1e-4);
 }
 
-BOOST_AUTO_TEST_CASE(beyond_its_ends_it_says_no) {
+BOOST_AUTO_TEST_CASE(beyond_its_ends_a_curve_says_no) {
   const auto curve = cubic({0.1, 0.2});
   BOOST_TEST(!curve.covers(0.0999));
   BOOST_TEST(refuses<wrong>([&] { curve.at(0.0999); }, {"0.1 to 0.2", "0.0999"}));

@@ -31,8 +31,8 @@ std::vector<std::string> words_of_all(const std::vector<int>& bad) {
     };
     try {
       together(ours, work);
-    } catch (const Thrown& its) {
-      words[r] = its.what();
+    } catch (const Thrown& problem) {
+      words[r] = problem.what();
     }
   });
   return words;
@@ -61,12 +61,12 @@ BOOST_AUTO_TEST_CASE(all_ranks_see_an_exception_of_one_type) {
       together(ours, [&] {
         if (ours.rank() == 1) throw own_kind("mine");
       });
-    } catch (const own_kind&) {  // not even where it was thrown
+    } catch (const own_kind&) {  // not even where the exception was thrown
       const std::lock_guard lock(guard);
       ++of_own_kind;
-    } catch (const std::runtime_error& its) {
+    } catch (const std::runtime_error& problem) {
       const std::lock_guard lock(guard);
-      if (its.what() == std::string("mine")) ++of_known_kind;
+      if (problem.what() == std::string("mine")) ++of_known_kind;
     }
   });
   BOOST_TEST(of_own_kind == 0);
@@ -81,8 +81,8 @@ BOOST_AUTO_TEST_CASE(the_first_rank_works_for_all) {
     std::string refused;
     try {
       on_first(ours, [] { throw std::runtime_error("the disk is full"); });
-    } catch (const std::runtime_error& its) {
-      refused = its.what();
+    } catch (const std::runtime_error& problem) {
+      refused = problem.what();
     }
     if (refused != "the disk is full") throw std::logic_error("not told");
   });

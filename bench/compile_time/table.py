@@ -45,12 +45,12 @@ def measure(command):
     """CPU seconds and peak MB; None if it does not compile."""
     seconds, peak = [], 0.0
     for _ in range(2):
-        code, its_seconds, its_peak = run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        code, run_seconds, run_peak = run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if code:
             subprocess.run(command, check=False)  # again, to say why
             return None
-        seconds.append(its_seconds)
-        peak = max(peak, its_peak)
+        seconds.append(run_seconds)
+        peak = max(peak, run_peak)
     return min(seconds), peak
 
 

@@ -66,12 +66,13 @@ nlohmann::ordered_json document(const judged_rows& rows, const measurements& gnu
 
 /// All that there is to read; `form` makes text of a table.
 std::string pages(const judged_rows& rows, const measurements& gnu, const measurements& clang, auto form) {
-  const auto its = machine(gnu, clang);
-  std::string text =
-      fmt::format("{}, {} cores; caches of {} kB, {} kB and {} kB\n", its["processor"].get<std::string>(),
-                  its["cores"].get<int>(), its["l1_bytes"].get<std::int64_t>() / 1024,
-                  its["l2_bytes"].get<std::int64_t>() / 1024, its["l3_bytes"].get<std::int64_t>() / 1024);
-  for (const std::string compiler : its["compilers"]) text += fmt::format("{}\n", compiler);
+  const auto machine_facts = machine(gnu, clang);
+  std::string text = fmt::format(
+      "{}, {} cores; caches of {} kB, {} kB and {} kB\n", machine_facts["processor"].get<std::string>(),
+      machine_facts["cores"].get<int>(), machine_facts["l1_bytes"].get<std::int64_t>() / 1024,
+      machine_facts["l2_bytes"].get<std::int64_t>() / 1024,
+      machine_facts["l3_bytes"].get<std::int64_t>() / 1024);
+  for (const std::string compiler : machine_facts["compilers"]) text += fmt::format("{}\n", compiler);
   text += "\n" + form(to_table(rows.asked));
   std::string remarks;
   for (const auto& j : rows.asked) {

@@ -55,12 +55,12 @@ inline void read_measurements(const nlohmann::json& document, measurements& resu
   for (const auto& round : document["benchmarks"]) {
     if (round.value("run_type", "iteration") != "iteration") continue;  // means and medians of theirs
     const std::string name = round.value("name", "");
-    const std::string its_race = name.substr(0, name.find('/'));
+    const std::string race_name = name.substr(0, name.find('/'));
     if (round.value("error_occurred", false)) {
-      result.failures[its_race] = round.value("error_message", "no reason given");
+      result.failures[race_name] = round.value("error_message", "no reason given");
       continue;
     }
-    auto& race = result.races[its_race];
+    auto& race = result.races[race_name];
     for (const auto& [key, value] : round.items()) {
       if (key.rfind("ns/", 0) != 0) continue;
       if (!value.is_number() || !(value.get<double>() > 0.0) || !std::isfinite(value.get<double>())) {

@@ -33,10 +33,10 @@ inline int size_of_job() {
 class first_ranks {
  public:
   explicit first_ranks(int size) : size_(size) {
-    MPI_Comm its = MPI_COMM_NULL;
-    MPI_Comm_split(MPI_COMM_WORLD, take_part() ? 0 : 1, rank_of_job(), &its);
-    ranks_.emplace(its);  // of the others, where this one is not of them
-    MPI_Comm_free(&its);
+    MPI_Comm handle = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, take_part() ? 0 : 1, rank_of_job(), &handle);
+    ranks_.emplace(handle);  // of the other ranks, where this rank takes no part
+    MPI_Comm_free(&handle);
   }
 
   int size() const { return size_; }
@@ -84,15 +84,15 @@ struct runner {
 /// In each round every runner has a turn, and then each again in the opposite order: a machine that slows
 /// down slows all. Prints the seconds of each round.
 inline void take_turns(const std::vector<runner>& runners, int rounds) {
-  const auto turn = [](const runner& its) {
-    const double seconds = its.who->take_part() ? seconds_of(its.who->ranks(), its.work) : 0.0;
+  const auto turn = [](const runner& entry) {
+    const double seconds = entry.who->take_part() ? seconds_of(entry.who->ranks(), entry.work) : 0.0;
     wait_for_all();
-    return seconds / its.times;
+    return seconds / entry.times;
   };
-  for (const runner& its : runners) turn(its);  // memory, threads
+  for (const runner& entry : runners) turn(entry);  // memory, threads
   for (int round = 0; round < rounds; ++round) {
     std::vector<double> seconds;
-    for (const runner& its : runners) seconds.push_back(turn(its));
+    for (const runner& entry : runners) seconds.push_back(turn(entry));
     for (std::size_t i = runners.size(); i-- > 0;) seconds[i] = 0.5 * (seconds[i] + turn(runners[i]));
     for (std::size_t i = 0; i < runners.size(); ++i) {
       auto row = runners[i].row;

@@ -90,12 +90,13 @@ void race_passes(const std::deque<first_ranks>& all, std::int64_t trajectories, 
   std::map<std::int64_t, double> seen;
   std::vector<runner> runners;
   for (const auto& size : sizes) {
-    const auto its = size.who->take_part() ? std::make_shared<learning_case>(size) : nullptr;
+    const auto prepared_case = size.who->take_part() ? std::make_shared<learning_case>(size) : nullptr;
     wait_for_all();
     const int times = static_cast<int>(std::max<std::int64_t>(4, 8 * trajectories / size.trajectories));
     runners.push_back({row_of("pass", size), size.who,
-                       [its, times, size, &seen] {
-                         for (int n = 0; n < times; ++n) require_same(seen, size.trajectories, its->loss());
+                       [prepared_case, times, size, &seen] {
+                         for (int n = 0; n < times; ++n)
+                           require_same(seen, size.trajectories, prepared_case->loss());
                        },
                        times});
   }
@@ -111,12 +112,13 @@ void race_learning(const std::deque<first_ranks>& all, std::int64_t trajectories
   std::vector<runner> runners;
   for (const auto& size : sizes) {
     using both = std::pair<data_type, data_type>;
-    const auto its =
+    const auto data_sets =
         size.who->take_part() ? std::make_shared<both>(make_data(size, 1), make_data(size, 2)) : nullptr;
     wait_for_all();
-    runners.push_back({row_of("learn", size), size.who, [its, size, &seen] {
+    runners.push_back({row_of("learn", size), size.who, [data_sets, size, &seen] {
                          const learn_options<nystrom> options{.threads = size.threads};
-                         const auto found = learn(nystrom{}, chain, its->first, its->second, options);
+                         const auto found =
+                             learn(nystrom{}, chain, data_sets->first, data_sets->second, options);
                          require_same(seen, size.trajectories, found.summary.loss);
                        }});
   }
@@ -135,14 +137,14 @@ void measure_learning() {
 void measure_memory(std::int64_t trajectories, std::int64_t of_steps) {
   const first_ranks all(size_of_job());
   const std::int64_t before = peak_memory();
-  const learning_case its({"memory", &all, 1, trajectories, of_steps});
-  its.loss();
+  const learning_case prepared_case({"memory", &all, 1, trajectories, of_steps});
+  prepared_case.loss();
   struct of_rank {
     std::int64_t trajectories;
     std::int64_t before;
     std::int64_t bytes;
   };
-  const auto here = static_cast<std::int64_t>(its.data.trajectories());
+  const auto here = static_cast<std::int64_t>(prepared_case.data.trajectories());
   const auto of_all = in_order_of_ranks(all.ranks(), of_rank{here, before, peak_memory()});
   for (std::size_t r = 0; r < of_all.size(); ++r) {
     print_row({{"what", "memory"},

@@ -155,9 +155,9 @@ class ensemble_run {
     for (int k = 0; k < count; ++k) {
       const auto m = static_cast<std::size_t>(block + k);
       lost[static_cast<std::size_t>(k)] = saved.diverged_at[m];
-      const double* its = saved.numbers.data() + m * static_cast<std::size_t>(3 * n);
+      const double* next_number = saved.numbers.data() + m * static_cast<std::size_t>(3 * n);
       for (auto* part : {&run.state.q, &run.state.p, &run.state.f}) {
-        for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *its++);
+        for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);
       }
     }
     return runs(*stepper_, start, count, std::move(run), lost);

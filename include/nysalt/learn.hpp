@@ -71,22 +71,22 @@ template <Family F, SeparableSystem S, class... Own>
 learned<F> learn(const F& family, const S& system, const flow_map_data& data, const flow_map_data& held_out,
                  const learn_options<F>& options = {}, const own_loss<Own>&... own) {
   require_suited<F, S>();
-  fit_options its{.coordinates = options.coordinates,
-                  .loss = options.loss,
-                  .random_starts = options.random_starts,
-                  .fixed = {options.fixed.begin(), options.fixed.end()},
-                  .guarded = options.guarded,
-                  .planned_steps = options.planned_steps,
-                  .check_force = options.check_force,
-                  .seed = options.seed,
-                  .max_iterations = options.max_iterations,
-                  .threads = options.threads};
+  fit_options run_time_options{.coordinates = options.coordinates,
+                               .loss = options.loss,
+                               .random_starts = options.random_starts,
+                               .fixed = {options.fixed.begin(), options.fixed.end()},
+                               .guarded = options.guarded,
+                               .planned_steps = options.planned_steps,
+                               .check_force = options.check_force,
+                               .seed = options.seed,
+                               .max_iterations = options.max_iterations,
+                               .threads = options.threads};
   const run_time_family as_data(family);
-  its.start = column_of(options.start);
+  run_time_options.start = column_of(options.start);
   if (options.classical_starts) {
-    its.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());
+    run_time_options.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());
   }
-  const auto [theta, summary] = learn(as_data, system, data, held_out, its, own...);
+  const auto [theta, summary] = learn(as_data, system, data, held_out, run_time_options, own...);
   const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
   // A covariance loss asks no data, and has seen no energies.
   const auto energies = summary.is_of_data ? data.energies : std::nullopt;

@@ -41,8 +41,8 @@ class run_time_family {
           return std::vector<double>(c.begin(), c.end());
         }),
         jacobian_([family](const Eigen::VectorXd& theta) { return jacobian_of(family, theta); }) {
-    const auto its_ranges = F::ranges();
-    ranges.assign(its_ranges.begin(), its_ranges.end());
+    const auto family_ranges = F::ranges();
+    ranges.assign(family_ranges.begin(), family_ranges.end());
     const auto first = F::start();
     starts.push_back({"start", Eigen::Map<const Eigen::VectorXd>(first.data(), F::parameters)});
     if constexpr (requires { F::classical_members(); }) {

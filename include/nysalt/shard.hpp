@@ -73,7 +73,7 @@ class shard {
  private:
   static constexpr std::int64_t blocks_of_rank = 32;
 
-  static void require_length(std::int64_t its, std::int64_t wanted);
+  static void require_length(std::int64_t length, std::int64_t wanted);
   int rank_of(std::int64_t block) const { return static_cast<int>(block * ranks_->size() / blocks_); }
 
   /// The nodes of the blocks of this rank become those of the next level, and so on; a node is where its left
@@ -84,8 +84,8 @@ class shard {
     std::int64_t all = blocks_;
     for (int level = 0; all > 1; ++level) {
       if (!nodes.empty() && first % 2 == 1) {
-        const auto its = std::as_bytes(detail::numbers_in(nodes.front()));
-        ranks_->send(its, rank_of((first - 1) << level));
+        const auto bytes = std::as_bytes(detail::numbers_in(nodes.front()));
+        ranks_->send(bytes, rank_of((first - 1) << level));
         nodes.erase(nodes.begin());
         ++first;
       }

@@ -203,12 +203,12 @@ class stepper {
     return false;
   }
   static letters_type letters_of(const S& system, const W& word, const coefficients_type& c, double step) {
-    const surroundings_of_word its = surroundings(system, word);
+    const surroundings_of_word around = surroundings(system, word);
     if constexpr (may_be_noisy) {
-      if (system.bath().acts() || TypeLevelWord<W>) return letters_type(word, c, step, its);
+      if (system.bath().acts() || TypeLevelWord<W>) return letters_type(word, c, step, around);
     }
     if constexpr (!chooses) {
-      return letters_type(conservative_part(word), conservative_part(word, c), step, its);
+      return letters_type(conservative_part(word), conservative_part(word, c), step, around);
     } else {
       throw std::logic_error("stepper: not reached");
     }
@@ -227,7 +227,7 @@ class stepper {
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
     surroundings_of_word result;
-    if constexpr (HasBath<S>) result.its_bath = static_cast<const bath&>(system.bath());
+    if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {
       if (has_rotation(word)) result.part = quadratic_part::of(system);
@@ -247,13 +247,13 @@ class stepper {
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
     using room = std::conditional_t<letters_type::needs_room, flow_room<T, dimension>, no_room>;
     if constexpr (may_be_noisy) {
-      const bath& its = system_->bath();
+      const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
       return noise_cursor<Noise, T, dimension, room>{&noise_,
                                                      trajectory,
                                                      step,
                                                      stochastic_letters_,
-                                                     its.sigma() > 0.0,
+                                                     heat_bath.sigma() > 0.0,
                                                      vector<T, dimension>(numbers),
                                                      make_room<room>()};
     } else {

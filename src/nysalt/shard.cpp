@@ -23,10 +23,10 @@ std::int64_t shard::first_of(int rank) const {
   return std::min(total_, (block << level_) * trajectories_of_leaf);
 }
 
-void shard::require_length(std::int64_t its, std::int64_t wanted) {
-  if (its == wanted) return;
+void shard::require_length(std::int64_t length, std::int64_t wanted) {
+  if (length == wanted) return;
   throw std::invalid_argument(fmt::format(
-      "shard: {} items, where there are {} trajectories; each rank brings its own to a sum", its, wanted));
+      "shard: {} items, where there are {} trajectories; each rank brings its own to a sum", length, wanted));
 }
 
 }  // namespace nysalt

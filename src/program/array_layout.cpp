@@ -16,13 +16,13 @@ namespace {
 
 /// Puts number(0), number(1), ... there, some megabytes at a time.
 template <class Number>
-void fill(unfinished_file& file, const array_place& its, const Number& number) {
+void fill(unfinished_file& file, const array_place& place, const Number& number) {
   constexpr std::uint64_t at_a_time = std::uint64_t{1} << 20U;
   std::vector<decltype(number(std::uint64_t{}))> some;
-  for (std::uint64_t done = 0; done < its.count; done += some.size()) {
-    some.resize(std::min(at_a_time, its.count - done));
+  for (std::uint64_t done = 0; done < place.count; done += some.size()) {
+    some.resize(std::min(at_a_time, place.count - done));
     for (std::uint64_t i = 0; i < some.size(); ++i) some[i] = number(done + i);
-    file.put(its.first + 8 * done, std::as_bytes(std::span(some)));
+    file.put(place.first + 8 * done, std::as_bytes(std::span(some)));
   }
 }
 
@@ -50,14 +50,14 @@ array_layout::array_layout(const std::filesystem::path& file, sampled_shape shap
   }
   constexpr double most_of_npy = 0x1p31;  // bytes
   constexpr double most_of_all = 0x1p62;
-  const double its = 8.0 * static_cast<double>(shape_.trajectories) * static_cast<double>(shape_.samples) *
-                     static_cast<double>(shape_.observables.size());
-  if (is_npy_ && its > most_of_npy) {
+  const double size = 8.0 * static_cast<double>(shape_.trajectories) * static_cast<double>(shape_.samples) *
+                      static_cast<double>(shape_.observables.size());
+  if (is_npy_ && size > most_of_npy) {
     refuse("{} would have {:.3g} bytes, and .npy is for two gigabytes at most: let --output end in .h5",
-           file.string(), its);
+           file.string(), size);
   }
-  if (its > most_of_all)
-    refuse("{} would have {:.3g} bytes: take a larger --sample-every", file.string(), its);
+  if (size > most_of_all)
+    refuse("{} would have {:.3g} bytes: take a larger --sample-every", file.string(), size);
 }
 
 void array_layout::lay_out(unfinished_file& file) const {
@@ -77,32 +77,32 @@ void array_layout::lay_out(unfinished_file& file) const {
       refuse("cannot write {}: is the folder writable, and its disk not full?", file.part().string());
     }
   }
-  const array_places its = places_in(file.part());
+  const array_places places = places_in(file.part());
   const auto step = [&](std::uint64_t n) { return static_cast<std::int64_t>(n) * shape_.every; };
-  fill(file, its.step, step);
-  fill(file, its.t, [&](std::uint64_t n) { return static_cast<double>(step(n)) * shape_.step; });
-  fill(file, its.diverged_at, [](std::uint64_t) { return std::int64_t{-1}; });
-  for (const auto& one : its.values) {
+  fill(file, places.step, step);
+  fill(file, places.t, [&](std::uint64_t n) { return static_cast<double>(step(n)) * shape_.step; });
+  fill(file, places.diverged_at, [](std::uint64_t) { return std::int64_t{-1}; });
+  for (const auto& one : places.values) {
     fill(file, one, [](std::uint64_t) { return std::numeric_limits<double>::quiet_NaN(); });
   }
 }
 
 array_places array_layout::places_in(const std::filesystem::path& file) const {
-  array_places its;
+  array_places result;
   if (is_npy_) {
-    its.values.push_back({npy_head().size(), shape_.numbers() * shape_.observables.size()});
-    return its;
+    result.values.push_back({npy_head().size(), shape_.numbers() * shape_.observables.size()});
+    return result;
   }
   try {
     const auto places = places_in_hdf5(file, datasets());
     for (std::size_t k = 0; k < shape_.observables.size(); ++k) {
-      its.values.push_back({places[k], shape_.numbers()});
+      result.values.push_back({places[k], shape_.numbers()});
     }
     const auto samples = static_cast<std::uint64_t>(shape_.samples);
-    its.t = {places[places.size() - 3], samples};
-    its.step = {places[places.size() - 2], samples};
-    its.diverged_at = {places[places.size() - 1], static_cast<std::uint64_t>(shape_.trajectories)};
-    return its;
+    result.t = {places[places.size() - 3], samples};
+    result.step = {places[places.size() - 2], samples};
+    result.diverged_at = {places[places.size() - 1], static_cast<std::uint64_t>(shape_.trajectories)};
+    return result;
   } catch (const std::runtime_error&) {
     refuse("{} is not the file of arrays that the run left there", file.string());
   }

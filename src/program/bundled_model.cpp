@@ -50,15 +50,15 @@ class bundled_model final : public bundled_system {
   using states_in_double = std::vector<phase_point<double, dynamic>>;
 
  public:
-  bundled_model(const system_parts& parts, const surroundings& its, model_facts facts)
+  bundled_model(const system_parts& parts, const surroundings& conditions, model_facts facts)
       : system_(parts.in_bath),
         springs_(parts.springs),
         exact_(parts.exact),
         has_linear_force_(parts.has_linear_force),
-        start_(its.start),
+        start_(conditions.start),
         law_(parts.law),
         facts_(std::move(facts)) {
-    if (its.spread != 1.0) facts_.parameters["spread"] = its.spread;
+    if (conditions.spread != 1.0) facts_.parameters["spread"] = conditions.spread;
     if (start_ != start::law && !has_frequency_bands(system_)) {
       refuse(
           "{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
@@ -73,9 +73,9 @@ class bundled_model final : public bundled_system {
     return nysalt::energy<double>(system_, state_of(q, p));
   }
   void force(std::span<const double> q, std::span<double> f) const override {
-    auto its = make_vector<double>(system_);
-    nysalt::force<double>(system_, vector_of(q), its);
-    std::copy_n(its.data(), its.size(), f.begin());
+    auto forces = make_vector<double>(system_);
+    nysalt::force<double>(system_, vector_of(q), forces);
+    std::copy_n(forces.data(), forces.size(), f.begin());
   }
   nlohmann::ordered_json parameters() const override {
     json all = facts_.parameters;
@@ -84,7 +84,7 @@ class bundled_model final : public bundled_system {
     all["sigma"] = system_.bath().sigma();
     return all;
   }
-  const bath& its_bath() const override { return system_.bath(); }
+  const bath& heat_bath() const override { return system_.bath(); }
   std::vector<frequency_band> frequency_bands() const override { return system_.frequency_bands(); }
   std::optional<double> frequency_to_fit() const override {
     if (!has_modes(system_) && !has_frequency_bands(system_)) return std::nullopt;
@@ -111,9 +111,9 @@ class bundled_model final : public bundled_system {
   }
   void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
                    std::span<double> p) const override {
-    const auto its = (*starts_)(seed, n);
-    std::copy_n(its.q.data(), its.q.size(), q.begin());
-    std::copy_n(its.p.data(), its.p.size(), p.begin());
+    const auto state = (*starts_)(seed, n);
+    std::copy_n(state.q.data(), state.q.size(), q.begin());
+    std::copy_n(state.p.data(), state.p.size(), p.begin());
   }
   int lanes() const override { return system_.facts().in_lanes ? default_lanes : 1; }
 
@@ -220,9 +220,9 @@ class bundled_model final : public bundled_system {
     if (plan.kept && kept == nullptr) kept = &plan.kept->template emplace<two_sets>();
     auto& data = (kept != nullptr ? *kept : fresh)[0];
     auto& held_out = (kept != nullptr ? *kept : fresh)[1];
-    const auto its_reference = reference().at(plan.step, plan.how.fine_step, parts);
+    const auto reference_solution = reference().at(plan.step, plan.how.fine_step, parts);
     const auto make = [&](auto& pairs, std::uint64_t seed) {
-      detail::extend_data(system_, *starts_, its_reference.held(),
+      detail::extend_data(system_, *starts_, reference_solution.held(),
                           {.step = plan.step,
                            .horizon = plan.how.horizon_at(plan.step),
                            .trajectories = plan.how.trajectories,
@@ -265,9 +265,9 @@ class bundled_model final : public bundled_system {
     options.null_model = plan.null_model;
     options.perturbation = plan.perturbation;
     const int parts = nysalt::detail::parts_of_noise(system_, methods);
-    const auto its = reference().at(plan.trajectories.step, plan.fine_step, parts);
-    return trajectory_errors(system_, its, *starts_, methods, std::span<const error_measure>(measures),
-                             options);
+    const auto reference_solution = reference().at(plan.trajectories.step, plan.fine_step, parts);
+    return trajectory_errors(system_, reference_solution, *starts_, methods,
+                             std::span<const error_measure>(measures), options);
   }
 
   acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,
@@ -291,13 +291,13 @@ class bundled_model final : public bundled_system {
 
   gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
                                  const std::string& name, const counter& progress) const override {
-    const auto& its = plan.trajectories;
-    const auto stepper = make_stepper(system_, method, its.step, counter_noise(its.seed));
-    const ensemble_options options{.trajectories = its.count,
-                                   .steps = its.steps,
+    const auto& trajectories = plan.trajectories;
+    const auto stepper = make_stepper(system_, method, trajectories.step, counter_noise(trajectories.seed));
+    const ensemble_options options{.trajectories = trajectories.count,
+                                   .steps = trajectories.steps,
                                    .every = plan.every,
-                                   .seed = its.seed,
-                                   .threads = its.threads,
+                                   .seed = trajectories.seed,
+                                   .threads = trajectories.threads,
                                    .first = plan.first,
                                    .progress = progress,
                                    .ranks = &world()};
@@ -317,11 +317,11 @@ class bundled_model final : public bundled_system {
                                            const counter& progress) const override {
     const double fine = reference().fine_step_for_statistics(plan.trajectories.step, fine_step);
     const auto finer = std::llround(plan.trajectories.step / fine) * plan.finer;
-    statistics_plan its = plan;
-    its.trajectories.step = plan.trajectories.step / static_cast<double>(finer);
-    its.trajectories.steps *= finer;
-    its.every *= finer;
-    return statistics(method_of_reference(), its, name, progress);
+    statistics_plan fine_plan = plan;
+    fine_plan.trajectories.step = plan.trajectories.step / static_cast<double>(finer);
+    fine_plan.trajectories.steps *= finer;
+    fine_plan.every *= finer;
+    return statistics(method_of_reference(), fine_plan, name, progress);
   }
   double fastest_rate() const override { return reference().fastest(); }
   std::optional<double> fine_step_for_ranking(double step) const override {
@@ -356,11 +356,11 @@ class bundled_model final : public bundled_system {
     sampled.reached = [](const standing&) {};
     std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
     std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
-    const auto take = [&](std::int64_t m, const record& its) {
+    const auto take = [&](std::int64_t m, const record& segment) {
       const auto sample =
-          std::ssize(its.values) / std::ssize(sampled.observables) - 1;  // the last that is here
-      if (its.first + sample * plan.steps < plan.steps) return;
-      const auto from = its.values.end() - std::ssize(sampled.observables);
+          std::ssize(segment.values) / std::ssize(sampled.observables) - 1;  // the last sample of the segment
+      if (segment.first + sample * plan.steps < plan.steps) return;
+      const auto from = segment.values.end() - std::ssize(sampled.observables);
       std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
       std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
     };
@@ -393,9 +393,9 @@ class bundled_model final : public bundled_system {
 
  private:
   vector<double, dynamic> vector_of(std::span<const double> numbers) const {
-    auto its = make_vector<double>(system_);
-    std::copy_n(numbers.begin(), its.size(), its.data());
-    return its;
+    auto result = make_vector<double>(system_);
+    std::copy_n(numbers.begin(), result.size(), result.data());
+    return result;
   }
   phase_point<double, dynamic> state_of(std::span<const double> q, std::span<const double> p) const {
     return {vector_of(q), vector_of(p)};
@@ -490,9 +490,9 @@ class bundled_model final : public bundled_system {
 
 }  // namespace
 
-std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& its,
+std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& conditions,
                                              const model_facts& facts) {
-  return std::make_unique<bundled_model>(parts, its, facts);
+  return std::make_unique<bundled_model>(parts, conditions, facts);
 }
 
 }  // namespace nysalt::program

@@ -21,7 +21,7 @@ struct model_facts {
   json parameters;   // as scheme files hold them
   double frequency;  // the highest, of rare starts
   std::string default_observable;
-  double fine_angle = 5e-3;  // of a fine step, times that frequency: there srkn11b errs by rounding
+  double fine_angle = 5e-3;  // of a fine step, times the highest frequency: there srkn11b errs by rounding
 };
 
 template <class T>
@@ -51,24 +51,24 @@ struct system_parts {
   model in_bath;
   initial_states law;
   stiff_springs springs;
-  std::shared_ptr<const detail::any_reference> exact;  // its exact flow, if that is known
+  std::shared_ptr<const detail::any_reference> exact;  // the exact flow of the model, if it is known
   bool has_linear_force;
 };
 
-std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& its,
+std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& conditions,
                                              const model_facts& facts);
 
 /// A system with its law of starts. Where its flow is known exactly, that is the reference unless a fine step
 /// is asked for.
 template <bool has_exact_flow = false, class S, class Law>
-std::unique_ptr<bundled_system> make_bundled(const S& system, const surroundings& its, const Law& law,
+std::unique_ptr<bundled_system> make_bundled(const S& system, const surroundings& conditions, const Law& law,
                                              const model_facts& facts) {
-  const in_bath<S> put(system, its.bath);
+  const in_bath<S> put(system, conditions.bath);
   system_parts parts{put, law, stiff_springs_of(system), nullptr, has_exact_flow};
   if constexpr (has_exact_flow) {
-    if (!its.bath.acts()) parts.exact = detail::reference_of(put, exact_linear(put));
+    if (!conditions.bath.acts()) parts.exact = detail::reference_of(put, exact_linear(put));
   }
-  return make_bundled(parts, its, facts);
+  return make_bundled(parts, conditions, facts);
 }
 
 }  // namespace nysalt::program

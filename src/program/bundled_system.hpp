@@ -135,7 +135,7 @@ class bundled_system {
   /// Throws refusal for one that there is not, before any work is done.
   virtual void require_observable(const std::string& name) const = 0;
   virtual std::string default_observable() const = 0;
-  virtual const bath& its_bath() const = 0;
+  virtual const bath& heat_bath() const = 0;
 
   /// Where trajectories start. Before starts are prepared this is what is known without work.
   virtual std::string starts() const = 0;

@@ -67,29 +67,29 @@ const std::vector<maker>& makers() {
   return all;
 }
 
-bath bath_of(const bath_settings& its) {
-  if (its.sigma && its.temperature) {
+bath bath_of(const bath_settings& settings) {
+  if (settings.sigma && settings.temperature) {
     refuse("--sigma and --temperature say the same twice: give one (kT = sigma^2/(2 friction))");
   }
-  if (!its.friction) {
-    if (its.sigma) refuse("--sigma needs --friction, 0 for none");
-    if (its.temperature) refuse("--temperature needs --friction");
+  if (!settings.friction) {
+    if (settings.sigma) refuse("--sigma needs --friction, 0 for none");
+    if (settings.temperature) refuse("--temperature needs --friction");
     return bath::of_sigma(0.0, 0.0);
   }
-  if (!its.sigma && !its.temperature) {
+  if (!settings.sigma && !settings.temperature) {
     refuse("--friction needs --sigma or --temperature, 0 for damping alone");
   }
   const auto require = [](const char* option, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
     refuse("{} must be finite and not negative, got {}", option, value);
   };
-  require("--friction", *its.friction);
-  if (its.temperature) {
-    require("--temperature", *its.temperature);
-    return bath::of_temperature(*its.friction, *its.temperature);
+  require("--friction", *settings.friction);
+  if (settings.temperature) {
+    require("--temperature", *settings.temperature);
+    return bath::of_temperature(*settings.friction, *settings.temperature);
   }
-  require("--sigma", *its.sigma);
-  return bath::of_sigma(*its.friction, *its.sigma);
+  require("--sigma", *settings.sigma);
+  return bath::of_sigma(*settings.friction, *settings.sigma);
 }
 
 double spread_of(const std::optional<double>& asked, start where) {
@@ -101,8 +101,8 @@ double spread_of(const std::optional<double>& asked, start where) {
   return *asked;
 }
 
-start start_of(const std::string& asked, const bath& its) {
-  const bool is_warm = its.acts() && its.has_temperature() && its.temperature() > 0.0;
+start start_of(const std::string& asked, const bath& heat_bath) {
+  const bool is_warm = heat_bath.acts() && heat_bath.has_temperature() && heat_bath.temperature() > 0.0;
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law") return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
@@ -115,9 +115,9 @@ start start_of(const std::string& asked, const bath& its) {
 }
 
 surroundings surroundings_of(const system_settings& settings) {
-  const bath its = bath_of(settings.bath);
-  const start where = start_of(settings.start, its);
-  return {its, where, spread_of(settings.spread, where)};
+  const bath heat_bath = bath_of(settings.bath);
+  const start where = start_of(settings.start, heat_bath);
+  return {heat_bath, where, spread_of(settings.spread, where)};
 }
 
 }  // namespace

@@ -57,71 +57,71 @@ std::int64_t count_in(const json& head, const char* name, std::int64_t most) {
 
 checkpoint from(const json& head, std::string_view bytes) {
   constexpr std::int64_t most = std::int64_t{1} << 53U;
-  checkpoint its;
-  its.question = head.at("question");
-  its.at.first = count_in(head, "first", most);
-  its.at.wave.step = count_in(head, "step", most);
+  checkpoint state;
+  state.question = head.at("question");
+  state.at.first = count_in(head, "first", most);
+  state.at.wave.step = count_in(head, "step", most);
   for (const auto& step : head.at("wave")) {
     std::optional<std::int64_t> lost;
     if (!step.is_null()) lost = whole(step);
-    its.at.wave.diverged_at.push_back(lost);
+    state.at.wave.diverged_at.push_back(lost);
   }
   for (const auto& one : head.at("diverged")) {
-    its.lost.push_back({count_in(one, "trajectory", most), count_in(one, "step", most)});
+    state.lost.push_back({count_in(one, "trajectory", most), count_in(one, "step", most)});
   }
-  const std::int64_t trajectories = whole(its.question.at("trajectories"));
-  const std::int64_t steps = whole(its.question.at("steps"));
-  const std::int64_t step = its.at.wave.step;
+  const std::int64_t trajectories = whole(state.question.at("trajectories"));
+  const std::int64_t steps = whole(state.question.at("steps"));
+  const std::int64_t step = state.at.wave.step;
   const auto is_of_it = [&](const diverged_trajectory& one) {
     return one.trajectory < trajectories && one.step <= steps;
   };
-  if (its.at.first + std::ssize(its.at.wave.diverged_at) > trajectories || step > steps ||
-      (step % steps_between_checks != 0 && step != steps) || !std::ranges::all_of(its.lost, is_of_it)) {
+  if (state.at.first + std::ssize(state.at.wave.diverged_at) > trajectories || step > steps ||
+      (step % steps_between_checks != 0 && step != steps) || !std::ranges::all_of(state.lost, is_of_it)) {
     throw std::out_of_range("first");
   }
-  its.output = head.value("output", std::string());
-  its.written.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
-  its.written.crc = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
-  its.in_order = head.at("in_order").get<bool>();
-  its.finished = head.at("finished").get<bool>();
-  its.version = head.at("nysalt").get<std::string>();
-  auto& numbers = its.at.wave.numbers;
+  state.output = head.value("output", std::string());
+  state.written.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
+  state.written.crc = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
+  state.in_order = head.at("in_order").get<bool>();
+  state.finished = head.at("finished").get<bool>();
+  state.version = head.at("nysalt").get<std::string>();
+  auto& numbers = state.at.wave.numbers;
   numbers.resize(bytes.size() / sizeof(double));
-  const std::size_t wave = std::max<std::size_t>(its.at.wave.diverged_at.size(), 1);
+  const std::size_t wave = std::max<std::size_t>(state.at.wave.diverged_at.size(), 1);
   if (numbers.size() * sizeof(double) != bytes.size() || numbers.size() % wave != 0) {
     throw std::out_of_range("numbers");
   }
   if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());  // of none there is no address
-  return its;
+  return state;
 }
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file, const checkpoint& its) {
+void write_checkpoint(const std::filesystem::path& file, const checkpoint& state) {
   json wave = json::array();
-  for (const auto& step : its.at.wave.diverged_at) wave.push_back(step ? json(*step) : json(nullptr));
+  for (const auto& step : state.at.wave.diverged_at) wave.push_back(step ? json(*step) : json(nullptr));
   json diverged = json::array();
-  for (const auto& one : its.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
+  for (const auto& one : state.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
   const json head{{"format", format},
                   {"version", format_version},
                   {"nysalt", version},
-                  {"question", its.question},
-                  {"first", its.at.first},
-                  {"step", its.at.wave.step},
+                  {"question", state.question},
+                  {"first", state.at.first},
+                  {"step", state.at.wave.step},
                   {"wave", wave},
                   {"diverged", diverged},
-                  {"output", its.output},
-                  {"length", its.written.length},
-                  {"sum", its.written.crc},
-                  {"in_order", its.in_order},
-                  {"finished", its.finished}};
-  const auto& numbers = its.at.wave.numbers;
+                  {"output", state.output},
+                  {"length", state.written.length},
+                  {"sum", state.written.crc},
+                  {"in_order", state.in_order},
+                  {"finished", state.finished}};
+  const auto& numbers = state.at.wave.numbers;
   std::string text = head.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const std::size_t at = text.size();
   text.resize(at + numbers.size() * sizeof(double));
   if (!numbers.empty()) std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
   text += last_line(text);
-  atomic_file out(file, "next");  // one process writes it: a kill leaves one such file at most
+  atomic_file out(file, "next");  // one process writes checkpoints: a kill leaves one such file at most
   out.write(text);
   out.commit(true);
 }
@@ -137,10 +137,10 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (head.is_discarded()) {
     refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
   }
-  const json its_version = head.value("version", json());
-  if (its_version.is_number_integer() && its_version > format_version) {
+  const json file_version = head.value("version", json());
+  if (file_version.is_number_integer() && file_version > format_version) {
     refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
-           file.string(), its_version.dump(), format_version);
+           file.string(), file_version.dump(), format_version);
   }
   const std::size_t last_length = last_line("").size();
   if (text.size() < last_length) refuse_broken(file);
@@ -154,21 +154,22 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
   }
 }
 
-void require_question(const checkpoint& its, const json& question, const std::filesystem::path& file) {
-  if (its.question == question) return;
+void require_question(const checkpoint& state, const json& question, const std::filesystem::path& file) {
+  if (state.question == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {
-    if (its.question.is_object() && its.question.contains(name) && its.question[name] == value) continue;
+    if (state.question.is_object() && state.question.contains(name) && state.question[name] == value)
+      continue;
     changed += changed.empty() ? name : ", " + name;
   }
   refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),
          changed.empty() ? "it has more" : changed);
 }
 
-void warn_of_version(const checkpoint& its, const std::filesystem::path& file) {
-  if (its.version.empty() || its.version == version) return;
+void warn_of_version(const checkpoint& state, const std::filesystem::path& file) {
+  if (state.version.empty() || state.version == version) return;
   warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
-                   file.string(), its.version, version));
+                   file.string(), state.version, version));
 }
 
 }  // namespace nysalt::program

@@ -19,9 +19,9 @@ class collected {
  public:
   void add(std::string_view key, const std::string& reason) {
     if (key.empty()) return;
-    auto its = std::ranges::find(all_, key, &citation::key);
-    if (its == all_.end()) its = all_.insert(all_.end(), {std::string(key), {}});
-    if (std::ranges::find(its->reasons, reason) == its->reasons.end()) its->reasons.push_back(reason);
+    auto work = std::ranges::find(all_, key, &citation::key);
+    if (work == all_.end()) work = all_.insert(all_.end(), {std::string(key), {}});
+    if (std::ranges::find(work->reasons, reason) == work->reasons.end()) work->reasons.push_back(reason);
   }
   std::vector<citation> all() && { return std::move(all_); }
 
@@ -51,29 +51,29 @@ void add_metric(const std::string& typed, collected& to) {
 }
 
 /// Whatever is learned or measured asks a reference: small steps, or the exact flow of a linear system.
-void add_reference(const cited_setup& its, collected& to) {
-  const bool is_exact = its.system == "oscillator" || its.system == "linear_chain";
-  if (its.in_bath) {
+void add_reference(const cited_setup& setup, collected& to) {
+  const bool is_exact = setup.system == "oscillator" || setup.system == "linear_chain";
+  if (setup.in_bath) {
     to.add(source_of_method("baoab"), "the reference");
   } else if (!is_exact) {
     to.add(source_of_method("srkn11b"), "the reference");
   }
 }
 
-void add_setup(const cited_setup& its, collected& to) {
-  if (!its.system.empty()) to.add(source_of_system(its.system), "the system " + its.system);
-  for (const auto& name : its.methods) to.add(source_of_method(name), name);
-  for (const auto& name : its.families) to.add(source_of_family(name), "the family " + name);
-  for (const auto& name : its.learned) {
+void add_setup(const cited_setup& setup, collected& to) {
+  if (!setup.system.empty()) to.add(source_of_system(setup.system), "the system " + setup.system);
+  for (const auto& name : setup.methods) to.add(source_of_method(name), name);
+  for (const auto& name : setup.families) to.add(source_of_family(name), "the family " + name);
+  for (const auto& name : setup.learned) {
     to.add(paper, "learning the integrator");
     to.add(source_of_family(name), "the family " + name);
     to.add("ceres", "the search for parameters");
   }
-  for (const auto& metric : its.metrics) add_metric(metric, to);
-  if (!its.learned.empty() || !its.metrics.empty()) add_reference(its, to);
-  if (its.in_bath) to.add("leimkuhler_matthews_2015", "Langevin dynamics by splitting");
-  if (its.in_bath || !its.system.empty()) {
-    const std::string reason = its.in_bath ? "random starts and noise" : "random starts";
+  for (const auto& metric : setup.metrics) add_metric(metric, to);
+  if (!setup.learned.empty() || !setup.metrics.empty()) add_reference(setup, to);
+  if (setup.in_bath) to.add("leimkuhler_matthews_2015", "Langevin dynamics by splitting");
+  if (setup.in_bath || !setup.system.empty()) {
+    const std::string reason = setup.in_bath ? "random starts and noise" : "random starts";
     to.add("salmon_2011", reason);
     to.add("box_muller_1958", reason);
   }
@@ -84,7 +84,7 @@ void add_setup(const cited_setup& its, collected& to) {
 std::vector<citation> citations_for(const std::vector<cited_setup>& setups) {
   collected works;
   works.add(paper, "nysalt");
-  for (const auto& its : setups) add_setup(its, works);
+  for (const auto& setup : setups) add_setup(setup, works);
   works.add("eigen", "vectors");
   return std::move(works).all();
 }

@@ -17,8 +17,9 @@ namespace nysalt::program {
 void require_fitting(const compare_command& command, const std::function<bool(const char*)>& is_given) {
   const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
     const auto is_of_these = [&](const std::string& text) {
-      const bool names_its_own = std::string(option) == "--observable" && text.find(':') != std::string::npos;
-      return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_its_own;
+      const bool names_observable =
+          std::string(option) == "--observable" && text.find(':') != std::string::npos;
+      return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_observable;
     };
     if (!is_given(option) || std::ranges::any_of(command.metrics, is_of_these)) return;
     refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(command.metrics));
@@ -39,8 +40,8 @@ comparison::comparison(const compare_command& command, const common_settings& co
 }
 
 bool comparison::has_result() const {
-  return std::ranges::any_of(rows_, [](const row& its) {
-    return std::ranges::any_of(its.findings, [](const finding& one) { return one.reason.empty(); });
+  return std::ranges::any_of(rows_, [](const row& line) {
+    return std::ranges::any_of(line.findings, [](const finding& one) { return one.reason.empty(); });
   });
 }
 
@@ -69,7 +70,7 @@ void comparison::require_sound_command() const {
   require_once("--steps", command_.steps, as_it_is);
   require_once("--levels", command_.levels, as_it_is);
   require_once("--methods", command_.methods, as_it_is);
-  require_once("--metric", metrics_, [](const asked_metric& its) { return its.text(); });
+  require_once("--metric", metrics_, [](const asked_metric& metric) { return metric.text(); });
   require_at_least_one("--trajectories", command_.trajectories);
   require_sound(command_.learning, "--learn-");
   if (std::ranges::any_of(metrics_, &asked_metric::is_of_law)) require_sound_statistics();
@@ -100,8 +101,8 @@ void comparison::plan_rows() {
     for (const auto& source : sources) add_row(source, nominal);
   }
   for (const auto& source : sources) {
-    const auto is_its = [&](const row& its) { return its.method == source.typed; };
-    if (std::ranges::any_of(rows_, is_its)) continue;
+    const auto is_of_source = [&](const row& line) { return line.method == source.typed; };
+    if (std::ranges::any_of(rows_, is_of_source)) continue;
     if (!source.learned) refuse("{}", warnings_.back());
     const double evaluations = command_.equal_cost ? source.evaluations_per_step : 1.0;
     refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
@@ -120,7 +121,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   planned.is_learned = source.family || source.learned;
   planned.findings.resize(metrics_.size());
   const auto otherwise = placement_asked(command_.placement);
-  const bool is_noisy = system_->its_bath().acts() && system_->its_bath().sigma() > 0.0;
+  const bool is_noisy = system_->heat_bath().acts() && system_->heat_bath().sigma() > 0.0;
   int parts = 1;
   bool symmetric = false;
   if (source.family) {
@@ -144,7 +145,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   }
   for (std::size_t m = 0; m < metrics_.size(); ++m) {
     const asked_metric& metric = metrics_[m];
-    if (metric.is_acceptance() && !symmetric && !system_->its_bath().acts()) {
+    if (metric.is_acceptance() && !symmetric && !system_->heat_bath().acts()) {
       refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method",
              source.typed);
     }
@@ -180,8 +181,8 @@ std::string comparison::too_few_samples(const asked_metric& metric, double step)
 }
 
 void comparison::require_enough_samples() const {
-  const auto has_none = [](const row& its) {
-    return std::ranges::none_of(its.findings, [](const finding& one) { return one.reason.empty(); });
+  const auto has_none = [](const row& line) {
+    return std::ranges::none_of(line.findings, [](const finding& one) { return one.reason.empty(); });
   };
   if (std::ranges::all_of(rows_, has_none)) refuse("{}", rows_.front().findings.front().reason);
 }
@@ -198,11 +199,11 @@ json as_json(const learn_settings& how) {
           {"random_starts", how.random_starts}};
 }
 
-json as_json(const row& its) {
-  json result{{"method", its.method}, {"step", its.nominal}, {"step_size", its.step}};
-  if (!its.coefficients) return result;
-  result["letters"] = its.coefficients->letters().letters();
-  result["coefficients"] = its.coefficients->coefficients();
+json as_json(const row& line) {
+  json result{{"method", line.method}, {"step", line.nominal}, {"step_size", line.step}};
+  if (!line.coefficients) return result;
+  result["letters"] = line.coefficients->letters().letters();
+  result["coefficients"] = line.coefficients->coefficients();
   return result;
 }
 
@@ -212,7 +213,7 @@ json comparison::asked() const {
   json metrics = json::array();
   for (const auto& metric : metrics_) metrics.push_back(metric.text());
   json rows = json::array();
-  for (const auto& its : rows_) rows.push_back(as_json(its));
+  for (const auto& line : rows_) rows.push_back(as_json(line));
   return {{"program", fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags)},
           {"system", system_->parameters()},
           {"starts", {command_.system.start, system_->starts()}},

@@ -30,7 +30,7 @@ struct row {
   bool is_learned = false;
   bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
   std::optional<tabulated> coefficients{};
-  std::string reason{};  // why it could not be used
+  std::string reason{};  // why the method could not be used
   double evaluations_per_time = 0.0;
   timed_job seconds_per_time{};
   std::vector<finding> findings{};  // by each metric
@@ -76,7 +76,7 @@ class comparison {
   void name_metrics();
   void require_sound_command() const;
   void require_sound_statistics() const;
-  /// 0.5, or as long as the largest step needs it to be.
+  /// 0.5, or as long as the largest step needs the horizon to be.
   double usual_horizon(const std::vector<method_source>& sources) const;
   void plan_rows();
   void add_row(const method_source& source, double nominal);
@@ -87,13 +87,13 @@ class comparison {
   void require_enough_samples() const;
   json asked() const;
   void expect_work();
-  double work_of_learning(const row& its) const;
+  double work_of_learning(const row& line) const;
   double work_of_paths(const group& all) const;
   double work_of_law(double evaluations_per_time) const;
-  double work_of_reference() const;                   // of one ensemble for a law
-  double evaluations_expected(const row& its) const;  // by unit time, without the start
+  double work_of_reference() const;                    // of one ensemble for a law
+  double evaluations_expected(const row& line) const;  // by unit time, without the start
 
-  void learn(row& its, journal& kept);
+  void learn(row& line, journal& kept);
   void measure_paths(double step, const group& all, journal& kept);
   std::vector<asked_metric> along_paths() const;
   /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
@@ -108,7 +108,7 @@ class comparison {
   const std::vector<gathered_statistics>& references_at(std::size_t metric, double step);
   std::optional<double> null_model_of_law(std::size_t metric, double step, const drawn_law& law);
   backdrop behind_law(std::size_t metric, double step);
-  finding law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all);
+  finding law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all);
   void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
   void measure_seconds();
   void judge_steps();
@@ -132,9 +132,9 @@ class comparison {
 };
 
 /// The results of a comparison for machines, and for people.
-json document_of(const comparison& its);
-std::string readable(const comparison& its);
+json document_of(const comparison& all);
+std::string readable(const comparison& all);
 /// Report, table and pictures in a folder.
-void write_report(const comparison& its, const std::filesystem::path& folder);
+void write_report(const comparison& all, const std::filesystem::path& folder);
 
 }  // namespace nysalt::program

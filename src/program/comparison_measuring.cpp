@@ -18,8 +18,8 @@ namespace {
 
 std::vector<row*> usable(const std::vector<row*>& all) {
   std::vector<row*> result;
-  for (row* its : all) {
-    if (its->reason.empty()) result.push_back(its);
+  for (row* line : all) {
+    if (line->reason.empty()) result.push_back(line);
   }
   return result;
 }
@@ -33,20 +33,22 @@ void comparison::learn_and_measure(journal& kept) {
     if (of_energies) warnings_.push_back(*of_energies);
   }
   expect_work();
-  for (auto& its : rows_) {
-    if (families_.contains(its.method)) learn(its, kept);
+  for (auto& line : rows_) {
+    if (families_.contains(line.method)) learn(line, kept);
   }
   std::map<double, group> by_step;  // rows at one step share the reference
-  for (auto& its : rows_) {
-    by_step[its.step].push_back(&its);
-    const auto plan = plan_at(its.step);
-    const auto evaluations = static_cast<double>(system_->count_evaluations(*its.coefficients, plan));
-    its.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
-    if (its.reason.empty()) continue;
-    for (finding& one : its.findings) one.reason = its.reason;
+  for (auto& line : rows_) {
+    by_step[line.step].push_back(&line);
+    const auto plan = plan_at(line.step);
+    const auto evaluations = static_cast<double>(system_->count_evaluations(*line.coefficients, plan));
+    line.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
+    if (line.reason.empty()) continue;
+    for (finding& one : line.findings) one.reason = line.reason;
   }
   for (const auto& [step, all] : by_step) {
-    const auto has_samples = [&](const asked_metric& its) { return too_few_samples(its, step).empty(); };
+    const auto has_samples = [&](const asked_metric& metric) {
+      return too_few_samples(metric, step).empty();
+    };
     if (std::ranges::any_of(along_paths(), has_samples)) measure_paths(step, usable(all), kept);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {
       if (!has_samples(metrics_[m])) continue;
@@ -55,51 +57,51 @@ void comparison::learn_and_measure(journal& kept) {
     }
   }
   judge_steps();
-  if (!command_.output.empty() && !system_->its_bath().acts()) follow_energies(kept);
+  if (!command_.output.empty() && !system_->heat_bath().acts()) follow_energies(kept);
   measure_seconds();
   shown_.clear();
   for (const auto& text : warnings_of_reference(*this)) warnings_.push_back(text);
 }
 
-/// In force evaluations, roughly: what is left of the time is told by it.
+/// The work in force evaluations, roughly: what is left of the time is told by it.
 void comparison::expect_work() {
   double work = 0.0;
   std::map<double, group> by_step;
-  for (auto& its : rows_) {
-    by_step[its.step].push_back(&its);
-    if (families_.contains(its.method)) work += work_of_learning(its);
+  for (auto& line : rows_) {
+    by_step[line.step].push_back(&line);
+    if (families_.contains(line.method)) work += work_of_learning(line);
   }
   for (const auto& [step, all] : by_step) {
     if (!along_paths().empty()) work += work_of_paths(all);
     for (const asked_metric& metric : metrics_) {
       if (!metric.is_of_law()) continue;
       work += 6.0 * work_of_reference();
-      for (const row* its : all) work += work_of_law(evaluations_expected(*its));
+      for (const row* line : all) work += work_of_law(evaluations_expected(*line));
     }
   }
   shown_.expect(work);
 }
 
-double comparison::evaluations_expected(const row& its) const {
-  const auto family = families_.find(its.method);
+double comparison::evaluations_expected(const row& line) const {
+  const auto family = families_.find(line.method);
   const int each = family != families_.end() ? family->second.evaluations_per_step
-                                             : its.coefficients->letters().evaluations_per_step;
-  return each / its.step;
+                                             : line.coefficients->letters().evaluations_per_step;
+  return each / line.step;
 }
 
 /// A search takes some 0.2 s with two parameters and 6 s with six, whatever the data: as much as a few 10^7
 /// evaluations, times the cube of their number.
-double comparison::work_of_learning(const row& its) const {
-  const auto parameters = static_cast<double>(family_named(*families_.at(its.method).family).parameters());
+double comparison::work_of_learning(const row& line) const {
+  const auto parameters = static_cast<double>(family_named(*families_.at(line.method).family).parameters());
   const learn_settings& how = command_.learning;
-  const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon_at(its.step);
+  const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon_at(line.step);
   const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
-  return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_expected(its));
+  return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_expected(line));
 }
 
 double comparison::work_of_paths(const group& all) const {
   double each = 2.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
-  for (const row* its : all) each += evaluations_expected(*its);
+  for (const row* line : all) each += evaluations_expected(*line);
   return each * horizon_ * static_cast<double>(command_.trajectories);
 }
 
@@ -111,29 +113,29 @@ double comparison::work_of_reference() const {
   return work_of_law(system_->fastest_rate() / fine_angle * reference_evaluations);
 }
 
-void comparison::learn(row& its, journal& kept) {
-  const method_source& source = families_.at(its.method);
+void comparison::learn(row& line, journal& kept) {
+  const method_source& source = families_.at(line.method);
   const auto where = placement_in(source, *system_, placement_asked(command_.placement));
-  const std::string part = fmt::format("{} learned at {}", its.method, its.step);
-  if (kept.has(part)) shown_.skip(work_of_learning(its));
+  const std::string part = fmt::format("{} learned at {}", line.method, line.step);
+  if (kept.has(part)) shown_.skip(work_of_learning(line));
   const json found = kept.once(part, [&] {
-    const learn_plan plan = plan_for(*source.family, where, its.step, command_.learning, common_);
-    const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(its));
-    json fit{{"method", its.method}};
+    const learn_plan plan = plan_for(*source.family, where, line.step, command_.learning, common_);
+    const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(line));
+    json fit{{"method", line.method}};
     fit.update(fit_json(learned.fit));
     return json{{"fit", fit}, {"theta", theta_of(learned.fit)}};
   });
   fits_.push_back(found.at("fit"));
   const run_time_family family = placed(*source.family, where);
   const auto theta = found.at("theta").get<std::vector<double>>();
-  const Eigen::VectorXd its_theta = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
-  its.coefficients.emplace(
-      family.name, family.letters, family.coefficients(its_theta),
+  const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  line.coefficients.emplace(
+      family.name, family.letters, family.coefficients(parameters),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
-  its.gains_nothing = found.at("fit").at("verdict") == std::string(to_string(verdict::nothing_gained));
+  line.gains_nothing = found.at("fit").at("verdict") == std::string(to_string(verdict::nothing_gained));
   if (found.at("fit").at("usable").get<bool>()) return;
-  its.reason = "the fit is not usable: ";
-  its.reason += found.at("fit").at("reason").get<std::string>();
+  line.reason = "the fit is not usable: ";
+  line.reason += found.at("fit").at("reason").get<std::string>();
 }
 
 std::vector<asked_metric> comparison::along_paths() const {
@@ -150,8 +152,9 @@ double comparison::refinement(const errors_plan& pilot, const std::vector<tabula
   double most = 0.0;
   for (const auto& found : system_->errors(methods, pilot, {})) {
     if (!found.reference_error) continue;
-    for (const method_error& its : found.methods) {
-      if (!std::isnan(its.error.mean)) most = std::max(most, found.reference_error->mean / its.error.mean);
+    for (const method_error& method : found.methods) {
+      if (!std::isnan(method.error.mean))
+        most = std::max(most, found.reference_error->mean / method.error.mean);
     }
   }
   return std::pow(most / share, 1.0 / order);
@@ -164,7 +167,7 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
   const auto ranking = system_->fine_step_for_ranking(step);
   const auto paths = along_paths();
   const bool needs_one =
-      std::ranges::any_of(paths, [](const asked_metric& its) { return its.name != "energy"; });
+      std::ranges::any_of(paths, [](const asked_metric& metric) { return metric.name != "energy"; });
   if (!ranking || !needs_one) return std::nullopt;
   constexpr double coarser = 4.0;
   constexpr double usual = 10.0;  // is so many times finer than for ranking
@@ -176,7 +179,7 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
     pilot.fine_step = step / parts;
     const double finer = refinement(pilot, methods);
     if (finer <= 1.0) return pilot.fine_step;
-    constexpr double least = 1.3;  // where chaos hides how much finer it must be
+    constexpr double least = 1.3;  // where chaos hides how much finer the reference must be
     parts = std::ceil(std::max(finer, least) * parts);
   }
   return std::nullopt;
@@ -186,9 +189,9 @@ namespace {
 
 json findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
   json result = json::array();
-  for (const method_error& its : all) {
-    finding one{.value = its.error, .spread = its.spread, .groups = means_of_groups(its.of_each)};
-    one.lose(its.diverged_at, trajectories);
+  for (const method_error& method : all) {
+    finding one{.value = method.error, .spread = method.spread, .groups = means_of_groups(method.of_each)};
+    one.lose(method.diverged_at, trajectories);
     result.push_back(to_json(one));
   }
   return result;
@@ -204,13 +207,13 @@ bool is_conserved(const trajectory_errors_result& found) {
 }
 
 json backdrop_json(const trajectory_errors_result& found) {
-  backdrop its{.reference = found.reference};
-  if (found.reference_error) its.reference_error = found.reference_error->mean;
+  backdrop result{.reference = found.reference};
+  if (found.reference_error) result.reference_error = found.reference_error->mean;
   if (!is_conserved(found)) {
-    if (found.null_model) its.null_model = found.null_model->mean;
-    its.predictable_until = found.predictable_until;
+    if (found.null_model) result.null_model = found.null_model->mean;
+    result.predictable_until = found.predictable_until;
   }
-  return to_json(its);
+  return to_json(result);
 }
 
 }  // namespace
@@ -232,7 +235,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
   }
   const json found = kept.once(part, [&] {
     std::vector<tabulated> methods;
-    for (const row* its : all) methods.push_back(*its->coefficients);
+    for (const row* line : all) methods.push_back(*line->coefficients);
     constexpr double perturbation = 1e-6;
     const errors_plan plan{.trajectories = paths_at(step),
                            .metrics = along_paths(),
@@ -240,9 +243,9 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .null_model = true,
                            .perturbation = perturbation};
     json result = json::array();
-    for (const auto& its : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
-      result.push_back(
-          {{"behind", backdrop_json(its)}, {"findings", findings_of(its.methods, command_.trajectories)}});
+    for (const auto& errors : system_->errors(methods, plan, shown_.counter(command_.trajectories))) {
+      result.push_back({{"behind", backdrop_json(errors)},
+                        {"findings", findings_of(errors.methods, command_.trajectories)}});
     }
     return result;
   });
@@ -256,8 +259,8 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
   shown_.part(fmt::format("acceptance at step {:g}", step));
   const json found = kept.once(fmt::format("{} at {}", metrics_[metric].text(), step), [&] {
     json findings = json::array();
-    for (const row* its : all) {
-      const auto accepted = system_->acceptance(*its->coefficients, plan_at(step), command_.hmc_temperature,
+    for (const row* line : all) {
+      const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), command_.hmc_temperature,
                                                 shown_.counter(command_.trajectories));
       finding one{.value = accepted.probability, .groups = means_of_groups(accepted.of_each)};
       one.lose(accepted.diverged_at, command_.trajectories);
@@ -272,8 +275,8 @@ void comparison::measure_seconds() {
   constexpr double all_rounds = 4.0;
   shown_.part("timing");
   std::vector<timed_method> methods;
-  for (const auto& its : rows_) {
-    methods.push_back({*its.coefficients, plan_at(its.step), its.evaluations_per_time});
+  for (const auto& line : rows_) {
+    methods.push_back({*line.coefficients, plan_at(line.step), line.evaluations_per_time});
   }
   const auto seconds = seconds_per_time(*system_, methods, all_rounds);
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].seconds_per_time = seconds[i];

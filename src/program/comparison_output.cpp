@@ -42,9 +42,9 @@ distribution_of_errors no_spread() {
   return none;
 }
 
-std::string joined_marks(const comparison& all, std::size_t m, const row& its) {
+std::string joined_marks(const comparison& all, std::size_t m, const row& line) {
   std::string text;
-  for (const mark one : marks_of(all, m, its)) {
+  for (const mark one : marks_of(all, m, line)) {
     if (!text.empty()) text += ' ';
     text += to_string(one);
   }
@@ -69,12 +69,12 @@ table rows_of(const comparison& all, std::size_t m) {
   const auto shown = [&](double x) {
     return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
   };
-  for (const row& its : all.rows()) {
-    const finding& one = its.findings[m];
-    const timed_job& seconds = its.seconds_per_time;
-    std::vector<std::string> cells{its.method,
-                                   fmt::format("{:g}", its.nominal),
-                                   fmt::format("{:.1f}", its.evaluations_per_time),
+  for (const row& line : all.rows()) {
+    const finding& one = line.findings[m];
+    const timed_job& seconds = line.seconds_per_time;
+    std::vector<std::string> cells{line.method,
+                                   fmt::format("{:g}", line.nominal),
+                                   fmt::format("{:.1f}", line.evaluations_per_time),
                                    fmt::format("{:.0f}", 1e9 * seconds.least),
                                    fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
                                    shown(one.value.mean),
@@ -88,8 +88,8 @@ table rows_of(const comparison& all, std::size_t m) {
                                : "-");
     }
     cells.push_back(fmt::format("{}/{}", one.diverged, all.command().trajectories));
-    cells.push_back(text_of_margin(its.margin));
-    cells.push_back(joined_marks(all, m, its));
+    cells.push_back(text_of_margin(line.margin));
+    cells.push_back(joined_marks(all, m, line));
     result.add(cells);
   }
   for (const auto& [name, value] : free_of_cost(all, m)) {
@@ -105,8 +105,8 @@ std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, 
   std::vector<std::pair<std::string, double>> result;
   const auto add = [&](const char* name, std::optional<double> backdrop::*field) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [key, its] : all.behind()) {
-      if (key.first == m) least = std::min(least, (its.*field).value_or(least));
+    for (const auto& [key, context] : all.behind()) {
+      if (key.first == m) least = std::min(least, (context.*field).value_or(least));
     }
     if (std::isfinite(least)) result.emplace_back(name, least);
   };
@@ -120,7 +120,7 @@ std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m)
   for (const mark one :
        {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::formula, mark::diverged}) {
     const bool is_there = std::ranges::any_of(
-        all.rows(), [&](const row& its) { return std::ranges::count(marks_of(all, m, its), one) > 0; });
+        all.rows(), [&](const row& line) { return std::ranges::count(marks_of(all, m, line), one) > 0; });
     if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));
   }
   return result;
@@ -135,25 +135,25 @@ struct span_of_steps {
   backdrop worst;
 };
 
-void worsen(backdrop& all, const backdrop& its) {
+void worsen(backdrop& all, const backdrop& context) {
   const auto take = [](std::optional<double>& a, const std::optional<double>& b, bool larger) {
     if (!a || (b && (larger ? *b > *a : *b < *a))) a = b;
   };
-  take(all.reference_error, its.reference_error, true);
-  take(all.null_model, its.null_model, false);
-  take(all.floor, its.floor, true);
-  take(all.predictable_until, its.predictable_until, false);
+  take(all.reference_error, context.reference_error, true);
+  take(all.null_model, context.null_model, false);
+  take(all.floor, context.floor, true);
+  take(all.predictable_until, context.predictable_until, false);
 }
 
 std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
   std::vector<span_of_steps> result;
-  for (const auto& [key, its] : all.behind()) {
-    if (key.first != m || its.reference.empty()) continue;
-    if (result.empty() || result.back().worst.reference != its.reference) {
-      result.push_back({key.second, key.second, its});
+  for (const auto& [key, context] : all.behind()) {
+    if (key.first != m || context.reference.empty()) continue;
+    if (result.empty() || result.back().worst.reference != context.reference) {
+      result.push_back({key.second, key.second, context});
     }
     result.back().to = key.second;
-    worsen(result.back().worst, its);
+    worsen(result.back().worst, context);
   }
   return result;
 }
@@ -166,21 +166,22 @@ table backdrops_of(const comparison& all, std::size_t m) {
                 "null model, at least", is_of_law ? "floor of sampling" : "predictable until"},
                2);
   const auto shown = [](const std::optional<double>& x) { return x ? in_short(*x) : std::string("-"); };
-  for (const auto& [from, to, its] : spans_of(all, m)) {
-    const auto until = its.predictable_until;
+  for (const auto& [from, to, worst] : spans_of(all, m)) {
+    const auto until = worst.predictable_until;
     const std::string horizon = !until ? "-" : std::isinf(*until) ? "the end" : fmt::format("{:g}", *until);
-    result.add({from == to ? fmt::format("{:g}", from) : fmt::format("{:g} to {:g}", from, to), its.reference,
-                shown(its.reference_error), shown(its.null_model), is_of_law ? shown(its.floor) : horizon});
+    result.add({from == to ? fmt::format("{:g}", from) : fmt::format("{:g} to {:g}", from, to),
+                worst.reference, shown(worst.reference_error), shown(worst.null_model),
+                is_of_law ? shown(worst.floor) : horizon});
   }
   return result;
 }
 
 /// To the first digit of the error: 125 ± 10, 48.4 ± 0.5.
-std::string with_error(const estimate& its) {
-  if (std::isnan(its.mean)) return "-";
-  if (!(its.standard_error > 0.0)) return fmt::format("{:.4g}", its.mean);
-  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(its.standard_error))));
-  return fmt::format("{0:.{2}f} ± {1:.{2}f}", its.mean, its.standard_error, decimals);
+std::string with_error(const estimate& value) {
+  if (std::isnan(value.mean)) return "-";
+  if (!(value.standard_error > 0.0)) return fmt::format("{:.4g}", value.mean);
+  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(value.standard_error))));
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", value.mean, value.standard_error, decimals);
 }
 
 table equal_cost_table(const comparison& all, std::size_t m) {
@@ -203,10 +204,10 @@ table equal_cost_table(const comparison& all, std::size_t m) {
 
 std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
-  for (const row& its : all.rows()) {
-    const std::string& reason = its.findings[m].reason;
+  for (const row& line : all.rows()) {
+    const std::string& reason = line.findings[m].reason;
     if (!reason.empty())
-      result.push_back(fmt::format("{} at step {:g}: {}", its.method, its.nominal, reason));
+      result.push_back(fmt::format("{} at step {:g}: {}", line.method, line.nominal, reason));
   }
   return result;
 }
@@ -215,25 +216,25 @@ namespace {
 
 json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? json(*x) : json(nullptr); }
 
-json row_json(const comparison& all, std::size_t m, const row& its) {
+json row_json(const comparison& all, std::size_t m, const row& line) {
   const asked_metric& metric = all.metrics()[m];
-  const finding& one = its.findings[m];
-  const backdrop& against = behind(all, m, its);
+  const finding& one = line.findings[m];
+  const backdrop& against = behind(all, m, line);
   json marks = json::array();
-  for (const mark found : marks_of(all, m, its)) marks.push_back(to_string(found));
+  for (const mark found : marks_of(all, m, line)) marks.push_back(to_string(found));
   json result{{"metric", metric.text()},
-              {"method", its.method},
-              {"step", its.nominal},
-              {"step_size", its.step},
-              {"evaluations_per_time", its.evaluations_per_time},
-              {"seconds_per_time", its.seconds_per_time.least},
-              {"seconds_per_time_median", its.seconds_per_time.median},
+              {"method", line.method},
+              {"step", line.nominal},
+              {"step_size", line.step},
+              {"evaluations_per_time", line.evaluations_per_time},
+              {"seconds_per_time", line.seconds_per_time.least},
+              {"seconds_per_time_median", line.seconds_per_time.median},
               {metric.value(), one.value.mean},
               {"standard_error", one.value.standard_error},
               {"survivors", all.command().trajectories - one.diverged},
               {"diverged", one.diverged},
               {"diverged_at", to_json(one.diverged_at)},
-              {"stability_margin", number(its.margin)},
+              {"stability_margin", number(line.margin)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
   if (!one.reason.empty()) result["reason"] = one.reason;
@@ -261,37 +262,37 @@ json row_json(const comparison& all, std::size_t m, const row& its) {
 
 json references_json(const comparison& all) {
   json result = json::array();
-  for (const auto& [key, its] : all.behind()) {
-    if (its.reference.empty()) continue;
+  for (const auto& [key, context] : all.behind()) {
+    if (context.reference.empty()) continue;
     json one{{"metric", all.metrics()[key.first].text()},
              {"step_size", key.second},
-             {"reference", its.reference},
-             {"error", number(its.reference_error)},
-             {"null_model", number(its.null_model)}};
-    if (its.predictable_until) one["predictable_until"] = number(its.predictable_until);
-    if (its.floor) one["floor"] = *its.floor;
-    if (its.law) one["mean"] = its.law->mean.mean;
-    if (its.law && its.law->kinetic_temperature) {
-      one["kinetic_temperature"] = *its.law->kinetic_temperature;
-      one["half_step_kinetic_temperature"] = *its.law->half_step_kinetic_temperature;
+             {"reference", context.reference},
+             {"error", number(context.reference_error)},
+             {"null_model", number(context.null_model)}};
+    if (context.predictable_until) one["predictable_until"] = number(context.predictable_until);
+    if (context.floor) one["floor"] = *context.floor;
+    if (context.law) one["mean"] = context.law->mean.mean;
+    if (context.law && context.law->kinetic_temperature) {
+      one["kinetic_temperature"] = *context.law->kinetic_temperature;
+      one["half_step_kinetic_temperature"] = *context.law->half_step_kinetic_temperature;
     }
     result.push_back(one);
   }
   return result;
 }
 
-json crossing_json(const threshold_crossing& its) {
+json crossing_json(const threshold_crossing& crossing) {
   constexpr std::array kinds{"found", "bracketed", "below all", "above from first"};
-  return {{"kind", kinds[static_cast<std::size_t>(its.kind)]},
-          {"at", its.x},
-          {"standard_error", number(its.standard_error)}};
+  return {{"kind", kinds[static_cast<std::size_t>(crossing.kind)]},
+          {"at", crossing.x},
+          {"standard_error", number(crossing.standard_error)}};
 }
 
 json rankings_json(const comparison& all) {
   json result = json::array();
   const auto named = [](const std::vector<const row*>& rows) {
     json names = json::array();
-    for (const row* its : rows) names.push_back({{"method", its->method}, {"step", its->nominal}});
+    for (const row* line : rows) names.push_back({{"method", line->method}, {"step", line->nominal}});
     return names;
   };
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
@@ -299,10 +300,10 @@ json rankings_json(const comparison& all) {
     for (const double level : levels_for(all, m)) {
       if (all.metrics()[m].is_acceptance()) break;
       json costs = json::array();
-      for (const cost_at_level& its : costs_at(all, m, level)) {
-        costs.push_back({{"method", its.method},
-                         {"evaluations_per_time", crossing_json(its.evaluations)},
-                         {"seconds_per_time", crossing_json(its.seconds)}});
+      for (const cost_at_level& cost : costs_at(all, m, level)) {
+        costs.push_back({{"method", cost.method},
+                         {"evaluations_per_time", crossing_json(cost.evaluations)},
+                         {"seconds_per_time", crossing_json(cost.seconds)}});
       }
       levels.push_back({{"level", level}, {"methods", costs}});
     }
@@ -323,7 +324,7 @@ json document_of(const comparison& all) {
   json rows = json::array();
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     metrics.push_back(all.metrics()[m].text());
-    for (const row& its : all.rows()) rows.push_back(row_json(all, m, its));
+    for (const row& line : all.rows()) rows.push_back(row_json(all, m, line));
   }
   json result{{"system", all.system().description()},
               {"starts", all.system().starts()},
@@ -375,18 +376,18 @@ std::string csv_of(const comparison& all) {
                 "enough_trajectories",
                 "stability_margin"});
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    for (const row& its : all.rows()) {
-      const finding& one = its.findings[m];
-      const backdrop& against = behind(all, m, its);
+    for (const row& line : all.rows()) {
+      const finding& one = line.findings[m];
+      const backdrop& against = behind(all, m, line);
       const distribution_of_errors spread = one.spread.value_or(no_spread());
       const auto& quantiles = spread.quantiles;
       result.add({all.metrics()[m].text(),
-                  its.method,
-                  in_full(its.nominal),
-                  in_full(its.step),
-                  in_full(its.evaluations_per_time),
-                  in_full(its.seconds_per_time.least),
-                  in_full(its.seconds_per_time.median),
+                  line.method,
+                  in_full(line.nominal),
+                  in_full(line.step),
+                  in_full(line.evaluations_per_time),
+                  in_full(line.seconds_per_time.least),
+                  in_full(line.seconds_per_time.median),
                   in_full(one.value.mean),
                   in_full(one.value.standard_error),
                   fmt::format("{}", one.diverged),
@@ -394,7 +395,7 @@ std::string csv_of(const comparison& all) {
                   in_full(against.null_model),
                   in_full(against.floor),
                   in_full(against.predictable_until),
-                  joined_marks(all, m, its),
+                  joined_marks(all, m, line),
                   one.reason,
                   fmt::format("{}", all.command().trajectories - one.diverged),
                   in_full(quantiles[0]),
@@ -405,7 +406,7 @@ std::string csv_of(const comparison& all) {
                   in_full(spread.median.standard_error),
                   in_full(spread.largest.deciding),
                   one.spread ? in_full(spread.largest.enough()) : std::string(),
-                  in_full(its.margin)});
+                  in_full(line.margin)});
     }
   }
   return result.csv();

@@ -18,10 +18,10 @@ std::int64_t peak_memory();
 /// What the values of a metric are, as axes say it.
 std::string quantity(const comparison& all, std::size_t metric);
 
-/// Its rows, and what costs nothing: null model and floor.
+/// The rows of a metric, and what costs nothing: null model and floor.
 table rows_of(const comparison& all, std::size_t metric);
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);
-std::string with_error(const estimate& its);
+std::string with_error(const estimate& value);
 /// Reference, null model and floor or horizon, over the steps that share a reference.
 table backdrops_of(const comparison& all, std::size_t metric);
 table equal_cost_table(const comparison& all, std::size_t metric);

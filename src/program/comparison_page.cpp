@@ -34,52 +34,52 @@ void add_question(page& report, const comparison& all) {
 
 std::string listed_front(const std::vector<const row*>& front) {
   std::string text;
-  for (const row* its : front) {
-    text += fmt::format("{}`{}` at {:g}", text.empty() ? "" : ", ", its->method, its->nominal);
+  for (const row* line : front) {
+    text += fmt::format("{}`{}` at {:g}", text.empty() ? "" : ", ", line->method, line->nominal);
   }
   return text.empty() ? "none" : text;
 }
 
 /// A cost, or between which rows or beyond which it lies.
-std::string text_of(const threshold_crossing& its, double unit) {
+std::string text_of(const threshold_crossing& crossing, double unit) {
   const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
-  switch (its.kind) {
+  switch (crossing.kind) {
     case crossing_kind::found:
-      return with_error({its.x * unit, its.standard_error * unit});
+      return with_error({crossing.x * unit, crossing.standard_error * unit});
     case crossing_kind::bracketed:
-      return fmt::format("{} to {}", number(its.first_above), number(its.last_below));
+      return fmt::format("{} to {}", number(crossing.first_above), number(crossing.last_below));
     case crossing_kind::below_all:
-      return fmt::format("below {}", number(its.x));
+      return fmt::format("below {}", number(crossing.x));
     case crossing_kind::above_from_first:
-      return fmt::format("above {}", number(its.x));
+      return fmt::format("above {}", number(crossing.x));
   }
   return {};
 }
 
 /// How many times dearer the cheapest classical method is: nothing is known where it is above all its rows,
 /// and only a bound where its rows stay below, or lose the level between two.
-std::string against_classical(const cost_at_level& its, const std::vector<cost_at_level>& all) {
+std::string against_classical(const cost_at_level& cost, const std::vector<cost_at_level>& all) {
   const auto best = std::ranges::find_if(all, [](const cost_at_level& other) {
     return !other.is_learned && other.evaluations.kind != crossing_kind::above_from_first;
   });
-  if (best == all.end() || its.evaluations.kind != crossing_kind::found) return "-";
-  const double ratio = best->evaluations.x / its.evaluations.x;
+  if (best == all.end() || cost.evaluations.kind != crossing_kind::found) return "-";
+  const double ratio = best->evaluations.x / cost.evaluations.x;
   return fmt::format("{}{:.2f}", best->evaluations.kind == crossing_kind::found ? "" : "< ", ratio);
 }
 
 /// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
 /// classical method at the same error; the dearest of the method's fits counts.
-std::string repaid_after(const comparison& all, const cost_at_level& its,
+std::string repaid_after(const comparison& all, const cost_at_level& cost,
                          const std::vector<cost_at_level>& costs) {
   const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
     return !other.is_learned && other.evaluations.kind == crossing_kind::found;
   });
   double spent = 0.0;
   for (const auto& fit : all.fits()) {
-    if (fit["method"] == its.method) spent = std::max(spent, fit["learning_evaluations"].get<double>());
+    if (fit["method"] == cost.method) spent = std::max(spent, fit["learning_evaluations"].get<double>());
   }
-  if (best == costs.end() || spent == 0.0 || its.evaluations.kind != crossing_kind::found) return "-";
-  const double saved = best->evaluations.x - its.evaluations.x;
+  if (best == costs.end() || spent == 0.0 || cost.evaluations.kind != crossing_kind::found) return "-";
+  const double saved = best->evaluations.x - cost.evaluations.x;
   return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
 }
 
@@ -90,10 +90,10 @@ table level_table(const comparison& all, std::size_t m, double level) {
   std::vector<std::string> names{"method", "evaluations/time", "ns/time", "cheapest classical / its"};
   if (is_learned) names.push_back("learning repaid after");
   table result(names);
-  for (const cost_at_level& its : costs) {
-    std::vector<std::string> cells{its.method, text_of(its.evaluations, 1.0), text_of(its.seconds, 1e9),
-                                   against_classical(its, costs)};
-    if (is_learned) cells.push_back(repaid_after(all, its, costs));
+  for (const cost_at_level& cost : costs) {
+    std::vector<std::string> cells{cost.method, text_of(cost.evaluations, 1.0), text_of(cost.seconds, 1e9),
+                                   against_classical(cost, costs)};
+    if (is_learned) cells.push_back(repaid_after(all, cost, costs));
     result.add(cells);
   }
   return result;
@@ -101,7 +101,7 @@ table level_table(const comparison& all, std::size_t m, double level) {
 
 void add_ranking(page& report, const comparison& all, std::size_t m) {
   const bool is_ranked_at_all =
-      std::ranges::any_of(all.rows(), [&](const row& its) { return is_ranked(all, m, its); });
+      std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
   if (!is_ranked_at_all) {
     report.text(
         "**No row is ranked**: none has a value of all trajectories within the time for which paths can "
@@ -190,7 +190,7 @@ void add_fits(page& report, const comparison& all) {
   report.table(std::move(fits));
 }
 
-/// "b1 = 0.41, a = 0.2"; beyond the steps of the scheme that of the nearer end.
+/// "b1 = 0.41, a = 0.2"; beyond the steps of the scheme the parameters of the nearer end.
 std::string theta_of(const scheme& learned, double step) {
   const auto& names = family_named(learned.family).parameter_names;
   const auto& steps = learned.curve.steps();
@@ -206,18 +206,18 @@ std::string theta_of(const scheme& learned, double step) {
 /// Parameters and coefficients of the learned rows that were not learned here.
 void add_files(page& report, const comparison& all) {
   table files({"method from a file", "step size", "parameters", "letters", "coefficients"});
-  for (const row& its : all.rows()) {
+  for (const row& line : all.rows()) {
     const bool is_fitted =
-        std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == its.method; });
-    if (!its.is_learned || is_fitted || !its.coefficients) continue;
+        std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == line.method; });
+    if (!line.is_learned || is_fitted || !line.coefficients) continue;
     std::string numbers;
-    for (const double c : its.coefficients->coefficients()) {
+    for (const double c : line.coefficients->coefficients()) {
       numbers += fmt::format("{}{:.6g}", numbers.empty() ? "" : ", ", c);
     }
     const auto source = std::ranges::find_if(
-        all.schemes(), [&](const method_source& one) { return one.typed == its.method; });
-    files.add({its.method, fmt::format("{:.3g}", its.step), theta_of(*source->learned, its.step),
-               its.coefficients->letters().letters(), numbers});
+        all.schemes(), [&](const method_source& one) { return one.typed == line.method; });
+    files.add({line.method, fmt::format("{:.3g}", line.step), theta_of(*source->learned, line.step),
+               line.coefficients->letters().letters(), numbers});
   }
   if (files.empty()) return;
   report.heading("What came from files");

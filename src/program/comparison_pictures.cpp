@@ -27,18 +27,18 @@ std::string plain(std::string text) {
 std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
                                           const std::optional<std::vector<std::string>>& named = {}) {
   std::vector<work_precision_row> result;
-  for (const row& its : all.rows()) {
-    if (named && std::ranges::count(*named, its.method) == 0) continue;
-    const finding& one = its.findings[m];
-    result.push_back({.method = its.method,
-                      .step = its.nominal,
-                      .evaluations_per_time = its.evaluations_per_time,
-                      .seconds_per_time = its.seconds_per_time.least,
-                      .error = ranked_value(all, m, its),
+  for (const row& line : all.rows()) {
+    if (named && std::ranges::count(*named, line.method) == 0) continue;
+    const finding& one = line.findings[m];
+    result.push_back({.method = line.method,
+                      .step = line.nominal,
+                      .evaluations_per_time = line.evaluations_per_time,
+                      .seconds_per_time = line.seconds_per_time.least,
+                      .error = ranked_value(all, m, line),
                       .diverged = one.diverged,
                       .trajectories = all.command().trajectories,
-                      .learned = its.is_learned,
-                      .counts = is_ranked(all, m, its)});
+                      .learned = line.is_learned,
+                      .counts = is_ranked(all, m, line)});
   }
   return result;
 }
@@ -55,17 +55,17 @@ std::vector<level> levels_of(const comparison& all, std::size_t m) {
 
 figure against_cost(const comparison& all, std::size_t m, const char* name, const char* label,
                     double work_precision_row::*field, double (*cost)(const row&)) {
-  panel its = work_precision_panel(points_of(all, m, drawn_methods(all, m)), "", label, field);
-  its.y_label = (is_by_median(all, m) ? "median " : "") + quantity(all, m);
-  its.linear_y = all.metrics()[m].is_acceptance();
+  panel plot = work_precision_panel(points_of(all, m, drawn_methods(all, m)), "", label, field);
+  plot.y_label = (is_by_median(all, m) ? "median " : "") + quantity(all, m);
+  plot.linear_y = all.metrics()[m].is_acceptance();
   std::vector<std::size_t> front;
   for (const row* best : pareto_front(all, m, cost)) {
     front.push_back(static_cast<std::size_t>(best - all.rows().data()));
   }
   if (front.size() > 1)
-    its.curves.push_back(front_curve(points_of(all, m), front, field, "best at its cost"));
-  its.levels = levels_of(all, m);
-  return {.name = plain(all.metrics()[m].text()) + name, .panels = {its}};
+    plot.curves.push_back(front_curve(points_of(all, m), front, field, "best at its cost"));
+  plot.levels = levels_of(all, m);
+  return {.name = plain(all.metrics()[m].text()) + name, .panels = {plot}};
 }
 
 }  // namespace
@@ -82,9 +82,9 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
       ++found;
     };
     for (const double level : levels_for(all, m)) {
-      for (const auto& its : costs_at(all, m, level)) add(its.is_learned, its.method);
+      for (const auto& cost : costs_at(all, m, level)) add(cost.is_learned, cost.method);
     }
-    for (const row& its : all.rows()) add(its.is_learned, its.method);  // where no cost is known
+    for (const row& line : all.rows()) add(line.is_learned, line.method);  // where no cost is known
   }
   std::vector<std::string> result;
   std::ranges::copy_if(methods, std::back_inserter(result),
@@ -93,7 +93,7 @@ std::vector<std::string> drawn_methods(const comparison& all, std::size_t m) {
 }
 
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t m) {
-  const auto is_there = [&](const row& its) { return std::isfinite(ranked_value(all, m, its).mean); };
+  const auto is_there = [&](const row& line) { return std::isfinite(ranked_value(all, m, line).mean); };
   if (std::ranges::none_of(all.rows(), is_there)) return {};
   return {against_cost(all, m, "_against_evaluations", "force evaluations per unit time",
                        &work_precision_row::evaluations_per_time, evaluations_of),
@@ -109,21 +109,21 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
   const auto methods = drawn_methods(all, m);
   const std::set<std::string> drawn(methods.begin(), methods.end());
   for (const double nominal : all.command().steps) {
-    panel its{.title = fmt::format("step {:g}", nominal),
-              .x_label = is_density ? metric.observable : "lag",
-              .y_label = is_density ? "density" : "normalised autocovariance of " + metric.observable,
-              .curves = {}};
+    panel plot{.title = fmt::format("step {:g}", nominal),
+               .x_label = is_density ? metric.observable : "lag",
+               .y_label = is_density ? "density" : "normalised autocovariance of " + metric.observable,
+               .curves = {}};
     for (const row& one : all.rows()) {
       const auto& law = one.findings[m].law;
       if (one.nominal != nominal || !law || law->y.empty() || !drawn.contains(one.method)) continue;
-      if (its.curves.empty()) {
+      if (plot.curves.empty()) {
         const auto& reference = *all.behind().at({m, one.step}).law;
-        its.curves.push_back({.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
+        plot.curves.push_back({.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
       }
-      its.curves.push_back({.label = one.method, .x = law->x, .y = law->y});
+      plot.curves.push_back({.label = one.method, .x = law->x, .y = law->y});
     }
-    if (its.curves.empty()) continue;
-    result.push_back({.name = plain(fmt::format("{}_at_{}", metric.text(), nominal)), .panels = {its}});
+    if (plot.curves.empty()) continue;
+    result.push_back({.name = plain(fmt::format("{}_at_{}", metric.text(), nominal)), .panels = {plot}});
   }
   return result;
 }

@@ -24,16 +24,16 @@ std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
 }
 
 /// Of one ensemble from the law of several: the mean over these.
-estimate distance_to(const gathered_statistics& its, std::span<const gathered_statistics> others) {
-  if (its.histogram) {
+estimate distance_to(const gathered_statistics& ensemble, std::span<const gathered_statistics> others) {
+  if (ensemble.histogram) {
     std::vector<std::vector<histogram>> groups;
     for (const auto& other : others) groups.push_back(other.histogram_of_groups);
-    return mean_total_variation(its.histogram_of_groups, groups);
+    return mean_total_variation(ensemble.histogram_of_groups, groups);
   }
   estimate result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());
   for (const auto& other : others) {
-    const acf_distance found = acf_error(*its.autocovariance, *other.autocovariance);
+    const acf_distance found = acf_error(*ensemble.autocovariance, *other.autocovariance);
     result.mean += found.rms * share;
     result.standard_error += found.standard_error * share;
   }
@@ -60,13 +60,13 @@ drawn_law mean_law(std::span<const gathered_statistics> all) {
   };
   double variance = 0.0;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const drawn_law its = drawn(all[k]);
-    for (std::size_t i = 0; i < its.y.size(); ++i) add(result.y[i], its.y[i], k == 0);
-    add(result.mean.mean, its.mean.mean, k == 0);
-    variance += std::pow(share * its.mean.standard_error, 2.0);
-    if (!its.kinetic_temperature) continue;
-    add(*result.kinetic_temperature, *its.kinetic_temperature, k == 0);
-    add(*result.half_step_kinetic_temperature, *its.half_step_kinetic_temperature, k == 0);
+    const drawn_law law = drawn(all[k]);
+    for (std::size_t i = 0; i < law.y.size(); ++i) add(result.y[i], law.y[i], k == 0);
+    add(result.mean.mean, law.mean.mean, k == 0);
+    variance += std::pow(share * law.mean.standard_error, 2.0);
+    if (!law.kinetic_temperature) continue;
+    add(*result.kinetic_temperature, *law.kinetic_temperature, k == 0);
+    add(*result.half_step_kinetic_temperature, *law.half_step_kinetic_temperature, k == 0);
   }
   result.mean.standard_error = std::sqrt(variance);
   return result;
@@ -75,12 +75,12 @@ drawn_law mean_law(std::span<const gathered_statistics> all) {
 }  // namespace
 
 void comparison::require_sound_statistics() const {
-  const bath& its = system_->its_bath();
+  const bath& heat_bath = system_->heat_bath();
   const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
-  if (its.acts() && its.sigma() == 0.0) {
+  if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
     refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", of_law->name);
   }
-  if (its.acts() && !its.has_temperature()) {
+  if (heat_bath.acts() && !heat_bath.has_temperature()) {
     refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
            of_law->name);
   }
@@ -142,16 +142,16 @@ void comparison::require_samples_in_range(std::size_t metric,
                                           std::span<const gathered_statistics> all) const {
   const auto& bins = bins_[metric];
   if (!bins) return;
-  for (const auto& its : all) {
-    const auto inside = its.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
+  for (const auto& ensemble : all) {
+    const auto inside = ensemble.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
     if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
   }
   refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins->low,
          bins->high, metrics_[metric].observable, all.front().mean.mean);
 }
 
-/// Their trajectories have numbers of their own, hence starts and noise of their own. They are sampled when
-/// the methods are at that step: the floor is of as many samples.
+/// The trajectories of references have numbers of their own, hence starts and noise of their own. References
+/// are sampled when the methods are at that step: the floor is of as many samples.
 gathered_statistics comparison::reference(std::size_t metric, double step, int number, int finer) {
   statistics_plan plan = statistics_at(metric, step);
   plan.trajectories.seed = seed_for(role::reference, common_.seed);
@@ -200,18 +200,19 @@ std::optional<double> comparison::null_model_of_law(std::size_t metric, double s
 backdrop comparison::behind_law(std::size_t metric, double step) {
   const auto& all = references_at(metric, step);
   const auto finer = reference(metric, step, references, 2);
-  backdrop its{.reference = system_->reference_of_statistics(step, command_.learning.fine_step),
-               .reference_error = distance_to(finer, all).mean,
-               .floor = floor_of(all),
-               .law = mean_law(all)};
-  its.null_model = null_model_of_law(metric, step, *its.law);
-  return its;
+  backdrop result{.reference = system_->reference_of_statistics(step, command_.learning.fine_step),
+                  .reference_error = distance_to(finer, all).mean,
+                  .floor = floor_of(all),
+                  .law = mean_law(all)};
+  result.null_model = null_model_of_law(metric, step, *result.law);
+  return result;
 }
 
-finding comparison::law_of(std::size_t metric, const row& its, std::span<const gathered_statistics> all) {
-  const statistics_plan plan = statistics_at(metric, its.step);
-  shown_.part(fmt::format("{} at step {:g}", its.method, its.nominal), work_of_law(its.evaluations_per_time));
-  const auto found = system_->statistics(*its.coefficients, plan, metrics_[metric].observable,
+finding comparison::law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all) {
+  const statistics_plan plan = statistics_at(metric, line.step);
+  shown_.part(fmt::format("{} at step {:g}", line.method, line.nominal),
+              work_of_law(line.evaluations_per_time));
+  const auto found = system_->statistics(*line.coefficients, plan, metrics_[metric].observable,
                                          shown_.counter(plan.trajectories.count));
   finding one{.law = drawn(found)};
   one.lose(found.lost, plan.trajectories.count);
@@ -228,11 +229,11 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
   json found{{"behind", kept.once(part, [&] { return to_json(behind_law(metric, step)); })},
              {"findings", json::array()}};
-  for (const row* its : all) {
-    const std::string its_part = fmt::format("{} of {} at {}", name, its->method, step);
-    if (kept.has(its_part)) shown_.skip(work_of_law(its->evaluations_per_time));
+  for (const row* line : all) {
+    const std::string line_part = fmt::format("{} of {} at {}", name, line->method, step);
+    if (kept.has(line_part)) shown_.skip(work_of_law(line->evaluations_per_time));
     found["findings"].push_back(
-        kept.once(its_part, [&] { return to_json(law_of(metric, *its, references_at(metric, step))); }));
+        kept.once(line_part, [&] { return to_json(law_of(metric, *line, references_at(metric, step))); }));
   }
   take(metric, step, all, found);
 }

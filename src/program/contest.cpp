@@ -10,15 +10,18 @@ bool contest::is_better(const candidate& a, const candidate& b) const {
 }
 
 void contest::rank() {
-  const auto group = [](const candidate& its) { return its.stands() ? 0 : its.reason.empty() ? 1 : 2; };
+  const auto group = [](const candidate& contender) {
+    return contender.stands() ? 0 : contender.reason.empty() ? 1 : 2;
+  };
   std::ranges::stable_sort(all, [&](const candidate& a, const candidate& b) {
     return group(a) != group(b) ? group(a) < group(b) : group(a) == 0 && is_better(a, b);
   });
 }
 
 const candidate* contest::best_of(bool learned) const {
-  const auto found = std::ranges::find_if(
-      all, [&](const candidate& its) { return its.stands() && its.is_learned() == learned; });
+  const auto found = std::ranges::find_if(all, [&](const candidate& contender) {
+    return contender.stands() && contender.is_learned() == learned;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -49,9 +52,9 @@ const candidate* contest::winner() const {
 
 std::string contest::verdict() const {
   if (!has_result()) return "none";
-  const candidate* its = winner();
-  if (its == nullptr) return "tie";
-  return its->is_learned() ? "learned" : "classical";
+  const candidate* leader = winner();
+  if (leader == nullptr) return "tie";
+  return leader->is_learned() ? "learned" : "classical";
 }
 
 }  // namespace nysalt::program

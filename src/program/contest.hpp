@@ -30,7 +30,7 @@ struct bracket {
 struct measured_error {
   estimate mean{};
   std::vector<double> scores{};  // of each trajectory
-  bool is_heavy = false;         // its tail is too heavy for a mean and a standard error
+  bool is_heavy = false;         // the tail of the scores is too heavy for a mean and a standard error
   std::int64_t diverged = 0;
 };
 
@@ -45,7 +45,7 @@ struct candidate {
   std::optional<learned_scheme> learned{};
   std::optional<tabulated> method{};
   bracket search{};
-  std::string reason{};  // why it cannot win
+  std::string reason{};  // why the candidate cannot win
   measured_error error{};
   std::optional<measured_error> confirmed{};  // on trajectories on which nothing was chosen
   double evaluations_per_time = std::numeric_limits<double>::quiet_NaN();
@@ -54,7 +54,7 @@ struct candidate {
   std::string reference{};
 
   bool is_learned() const { return source.family.has_value(); }
-  /// It stayed with the reference on every trajectory.
+  /// The candidate stayed with the reference on every trajectory.
   bool stands() const { return reason.empty() && error.diverged == 0; }
 };
 
@@ -69,10 +69,10 @@ struct contest {
   error_statistic statistic;
   std::vector<candidate> all{};
 
-  double cost_of(const candidate& its) const {
-    return unit == cost_unit::evaluations ? its.evaluations_per_time : its.seconds_per_time;
+  double cost_of(const candidate& contender) const {
+    return unit == cost_unit::evaluations ? contender.evaluations_per_time : contender.seconds_per_time;
   }
-  double error_of(const candidate& its) const { return statistic(its.error.scores); }
+  double error_of(const candidate& contender) const { return statistic(contender.error.scores); }
 
   /// Those that stand first, the best of them first of all.
   void rank();

@@ -62,10 +62,10 @@ void destination::begin() {
   if (from().is_new()) sink_->begin();
 }
 
-void destination::take(std::int64_t trajectory, const record& its) {
-  sink_->take(trajectory, its);
-  if (!its.diverged_at) return;
-  const diverged_trajectory one{trajectory, *its.diverged_at};
+void destination::take(std::int64_t trajectory, const record& segment) {
+  sink_->take(trajectory, segment);
+  if (!segment.diverged_at) return;
+  const diverged_trajectory one{trajectory, *segment.diverged_at};
   kept_ ? kept_->lose(one) : lost_.push_back(one);
 }
 

@@ -22,7 +22,7 @@ namespace nysalt::program {
 class destination {
  public:
   /// Makes the file. `question` is all that decides its bytes, `about` what a file of arrays tells of it.
-  /// Throws refusal if it cannot be made, or gone on with.
+  /// Throws refusal if the file cannot be made, or gone on with.
   destination(const run_command& command, std::int64_t steps, bool as_json, const json& question,
               const json& about);
   /// A file that did not take its name, and has no checkpoint, does not stay.
@@ -37,14 +37,14 @@ class destination {
 
   /// Before the first record is taken.
   void begin();
-  void take(std::int64_t trajectory, const record& its);
+  void take(std::int64_t trajectory, const record& segment);
   /// All before is taken: a checkpoint, if there are any.
   void reached(const standing& at);
   const std::vector<diverged_trajectory>& lost() const { return kept_ ? kept_->lost() : lost_; }
 
   /// All was taken: the output takes its name.
   void commit();
-  /// And what belongs to it is there too.
+  /// And what belongs to the output is there too.
   void finish();
 
   /// Of what was written, of every so many samples.
@@ -58,9 +58,9 @@ class destination {
   std::optional<array_layout> arrays_;
   std::optional<restart> kept_;
   std::optional<atomic_file> table_;     // without a checkpoint
-  std::optional<unfinished_file> part_;  // of arrays without a checkpoint, until it has its name
+  std::optional<unfinished_file> part_;  // a file of arrays without a checkpoint, until it has its name
   std::unique_ptr<sample_sink> sink_;    // none if the run is finished
-  samples* rows_ = nullptr;              // the same, if it is one of rows
+  samples* rows_ = nullptr;              // the same sink, if it is one of rows
   std::vector<diverged_trajectory> lost_;
 };
 

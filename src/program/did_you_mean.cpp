@@ -50,10 +50,11 @@ std::string nearest_name(std::string_view typed, const std::vector<std::string>&
   std::string nearest;
   std::size_t least = most + 1;
   for (const auto& name : known) {
-    const std::string its = in_lower_case(name);
-    const bool is_beginning = text.size() >= letters_a_mistake && its.starts_with(text);
-    const std::size_t mistakes = is_beginning && its != text ? 1 : mistakes_between(text, its);
-    if (mistakes >= least || mistakes >= std::max(text.size(), its.size())) continue;  // no letter is left
+    const std::string known_name = in_lower_case(name);
+    const bool is_beginning = text.size() >= letters_a_mistake && known_name.starts_with(text);
+    const std::size_t mistakes = is_beginning && known_name != text ? 1 : mistakes_between(text, known_name);
+    if (mistakes >= least || mistakes >= std::max(text.size(), known_name.size()))
+      continue;  // no letter is left
     least = mistakes;
     nearest = name;
   }

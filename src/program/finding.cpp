@@ -27,7 +27,7 @@ std::optional<double> taken(const json& from, const char* name) {
   return number_from(from.at(name));
 }
 
-json to_json(const estimate& its) { return {number(its.mean), number(its.standard_error)}; }
+json to_json(const estimate& value) { return {number(value.mean), number(value.standard_error)}; }
 estimate estimate_from(const json& text) { return {number_from(text.at(0)), number_from(text.at(1))}; }
 
 json numbers(const std::vector<double>& all) {
@@ -41,30 +41,30 @@ std::vector<double> numbers_from(const json& text) {
   return result;
 }
 
-json to_json(const distribution_of_errors& its) {
-  return {{"count", its.largest.count},
-          {"skewness", number(its.largest.skewness)},
-          {"deciding", number(its.largest.deciding)},
-          {"median", to_json(its.median)},
-          {"quantiles", numbers({its.quantiles.begin(), its.quantiles.end()})}};
+json to_json(const distribution_of_errors& errors) {
+  return {{"count", errors.largest.count},
+          {"skewness", number(errors.largest.skewness)},
+          {"deciding", number(errors.largest.deciding)},
+          {"median", to_json(errors.median)},
+          {"quantiles", numbers({errors.quantiles.begin(), errors.quantiles.end()})}};
 }
 distribution_of_errors spread_from(const json& text) {
-  distribution_of_errors its{.largest = {.count = text.at("count").get<double>(),
-                                         .skewness = number_from(text.at("skewness")),
-                                         .deciding = number_from(text.at("deciding"))},
-                             .median = estimate_from(text.at("median"))};
+  distribution_of_errors errors{.largest = {.count = text.at("count").get<double>(),
+                                            .skewness = number_from(text.at("skewness")),
+                                            .deciding = number_from(text.at("deciding"))},
+                                .median = estimate_from(text.at("median"))};
   const auto quantiles = numbers_from(text.at("quantiles"));
-  for (std::size_t i = 0; i < its.quantiles.size(); ++i) its.quantiles.at(i) = quantiles.at(i);
-  return its;
+  for (std::size_t i = 0; i < errors.quantiles.size(); ++i) errors.quantiles.at(i) = quantiles.at(i);
+  return errors;
 }
 
-json to_json(const drawn_law& its) {
-  json result{{"x", numbers(its.x)},
-              {"y", numbers(its.y)},
-              {"mean", to_json(its.mean)},
-              {"effective_sample_size", number(its.effective_sample_size)}};
-  put(result, "kinetic_temperature", its.kinetic_temperature);
-  put(result, "half_step_kinetic_temperature", its.half_step_kinetic_temperature);
+json to_json(const drawn_law& law) {
+  json result{{"x", numbers(law.x)},
+              {"y", numbers(law.y)},
+              {"mean", to_json(law.mean)},
+              {"effective_sample_size", number(law.effective_sample_size)}};
+  put(result, "kinetic_temperature", law.kinetic_temperature);
+  put(result, "half_step_kinetic_temperature", law.half_step_kinetic_temperature);
   return result;
 }
 drawn_law law_from(const json& text) {
@@ -113,14 +113,14 @@ json to_json(const std::vector<diverged_trajectory>& lost) {
   return result;
 }
 
-json to_json(const finding& its) {
-  json result{{"value", to_json(its.value)},
-              {"reason", its.reason},
-              {"diverged", its.diverged},
-              {"diverged_at", to_json(its.diverged_at)}};
-  if (its.law) result["law"] = to_json(*its.law);
-  if (its.spread) result["spread"] = to_json(*its.spread);
-  if (!its.groups.empty()) result["groups"] = numbers(its.groups);
+json to_json(const finding& outcome) {
+  json result{{"value", to_json(outcome.value)},
+              {"reason", outcome.reason},
+              {"diverged", outcome.diverged},
+              {"diverged_at", to_json(outcome.diverged_at)}};
+  if (outcome.law) result["law"] = to_json(*outcome.law);
+  if (outcome.spread) result["spread"] = to_json(*outcome.spread);
+  if (!outcome.groups.empty()) result["groups"] = numbers(outcome.groups);
   return result;
 }
 
@@ -137,16 +137,17 @@ std::vector<double> means_of_groups(const std::vector<double>& of_each) {
 }
 
 finding finding_from(const json& text) {
-  finding its{.value = estimate_from(text.at("value")),
-              .reason = text.at("reason").get<std::string>(),
-              .diverged = text.at("diverged").get<std::int64_t>()};
+  finding outcome{.value = estimate_from(text.at("value")),
+                  .reason = text.at("reason").get<std::string>(),
+                  .diverged = text.at("diverged").get<std::int64_t>()};
   for (const auto& one : text.at("diverged_at")) {
-    its.diverged_at.push_back({one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
+    outcome.diverged_at.push_back(
+        {one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
   }
-  if (text.contains("law")) its.law = law_from(text.at("law"));
-  if (text.contains("spread")) its.spread = spread_from(text.at("spread"));
-  if (text.contains("groups")) its.groups = numbers_from(text.at("groups"));
-  return its;
+  if (text.contains("law")) outcome.law = law_from(text.at("law"));
+  if (text.contains("spread")) outcome.spread = spread_from(text.at("spread"));
+  if (text.contains("groups")) outcome.groups = numbers_from(text.at("groups"));
+  return outcome;
 }
 
 json to_json(const energy_course& course) {
@@ -158,24 +159,24 @@ energy_course energies_from(const json& text) {
   return {numbers_from(text.at("t")), numbers_from(text.at("deviation")), numbers_from(text.at("surviving"))};
 }
 
-json to_json(const backdrop& its) {
-  json result{{"reference", its.reference}};
-  put(result, "reference_error", its.reference_error);
-  put(result, "null_model", its.null_model);
-  put(result, "predictable_until", its.predictable_until);
-  put(result, "floor", its.floor);
-  if (its.law) result["law"] = to_json(*its.law);
+json to_json(const backdrop& context) {
+  json result{{"reference", context.reference}};
+  put(result, "reference_error", context.reference_error);
+  put(result, "null_model", context.null_model);
+  put(result, "predictable_until", context.predictable_until);
+  put(result, "floor", context.floor);
+  if (context.law) result["law"] = to_json(*context.law);
   return result;
 }
 
 backdrop backdrop_from(const json& text) {
-  backdrop its{.reference = text.at("reference").get<std::string>(),
-               .reference_error = taken(text, "reference_error"),
-               .null_model = taken(text, "null_model"),
-               .predictable_until = taken(text, "predictable_until"),
-               .floor = taken(text, "floor")};
-  if (text.contains("law")) its.law = law_from(text.at("law"));
-  return its;
+  backdrop context{.reference = text.at("reference").get<std::string>(),
+                   .reference_error = taken(text, "reference_error"),
+                   .null_model = taken(text, "null_model"),
+                   .predictable_until = taken(text, "predictable_until"),
+                   .floor = taken(text, "floor")};
+  if (text.contains("law")) context.law = law_from(text.at("law"));
+  return context;
 }
 
 }  // namespace nysalt::program

@@ -23,7 +23,7 @@ struct drawn_law {
   std::vector<double> y;  // density, or normalised autocovariance
   estimate mean{};
   double effective_sample_size = 0.0;
-  std::optional<double> kinetic_temperature{};  // these two of a histogram alone
+  std::optional<double> kinetic_temperature{};  // both temperatures: of a histogram alone
   std::optional<double> half_step_kinetic_temperature{};
 };
 drawn_law drawn(const gathered_statistics& found);
@@ -56,8 +56,8 @@ struct energy_course {
 
 /// What the findings at one step are seen against, by one metric. What a metric has not is left out.
 struct backdrop {
-  std::string reference = {};                 // what it is
-  std::optional<double> reference_error{};    // its own
+  std::string reference = {};                 // description of the reference
+  std::optional<double> reference_error{};    // the error of the reference itself
   std::optional<double> null_model{};         // the error of what stays as it was at the start
   std::optional<double> predictable_until{};  // infinite: to the end
   std::optional<double> floor{};              // the distance that sampling alone makes
@@ -68,9 +68,9 @@ struct backdrop {
 using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
 
 json to_json(const std::vector<diverged_trajectory>& lost);
-json to_json(const finding& its);
+json to_json(const finding& outcome);
 json to_json(const energy_course& course);
-json to_json(const backdrop& its);
+json to_json(const backdrop& context);
 finding finding_from(const json& text);
 energy_course energies_from(const json& text);
 backdrop backdrop_from(const json& text);

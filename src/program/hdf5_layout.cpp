@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
-/// What the library counts by a number, closed when it goes.
+/// An object that the library knows by a number, closed when the handle goes.
 class handle {
  public:
   handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
@@ -46,23 +46,23 @@ handle properties(hid_t of_class) { return {H5Pcreate(of_class), H5Pclose}; }
 
 /// To be called first.
 void set_up_library() {
-  H5dont_atexit();                              // where the disk was full it would try again then, and crash
+  H5dont_atexit();  // after a full disk the library would try again at exit, and crash
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
 }
 
 /// Of a file that this process may have locked itself; the version of the format is always the same.
 handle access() {
-  handle its = properties(H5P_FILE_ACCESS);
-  require_done(H5Pset_file_locking(its, false, true));
-  require_done(H5Pset_libver_bounds(its, H5F_LIBVER_V18, H5F_LIBVER_V18));
-  return its;
+  handle list = properties(H5P_FILE_ACCESS);
+  require_done(H5Pset_file_locking(list, false, true));
+  require_done(H5Pset_libver_bounds(list, H5F_LIBVER_V18, H5F_LIBVER_V18));
+  return list;
 }
 
-hid_t type_of(const hdf5_dataset& its) { return its.is_of_integers ? H5T_STD_I64LE : H5T_IEEE_F64LE; }
+hid_t type_of(const hdf5_dataset& dataset) { return dataset.is_of_integers ? H5T_STD_I64LE : H5T_IEEE_F64LE; }
 
 void add_attribute(hid_t file, const std::string& name, hid_t type, hid_t space, const void* value) {
-  const handle its(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  require_done(H5Awrite(its, type, value));
+  const handle attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require_done(H5Awrite(attribute, type, value));
 }
 
 void add_text(hid_t file, const std::string& name, const std::string& text) {
@@ -76,7 +76,7 @@ void add_text(hid_t file, const std::string& name, const std::string& text) {
 
 void add_attribute(hid_t file, const std::string& name, const json& value) {
   const handle one(H5Screate(H5S_SCALAR), H5Sclose);
-  const auto is_number = [](const json& its) { return its.is_number(); };
+  const auto is_number = [](const json& element) { return element.is_number(); };
   if (value.is_number_integer()) {
     const auto number = value.get<std::int64_t>();
     add_attribute(file, name, H5T_STD_I64LE, one, &number);
@@ -95,8 +95,8 @@ void add_attribute(hid_t file, const std::string& name, const json& value) {
   }
 }
 
-void add_dataset(hid_t file, const hdf5_dataset& its) {
-  const std::vector<hsize_t> shape(its.shape.begin(), its.shape.end());
+void add_dataset(hid_t file, const hdf5_dataset& dataset) {
+  const std::vector<hsize_t> shape(dataset.shape.begin(), dataset.shape.end());
   const handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   // One piece: a trajectory is read at once, and one time of all for a page of the disk each; pieces that
   // were good for both would need an index, which a killed run might leave behind in disorder.
@@ -105,19 +105,20 @@ void add_dataset(hid_t file, const hdf5_dataset& its) {
   require_done(H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY));
   require_done(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER));
   require_done(H5Pset_obj_track_times(how, false));
-  const handle made(H5Dcreate2(file, its.name.c_str(), type_of(its), space, H5P_DEFAULT, how, H5P_DEFAULT),
-                    H5Dclose);
+  const handle made(
+      H5Dcreate2(file, dataset.name.c_str(), type_of(dataset), space, H5P_DEFAULT, how, H5P_DEFAULT),
+      H5Dclose);
 }
 
-std::uint64_t place_of(hid_t file, const hdf5_dataset& its) {
-  const handle found(H5Dopen2(file, its.name.c_str(), H5P_DEFAULT), H5Dclose);
+std::uint64_t place_of(hid_t file, const hdf5_dataset& dataset) {
+  const handle found(H5Dopen2(file, dataset.name.c_str(), H5P_DEFAULT), H5Dclose);
   const handle type(H5Dget_type(found), H5Tclose);
   const handle space(H5Dget_space(found), H5Sclose);
-  std::vector<hsize_t> shape(its.shape.size());
-  const bool is_it = H5Tequal(type, type_of(its)) > 0 &&
+  std::vector<hsize_t> shape(dataset.shape.size());
+  const bool is_it = H5Tequal(type, type_of(dataset)) > 0 &&
                      H5Sget_simple_extent_ndims(space) == static_cast<int>(shape.size()) &&
                      H5Sget_simple_extent_dims(space, shape.data(), nullptr) >= 0 &&
-                     std::ranges::equal(shape, its.shape);
+                     std::ranges::equal(shape, dataset.shape);
   const haddr_t place = H5Dget_offset(found);
   if (!is_it || place == HADDR_UNDEF) throw std::runtime_error("another dataset");
   return place;
@@ -137,7 +138,7 @@ void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset
   const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, access()), H5Fclose);
   for (const auto& [name, value] : attributes.items()) add_attribute(made, name, value);
   for (const auto& one : datasets) add_dataset(made, one);
-  require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));  // to close it may fail unheard
+  require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));  // to close the file may fail unheard
 }
 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,

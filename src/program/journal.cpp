@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* format = "nysalt journal";
 
-std::string line_of(const json& its) {
-  return its.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+std::string line_of(const json& document) {
+  return document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   });
 }
 
-/// What is in it.
+/// Opens and locks the file; returns its contents.
 std::string journal::open_file() {
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
@@ -67,11 +67,12 @@ namespace {
   refuse("{} is no journal, or was edited: remove it to begin anew", path.string());
 }
 
-void require_same(const json& its, const json& question, const std::filesystem::path& path) {
-  if (its == question) return;
+void require_same(const json& stored_question, const json& question, const std::filesystem::path& path) {
+  if (stored_question == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {
-    if (its.is_object() && its.contains(name) && its[name] == value) continue;
+    if (stored_question.is_object() && stored_question.contains(name) && stored_question[name] == value)
+      continue;
     changed += changed.empty() ? name : ", " + name;
   }
   refuse("{} is of another question ({}): ask the same, or remove the file to begin anew", path.string(),
@@ -80,7 +81,7 @@ void require_same(const json& its, const json& question, const std::filesystem::
 
 }  // namespace
 
-/// The length of its whole lines.
+/// Takes the finished parts from the text of a journal; returns the length of its whole lines.
 std::size_t journal::read(const std::string& text, const json& question, const std::string& head) {
   std::size_t at = 0;
   for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {

@@ -80,15 +80,15 @@ bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
 }  // namespace
 
 std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known) {
-  const auto its = merged(letters_of(method.letters(), method.coefficients()), same);
+  const auto letters = merged(letters_of(method.letters(), method.coefficients()), same);
   for (const tabulated& other : known) {
     const auto one_step = merged(letters_of(other.letters(), other.coefficients()), same);
     for (int n = 1;; ++n) {
       const auto steps = repeated(one_step, n);
-      if (steps.size() > its.size()) break;
-      if (are_same(its, steps))
+      if (steps.size() > letters.size()) break;
+      if (are_same(letters, steps))
         return n == 1 ? other.name() : fmt::format("{}, {} steps in one", other.name(), n);
-      if (one_step.size() < 2) break;  // it does not grow
+      if (one_step.size() < 2) break;  // the word does not grow
     }
   }
   return std::nullopt;
@@ -96,21 +96,21 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further) {
-  const run_time_family& its = family_named(family);
+  const run_time_family& named_family = family_named(family);
   const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
-    return tabulated(name, its.letters, its.coefficients(at),
-                     {its.order, its.symmetric, its.requires_quadratic_kinetic});
+    return tabulated(name, named_family.letters, named_family.coefficients(at),
+                     {named_family.order, named_family.symmetric, named_family.requires_quadratic_kinetic});
   };
   std::vector<tabulated> known;
   for (const auto& classical : classical_methods()) known.push_back(classical.method);
   known.insert(known.end(), further.begin(), further.end());
-  for (const auto& [name, at] : its.starts) {
+  for (const auto& [name, at] : named_family.starts) {
     if (name == "further start") continue;
     const bool is_own = name == "start";
     known.push_back(
         member(fmt::format("{} {} {}", is_own ? "the start" : name, is_own ? "of" : "in", family), at));
   }
-  if (its.refuge) known.push_back(member("the refuge of " + family, *its.refuge));
+  if (named_family.refuge) known.push_back(member("the refuge of " + family, *named_family.refuge));
   const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   return known_as(member(family, at), known);
 }

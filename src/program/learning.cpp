@@ -72,7 +72,7 @@ learned_scheme learn_enough(const bundled_system& system, learn_plan plan, progr
 learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, progress& shown,
                           double work) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
-  learn_plan its = plan;
+  learn_plan stage = plan;
   // Where landscapes are hard, the optimum at a smaller step is near that at the next. A fine step that was
   // asked for must divide these steps too.
   const double quarter = plan.how.fine_step ? 0.25 * plan.step / *plan.how.fine_step : 1.0;
@@ -81,12 +81,12 @@ learned_scheme learn_with(const bundled_system& system, const learn_plan& plan, 
   const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && is_divided;
   for (const double part : {0.5, 0.75, 1.0}) {
     if (part < 1.0 && !is_hard) continue;
-    its.step = part * plan.step;
-    shown.part(fmt::format("learning {} at step {:g}", plan.family, its.step), is_hard ? work / 3.0 : work);
-    if (part == 1.0 && plan.enough) return learn_enough(system, its, shown);
-    learned_scheme learned = system.learn(its, shown.counter(plan.how.trajectories));
+    stage.step = part * plan.step;
+    shown.part(fmt::format("learning {} at step {:g}", plan.family, stage.step), is_hard ? work / 3.0 : work);
+    if (part == 1.0 && plan.enough) return learn_enough(system, stage, shown);
+    learned_scheme learned = system.learn(stage, shown.counter(plan.how.trajectories));
     if (part == 1.0) return learned;
-    its.from = theta_of(learned.fit);
+    stage.from = theta_of(learned.fit);
   }
   throw std::logic_error("learn_with: not reached");
 }

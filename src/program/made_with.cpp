@@ -25,14 +25,14 @@ bool is_file(const fs::path& path) {
 
 /// A Hamiltonian of one's own has no name of ours.
 cited_setup setup_of(const scheme& learned) {
-  cited_setup its;
-  its.learned = {learned.family};
+  cited_setup setup;
+  setup.learned = {learned.family};
   const std::string name = learned.system.substr(0, learned.system.find('('));
   for (const auto& entry : system_entries()) {
-    if (entry.described == name) its.system = entry.name;
+    if (entry.described == name) setup.system = entry.name;
   }
-  its.in_bath = learned.system.find(" in bath(") != std::string::npos;
-  return its;
+  setup.in_bath = learned.system.find(" in bath(") != std::string::npos;
+  return setup;
 }
 
 /// What `recommend` ranks: all families if none are named, and what is classical.
@@ -44,21 +44,21 @@ void add_candidates(const recorded_options& given, cited_setup& to) {
 }
 
 cited_setup setup_of(const recorded_options& given) {
-  cited_setup its;
-  its.in_bath = given.is_positive("friction") || given.is_positive("sigma");
+  cited_setup setup;
+  setup.in_bath = given.is_positive("friction") || given.is_positive("sigma");
   if (given.command() == "stability") {
-    its.system = given.one_of("system", "");
-    its.families = given.of("family");
-    return its;
+    setup.system = given.one_of("system", "");
+    setup.families = given.of("family");
+    return setup;
   }
-  its.system = given.one_of("system", system_settings().name);
-  if (given.command() == "learn") its.learned = {given.one_of("family", learn_command().family)};
-  if (given.command() == "recommend") add_candidates(given, its);
+  setup.system = given.one_of("system", system_settings().name);
+  if (given.command() == "learn") setup.learned = {given.one_of("family", learn_command().family)};
+  if (given.command() == "recommend") add_candidates(given, setup);
   if (given.command() == "compare") {
-    its.metrics = given.of("metric");
-    if (its.metrics.empty()) its.metrics = compare_command().metrics;
+    setup.metrics = given.of("metric");
+    if (setup.metrics.empty()) setup.metrics = compare_command().metrics;
   }
-  return its;
+  return setup;
 }
 
 /// A file is looked for beside the manifest first, as results and schemes are often kept together.
@@ -79,14 +79,14 @@ void add_manifest(const fs::path& path, const fs::path& result, std::vector<cite
   if (std::ranges::find(known, given.command()) == known.end()) {
     refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));
   }
-  std::vector<cited_setup> its{setup_of(given)};
+  std::vector<cited_setup> setups{setup_of(given)};
   for (const char* option : {"method", "methods"}) {
-    for (const auto& method : given.of(option)) add_method(found_beside(path, method), its);
+    for (const auto& method : given.of(option)) add_method(found_beside(path, method), setups);
   }
   const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";
-  if (writes_schemes && is_file(result)) add_method(result.string(), its);
-  citations_for(its);  // what has no name is refused here, where the file is known
-  to.insert(to.end(), its.begin(), its.end());
+  if (writes_schemes && is_file(result)) add_method(result.string(), setups);
+  citations_for(setups);  // what has no name is refused here, where the file is known
+  to.insert(to.end(), setups.begin(), setups.end());
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ constexpr int as_curve = 3;        // of a scheme with several steps, perhaps wi
 constexpr const char* scheme_format = "nysalt scheme";
 constexpr const char* table_format = "nysalt table";
 
-/// Of everything but itself, as it would be written without spaces.
+/// Of every member of a document but the checksum itself, as the document would be written without spaces.
 std::string checksum(json document) {
   document.erase("checksum");
   const std::string text = document.dump();
@@ -186,7 +186,7 @@ scheme scheme_in(const json& document, const reader& read) {
                   read.text("reason"),
                   energies,
                   trajectories};
-    result.at(steps.front());  // its word takes the placement
+    result.at(steps.front());  // throws if the word cannot take the placement
     return result;
   });
 }
@@ -197,7 +197,7 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
   for (std::size_t i = 0; i < word.length; ++i) {
     std::string letter(1, word.letters()[i]);
     if (letter[0] == bath_letter) continue;
-    if (letter == "G") letter = "B";  // its first coefficient is that of a kick
+    if (letter == "G") letter = "B";  // the first coefficient of G is that of a kick
     if (letter == "H") letter = "S";
     sums[letter] += coefficients[word.first_slot(i)];
   }
@@ -211,7 +211,7 @@ tabulated table_in(const json& document, const reader& read) {
     refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
   }
   const std::string letters = read.text("letters");
-  constexpr std::size_t most_letters = 200;  // finding the order takes their square: a second
+  constexpr std::size_t most_letters = 200;  // letters: finding the order takes their square, a second
   if (letters.size() > most_letters) {
     refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
   }
@@ -220,7 +220,7 @@ tabulated table_in(const json& document, const reader& read) {
     const run_time_word word(letters);
     const std::string name = document.contains("name") ? read.text("name") : "table";
     const tabulated bare(name, word, coefficients, {1, false, false});
-    if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // they cover the step once
+    if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
       refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
@@ -251,15 +251,15 @@ tabulated table_in(const json& document, const reader& read) {
 
 tabulated scheme::at(double step) const {
   const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
-  const run_time_family its = placed(family, where);
+  const run_time_family placed_family = placed(family, where);
   Eigen::VectorXd theta = curve.at(inside);
   for (Eigen::Index k = 0; k < theta.size(); ++k) {  // a curve may swing beyond a bound that is attained
-    const auto& [low, high, open] = its.ranges[static_cast<std::size_t>(k)];
+    const auto& [low, high, open] = placed_family.ranges[static_cast<std::size_t>(k)];
     if (!open) theta[k] = std::clamp(theta[k], low, high);
   }
-  require_in_range(its, theta);
-  return tabulated(its.name, its.letters, its.coefficients(theta),
-                   {its.order, its.symmetric, its.requires_quadratic_kinetic});
+  require_in_range(placed_family, theta);
+  return tabulated(placed_family.name, placed_family.letters, placed_family.coefficients(theta),
+                   {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
 }
 
 run_time_word scheme::letters() const { return placed(family, where).letters; }

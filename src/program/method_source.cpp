@@ -45,8 +45,8 @@ method_source find_method(const std::string& typed, const held_methods& held) {
   }
   method_source source;
   source.typed = typed;
-  if (const auto its = held.find(typed); its != held.end()) {
-    take_file(source, method_file_in(its->second, typed));
+  if (const auto found = held.find(typed); found != held.end()) {
+    take_file(source, method_file_in(found->second, typed));
     return source;
   }
   std::string text = typed;
@@ -146,12 +146,12 @@ tabulated found_at(const method_source& source, const bundled_system& system, do
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
 
-tabulated in_its_bath(const method_source& source, tabulated method, const bundled_system& system,
-                      std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+tabulated adapted_to_bath(const method_source& source, tabulated method, const bundled_system& system,
+                          std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const bool has_letters = method.letters().stochastic_letters > 0;
   if (has_letters && source.where)
     refuse("{}: it has its letters O already, in {}", source.typed, method.letters().letters());
-  if (!system.its_bath().acts()) {
+  if (!system.heat_bath().acts()) {
     if (has_letters || source.where) {
       warnings.push_back(
           fmt::format("{}: without a bath (--friction) its letters O are left out", source.typed));
@@ -171,7 +171,7 @@ tabulated in_its_bath(const method_source& source, tabulated method, const bundl
 tabulated coefficients_at(const method_source& source, const bundled_system& system, double step, bool force,
                           std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const tabulated method =
-      in_its_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
+      adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
   const bool was_judged =
@@ -197,7 +197,7 @@ std::optional<std::string> warning_of_energies(const method_source& source, cons
 
 std::optional<placement> placement_in(const method_source& source, const bundled_system& system,
                                       std::optional<placement> otherwise) {
-  if (!system.its_bath().acts()) return std::nullopt;
+  if (!system.heat_bath().acts()) return std::nullopt;
   const placement where = source.where.value_or(otherwise.value_or(usual));
   const run_time_word& word = family_named(*source.family).letters;
   if (where == placement::middle && word.length % 2 == 0) {
@@ -208,7 +208,7 @@ std::optional<placement> placement_in(const method_source& source, const bundled
 }
 
 int noise_parts(const tabulated& method, const bundled_system& system) {
-  if (system.its_bath().sigma() == 0.0) return 0;
+  if (system.heat_bath().sigma() == 0.0) return 0;
   return intervals_of_noise(method.letters(), method.coefficients()).parts;
 }
 

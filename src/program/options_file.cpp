@@ -108,7 +108,7 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
   const CLI::App* command = &app_;
   for (const auto& section : item.parents) {
     const auto found =
-        command->get_subcommands([&](const CLI::App* its) { return its->check_name(section); });
+        command->get_subcommands([&](const CLI::App* subcommand) { return subcommand->check_name(section); });
     if (found.empty()) {
       refuse("--config: unknown section [{}]: {}", section, did_you_mean(section, command_names(app_)));
     }

@@ -23,10 +23,10 @@ double smallest(std::vector<double>& scores, double k) {
   return *at;
 }
 
-double bound(const error_statistic& its, std::vector<double> scores, double sign) {
+double bound(const error_statistic& statistic, std::vector<double> scores, double sign) {
   const double n = static_cast<double>(scores.size());
   double result = 0.0;
-  if (its.is_quantile) {
+  if (statistic.is_quantile) {
     const double p = error_statistic::share;
     const double k = n * p + sign * deviations * std::sqrt(n * p * (1.0 - p));
     result = smallest(scores, sign > 0.0 ? std::ceil(k) : std::floor(k));
@@ -35,7 +35,7 @@ double bound(const error_statistic& its, std::vector<double> scores, double sign
     result = mean.mean + sign * deviations * mean.standard_error;
     if (result < 0.0) result = 0.0;
   }
-  return its.is_root ? std::sqrt(result) : result;
+  return statistic.is_root ? std::sqrt(result) : result;
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ ratio_estimate paired_ratio(std::span<const double> a, std::span<const double> b
   constexpr std::size_t fewest = 8;
   if (a.size() < fewest || !std::isfinite(result.value)) return result;
   constexpr std::size_t resamples = 1000;
-  std::mt19937_64 draw;  // the same of all seeds: it makes no result, and its interval to some percent
+  std::mt19937_64 draw;  // the same of all seeds: draws change no ratio, and its interval by some percent
   std::vector<double> ratios(resamples);
   std::vector<double> of_a(a.size());
   std::vector<double> of_b(a.size());

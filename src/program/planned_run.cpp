@@ -46,11 +46,12 @@ trajectories_plan planned_run::plan() const {
 
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
-  const auto its = plan();
+  const auto trajectories = plan();
   for (const auto& text :
-       {stability_warning(command_.method, *method_, *system_, its.step, its.seed),
-        failed_trial(command_.method, *method_, *system_, its.step, its.steps, its.seed, its.threads),
-        warning_of_energies(source_, *system_, its)}) {
+       {stability_warning(command_.method, *method_, *system_, trajectories.step, trajectories.seed),
+        failed_trial(command_.method, *method_, *system_, trajectories.step, trajectories.steps,
+                     trajectories.seed, trajectories.threads),
+        warning_of_energies(source_, *system_, trajectories)}) {
     if (text) found.push_back(*text);
   }
   return found;

@@ -56,9 +56,9 @@ std::string meaning(mark which) {
   return {};
 }
 
-const backdrop& behind(const comparison& all, std::size_t m, const row& its) {
+const backdrop& behind(const comparison& all, std::size_t m, const row& line) {
   static const backdrop none;
-  const auto at = all.behind().find({m, its.step});
+  const auto at = all.behind().find({m, line.step});
   return at == all.behind().end() ? none : at->second;
 }
 
@@ -67,8 +67,8 @@ namespace {
 bool has_tail(const finding& one) { return one.spread && one.spread->largest.is_heavy(); }
 
 /// Of acceptances what is rejected.
-double error_of(const comparison& all, std::size_t m, const row& its) {
-  const double value = ranked_value(all, m, its).mean;
+double error_of(const comparison& all, std::size_t m, const row& line) {
+  const double value = ranked_value(all, m, line).mean;
   return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
 }
 
@@ -76,19 +76,19 @@ double error_of(const comparison& all, std::size_t m, const row& its) {
 
 bool is_by_median(const comparison& all, std::size_t m) {
   return std::ranges::any_of(
-      all.rows(), [&](const row& its) { return has_tail(its.findings[m]) && is_known(all, m, its); });
+      all.rows(), [&](const row& line) { return has_tail(line.findings[m]) && is_known(all, m, line); });
 }
 
-estimate ranked_value(const comparison& all, std::size_t m, const row& its) {
-  const finding& one = its.findings[m];
+estimate ranked_value(const comparison& all, std::size_t m, const row& line) {
+  const finding& one = line.findings[m];
   return one.spread && is_by_median(all, m) ? one.spread->median : one.value;
 }
 
-std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its) {
+std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line) {
   std::vector<mark> result;
-  const finding& one = its.findings[m];
+  const finding& one = line.findings[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return result;
-  const backdrop& against = behind(all, m, its);
+  const backdrop& against = behind(all, m, line);
   const asked_metric& metric = all.metrics()[m];
   const double error = one.value.mean;
   constexpr double known_well = 0.1;
@@ -106,39 +106,39 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& its)
     result.push_back(mark::horizon);
   }
   if (has_tail(one)) result.push_back(mark::tail);
-  if (its.gains_nothing) result.push_back(mark::formula);
+  if (line.gains_nothing) result.push_back(mark::formula);
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }
 
-bool is_known(const comparison& all, std::size_t m, const row& its) {
-  const finding& one = its.findings[m];
+bool is_known(const comparison& all, std::size_t m, const row& line) {
+  const finding& one = line.findings[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
-  const auto marks = marks_of(all, m, its);
+  const auto marks = marks_of(all, m, line);
   return std::ranges::none_of(marks, [](mark found) {
     return found == mark::reference || found == mark::horizon || found == mark::diverged;
   });
 }
 
-bool is_ranked(const comparison& all, std::size_t m, const row& its) {
-  return is_known(all, m, its) && std::ranges::count(marks_of(all, m, its), mark::null) == 0;
+bool is_ranked(const comparison& all, std::size_t m, const row& line) {
+  return is_known(all, m, line) && std::ranges::count(marks_of(all, m, line), mark::null) == 0;
 }
 
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
   std::vector<at_equal_cost> result;
   constexpr double start_up = 1.01;  // a run of n steps may cost one evaluation more
-  for (const row& its : all.rows()) {
-    if (!its.is_learned || !is_ranked(all, m, its)) continue;
+  for (const row& line : all.rows()) {
+    if (!line.is_learned || !is_ranked(all, m, line)) continue;
     const row* best = nullptr;
     for (const row& other : all.rows()) {
       if (other.is_learned || !is_ranked(all, m, other)) continue;
       const bool is_affordable = all.command().equal_cost
-                                     ? other.nominal == its.nominal
-                                     : other.evaluations_per_time <= start_up * its.evaluations_per_time;
+                                     ? other.nominal == line.nominal
+                                     : other.evaluations_per_time <= start_up * line.evaluations_per_time;
       if (!is_affordable) continue;
       if (best == nullptr || error_of(all, m, other) < error_of(all, m, *best)) best = &other;
     }
-    if (best != nullptr) result.push_back({&its, best});
+    if (best != nullptr) result.push_back({&line, best});
   }
   return result;
 }
@@ -163,16 +163,17 @@ estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
   return {ratio, ratio * paired_difference(in_best, in_learned).standard_error};
 }
 
-double evaluations_of(const row& its) { return its.evaluations_per_time; }
-double seconds_of(const row& its) { return its.seconds_per_time.least; }
+double evaluations_of(const row& line) { return line.evaluations_per_time; }
+double seconds_of(const row& line) { return line.seconds_per_time.least; }
 
 std::vector<const row*> pareto_front(const comparison& all, std::size_t m, double (*cost)(const row&)) {
   std::vector<const row*> ranked;
   std::vector<cost_and_error> points;
-  for (const row& its : all.rows()) {
-    if (!is_ranked(all, m, its)) continue;
-    ranked.push_back(&its);
-    points.push_back({cost(its), std::max(error_of(all, m, its), behind(all, m, its).floor.value_or(0.0))});
+  for (const row& line : all.rows()) {
+    if (!is_ranked(all, m, line)) continue;
+    ranked.push_back(&line);
+    points.push_back(
+        {cost(line), std::max(error_of(all, m, line), behind(all, m, line).floor.value_or(0.0))});
   }
   std::vector<const row*> front;
   for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
@@ -185,17 +186,17 @@ namespace {
 std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std::string& method,
                                 double (*cost)(const row&)) {
   std::vector<error_at> result;
-  for (const row& its : all.rows()) {
-    if (its.method != method) continue;
-    const finding& one = its.findings[m];
-    const bool counts = is_known(all, m, its);
+  for (const row& line : all.rows()) {
+    if (line.method != method) continue;
+    const finding& one = line.findings[m];
+    const bool counts = is_known(all, m, line);
     const bool is_lost = one.diverged > 0;
     if (!counts && !is_lost) continue;
-    const double error = counts ? error_of(all, m, its) : std::numeric_limits<double>::infinity();
-    result.push_back({cost(its), error, ranked_value(all, m, its).standard_error});
+    const double error = counts ? error_of(all, m, line) : std::numeric_limits<double>::infinity();
+    result.push_back({cost(line), error, ranked_value(all, m, line).standard_error});
   }
   std::ranges::sort(result, std::greater{}, &error_at::x);
-  // Not that of std::ranges: clang++ 14 does not compile what it returns.
+  // Not std::ranges::unique: clang++ 14 does not compile what it returns.
   const auto same = [](const error_at& a, const error_at& b) { return a.x == b.x; };
   result.erase(std::unique(result.begin(), result.end(), same), result.end());
   return result;
@@ -241,14 +242,14 @@ std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double
     const auto evaluations = errors_at(all, m, method, evaluations_of);
     const auto seconds = errors_at(all, m, method, seconds_of);
     if (evaluations.empty()) continue;
-    const auto its = std::ranges::find(all.rows(), method, &row::method);
+    const auto line = std::ranges::find(all.rows(), method, &row::method);
     result.push_back({.method = method,
-                      .is_learned = its->is_learned,
+                      .is_learned = line->is_learned,
                       .evaluations = threshold(evaluations, level, same_trajectories),
                       .seconds = threshold(seconds, level, same_trajectories)});
   }
-  const auto order = [](const cost_at_level& its) {
-    return std::pair(its.evaluations.kind == crossing_kind::above_from_first, its.evaluations.x);
+  const auto order = [](const cost_at_level& cost) {
+    return std::pair(cost.evaluations.kind == crossing_kind::above_from_first, cost.evaluations.x);
   };
   std::ranges::stable_sort(result, {}, order);
   return result;
@@ -259,8 +260,8 @@ std::vector<std::string> warnings_of_reference(const comparison& all) {
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     if (all.metrics()[m].is_of_law()) continue;
     std::vector<const row*> rows;
-    for (const row& its : all.rows()) {
-      if (std::ranges::count(marks_of(all, m, its), mark::reference) > 0) rows.push_back(&its);
+    for (const row& line : all.rows()) {
+      if (std::ranges::count(marks_of(all, m, line), mark::reference) > 0) rows.push_back(&line);
     }
     if (rows.empty()) continue;
     const row& first = *rows.front();

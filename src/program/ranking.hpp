@@ -13,7 +13,7 @@ namespace nysalt::program {
 
 /// Why a value is to be taken with care, in the words of the report.
 enum class mark {
-  reference,  // the reference's own error is more than a tenth of it, or three times the floor
+  reference,  // the reference's own error is more than a tenth of the value, or three times the floor
   null,       // no better than what stays as it was at the start
   floor,      // no more than sampling makes
   horizon,    // beyond the time for which a path can be followed
@@ -25,22 +25,22 @@ std::string to_string(mark which);
 std::string meaning(mark which);
 
 /// What a row is seen against; empty where nothing was measured.
-const backdrop& behind(const comparison& all, std::size_t metric, const row& its);
+const backdrop& behind(const comparison& all, std::size_t metric, const row& line);
 
 /// The marks of one finding; none where there is no value.
-std::vector<mark> marks_of(const comparison& all, std::size_t metric, const row& its);
+std::vector<mark> marks_of(const comparison& all, std::size_t metric, const row& line);
 
-/// Whether it has a value of all trajectories, that says something of the method, and not of chaos or of the
-/// reference.
-bool is_known(const comparison& all, std::size_t metric, const row& its);
-/// The same, and it is better than doing nothing.
-bool is_ranked(const comparison& all, std::size_t metric, const row& its);
+/// Whether the row has a value of all trajectories, that says something of the method, and not of chaos or of
+/// the reference.
+bool is_known(const comparison& all, std::size_t metric, const row& line);
+/// The same, and the row is better than doing nothing.
+bool is_ranked(const comparison& all, std::size_t metric, const row& line);
 
 /// Whether the rows of a metric are ranked by the median of their trajectories: where few trajectories decide
 /// the mean of any row that counts.
 bool is_by_median(const comparison& all, std::size_t metric);
 /// The number that a row is ranked by, with its standard error: the mean, or the median.
-estimate ranked_value(const comparison& all, std::size_t metric, const row& its);
+estimate ranked_value(const comparison& all, std::size_t metric, const row& line);
 
 /// A learned method, and the best of the others that cost no more evaluations.
 struct at_equal_cost {
@@ -55,11 +55,11 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metri
 /// rejected.
 estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
 
-/// Those that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are
+/// Rows that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are
 /// ties.
 std::vector<const row*> pareto_front(const comparison& all, std::size_t metric, double (*cost)(const row&));
-double evaluations_of(const row& its);
-double seconds_of(const row& its);
+double evaluations_of(const row& line);
+double seconds_of(const row& line);
 
 /// The costs at which a method's error comes to a level, in evaluations and in seconds a unit of time.
 struct cost_at_level {

@@ -52,7 +52,7 @@ void recommendation::learn_and_rank() {
 
 /// Where a mean turns out to rest on few trajectories, all of it again by quantiles, from the optima found.
 void recommendation::rank_at_one_error() {
-  for (auto& its : all_) prepare_search(its);
+  for (auto& contender : all_) prepare_search(contender);
   while (true) {
     find_steps(all_);
     constexpr double start_up = 1.01;  // a run of n steps may cost one evaluation more
@@ -66,38 +66,39 @@ void recommendation::rank_at_one_error() {
     by_seconds_->unit = cost_unit::seconds;
     double noise = 0.0;
     for (const bool learned : {true, false}) {
-      if (const candidate* its = by_evaluations_->best_of(learned)) noise += noise_of(*its);
+      if (const candidate* contender = by_evaluations_->best_of(learned)) noise += noise_of(*contender);
     }
     by_seconds_->cost_ratio = grid_ratio * (1.0 + noise);
     run(*by_seconds_);
     if (searches_by_quantiles_ || !(is_heavy(*by_evaluations_) || is_heavy(*by_seconds_))) return;
     searches_by_quantiles_ = true;
-    for (auto& its : all_) prepare_search(its);
+    for (auto& contender : all_) prepare_search(contender);
   }
 }
 
 /// What has no error yet is prepared and measured; then the best are looked at until they are confirmed.
 void recommendation::run(contest& among) {
   std::vector<candidate*> fresh;
-  for (auto& its : among.all) {
-    if (!its.reason.empty() || !its.error.scores.empty()) continue;
-    const auto known = [&](const candidate& other) { return other.source.typed == its.source.typed; };
+  for (auto& contender : among.all) {
+    if (!contender.reason.empty() || !contender.error.scores.empty()) continue;
+    const auto known = [&](const candidate& other) { return other.source.typed == contender.source.typed; };
     std::vector<double> from;
     if (by_evaluations_ && &among != &*by_evaluations_) {
       const auto other = std::ranges::find_if(by_evaluations_->all, known);
       const bool is_fit = other != by_evaluations_->all.end() && other->learned;
       if (is_fit && other->learned->fit.usable) from = theta_of(other->learned->fit);
     }
-    if (!its.method) prepare(its, from);
-    fresh.push_back(&its);
+    if (!contender.method) prepare(contender, from);
+    fresh.push_back(&contender);
   }
   measure_on_test(std::move(fresh));
   settle(among);
 }
 
 bool recommendation::is_heavy(const contest& among) const {
-  return std::ranges::any_of(among.all, [](const candidate& its) {
-    return its.stands() && (its.error.is_heavy || (its.confirmed && its.confirmed->is_heavy));
+  return std::ranges::any_of(among.all, [](const candidate& contender) {
+    return contender.stands() &&
+           (contender.error.is_heavy || (contender.confirmed && contender.confirmed->is_heavy));
   });
 }
 
@@ -106,63 +107,63 @@ void recommendation::settle(contest& among) {
     // One statistic for all: else they could not be ranked.
     if (among.budget && !among.statistic.is_quantile && is_heavy(among)) among.statistic = statistic(true);
     if (command_.error) {
-      for (auto& its : among.all) {
-        if (!its.stands() || its.confirmed) continue;
-        if (!(among.statistic.lower_bound(its.error.scores) > *command_.error)) continue;
-        its.reason = fmt::format("on fresh trajectories its error is {:.2e}, above {:g}", among.error_of(its),
-                                 *command_.error);
+      for (auto& contender : among.all) {
+        if (!contender.stands() || contender.confirmed) continue;
+        if (!(among.statistic.lower_bound(contender.error.scores) > *command_.error)) continue;
+        contender.reason = fmt::format("on fresh trajectories its error is {:.2e}, above {:g}",
+                                       among.error_of(contender), *command_.error);
       }
     }
     among.rank();
     candidate* next = nullptr;
-    for (auto& its : among.all) {
-      const bool is_best = &its == among.best_of(true) || &its == among.best_of(false);
-      if (is_best && !its.confirmed) next = &its;
+    for (auto& contender : among.all) {
+      const bool is_best = &contender == among.best_of(true) || &contender == among.best_of(false);
+      if (is_best && !contender.confirmed) next = &contender;
     }
     if (next == nullptr) break;
     confirm(among, *next);
   }
 }
 
-void recommendation::confirm(contest& among, candidate& its) {
-  std::string why = objection_to(its);
+void recommendation::confirm(contest& among, candidate& contender) {
+  std::string why = objection_to(contender);
   if (why.empty()) {
-    candidate again = its;
-    measure_at(its.step, {&again}, command_.trajectories, seed_for(role::confirmation, common_.seed));
-    its.confirmed = again.error;
+    candidate again = contender;
+    measure_at(contender.step, {&again}, command_.trajectories, seed_for(role::confirmation, common_.seed));
+    contender.confirmed = again.error;
     if (again.error.diverged > 0) {
       why = fmt::format("{} of {} fresh trajectories diverged", again.error.diverged, command_.trajectories);
     } else if (command_.error) {
-      const double most = among.statistic.upper_bound(its.confirmed->scores);
+      const double most = among.statistic.upper_bound(contender.confirmed->scores);
       if (!(most <= *command_.error))
         why = fmt::format("on fresh trajectories its error may be {:.2e}", most);
     }
   }
   if (why.empty()) return;
   if (command_.error) {
-    step_down(its);
-    if (its.reason.empty()) return;
-    its.reason += ": " + why;
+    step_down(contender);
+    if (contender.reason.empty()) return;
+    contender.reason += ": " + why;
   } else {
-    its.reason = why;
+    contender.reason = why;
   }
 }
 
-/// As `run` would warn, and `stability` call it not stable.
-std::string recommendation::objection_to(const candidate& its) const {
-  const auto [found, is_new] = objections_.try_emplace({its.source.typed, its.step});
+/// As `run` would warn, and `stability` call the step not stable.
+std::string recommendation::objection_to(const candidate& contender) const {
+  const auto [found, is_new] = objections_.try_emplace({contender.source.typed, contender.step});
   if (!is_new) return found->second;
-  const auto& name = its.source.typed;
-  if (const auto text = instability(name, *its.method, *system_, its.step)) {
+  const auto& name = contender.source.typed;
+  if (const auto text = instability(name, *contender.method, *system_, contender.step)) {
     found->second = *text;
-  } else if (const auto warning = stability_warning(name, *its.method, *system_, its.step,
+  } else if (const auto warning = stability_warning(name, *contender.method, *system_, contender.step,
                                                     seed_for(role::test, common_.seed))) {
     found->second = *warning;
   } else {
-    const auto trial =
-        try_step(*its.method, *system_, its.step, seed_for(role::test, common_.seed), common_.threads);
+    const auto trial = try_step(*contender.method, *system_, contender.step,
+                                seed_for(role::test, common_.seed), common_.threads);
     const std::string why = trial.objection();
-    if (!why.empty()) found->second = fmt::format("at step {:g}: {}", its.step, why);
+    if (!why.empty()) found->second = fmt::format("at step {:g}: {}", contender.step, why);
   }
   return found->second;
 }
@@ -203,23 +204,23 @@ void recommendation::require_sound_command() const {
       metric(), plan_at(nominal, command_.trajectories, seed_for(role::test, common_.seed)), {}, 1);
 }
 
-/// Those that repeat another at equal cost do not take part, nor letters O where there is no bath.
+/// Methods that repeat another at equal cost do not take part, nor letters O where there is no bath.
 void recommendation::plan_classical() {
   for (const auto& name : method_names()) {
     if (name.ends_with("_2x")) continue;
-    candidate its{.source = find_method(name), .where = {}};
-    const bool has_bath = system_->its_bath().acts();
-    if (its.source.fixed) {
-      const tabulated& method = *its.source.fixed;
+    candidate contender{.source = find_method(name), .where = {}};
+    const bool has_bath = system_->heat_bath().acts();
+    if (contender.source.fixed) {
+      const tabulated& method = *contender.source.fixed;
       if (!has_bath && method.letters().stochastic_letters > 0) continue;
-      its.order = method.order;
-      its.symmetric = method.symmetric;
-      its.rotates = has_rotation(method.letters());
+      contender.order = method.order;
+      contender.symmetric = method.symmetric;
+      contender.rotates = has_rotation(method.letters());
     } else {
-      its.order = its.source.adaptive->properties.order;
-      its.symmetric = its.source.adaptive->properties.symmetric;
+      contender.order = contender.source.adaptive->properties.order;
+      contender.symmetric = contender.source.adaptive->properties.symmetric;
     }
-    consider(std::move(its));
+    consider(std::move(contender));
   }
 }
 
@@ -231,11 +232,11 @@ void recommendation::plan_families() {
     const auto& family = family_named(name);
     if (!is_fixed_in(family)) continue;
     fixes = true;
-    candidate its{.source = find_method("learned:" + name), .where = {}};
-    its.order = family.order;
-    its.symmetric = family.symmetric;
-    its.rotates = has_rotation(family.letters);
-    consider(std::move(its));
+    candidate contender{.source = find_method("learned:" + name), .where = {}};
+    contender.order = family.order;
+    contender.symmetric = family.symmetric;
+    contender.rotates = has_rotation(family.letters);
+    consider(std::move(contender));
   }
   if (!fixes)
     refuse("--fix {}: no family that is learned here has such parameters", listed(command_.learning.fix));
@@ -253,30 +254,33 @@ bool recommendation::is_fixed_in(const run_time_family& family) const {
 }
 
 /// Takes part, or is left out with the reason why.
-void recommendation::consider(candidate its) {
-  const std::string name = its.source.typed;
-  charge(its.source, *system_);
+void recommendation::consider(candidate contender) {
+  const std::string name = contender.source.typed;
+  charge(contender.source, *system_);
   const auto leave_out = [&](const std::string& why) { left_out_.emplace_back(name, why); };
-  if ((command_.reversible || command_.metric == "acceptance") && !its.symmetric) {
+  if ((command_.reversible || command_.metric == "acceptance") && !contender.symmetric) {
     return leave_out("it is not reversible");
   }
   try {
     const auto otherwise = placement_asked(command_.placement);
-    its.step = its.source.evaluations_per_step / command_.budget.value_or(system_->fastest_rate());
-    if (its.is_learned()) its.where = placement_in(its.source, *system_, otherwise);
+    contender.step =
+        contender.source.evaluations_per_step / command_.budget.value_or(system_->fastest_rate());
+    if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);
     if (command_.budget) {
-      plan_at(its.step, command_.trajectories, 0);
-      if (!its.is_learned()) {
+      plan_at(contender.step, command_.trajectories, 0);
+      if (!contender.is_learned()) {
         std::vector<std::string> ignored;  // what is not stable is seen to diverge
-        its.method = coefficients_at(its.source, *system_, its.step, false, otherwise, ignored);
+        contender.method =
+            coefficients_at(contender.source, *system_, contender.step, false, otherwise, ignored);
       }
-    } else if (its.source.fixed) {
-      system_->require_served(its.source.fixed->letters());
+    } else if (contender.source.fixed) {
+      system_->require_served(contender.source.fixed->letters());
     }
-    if (its.is_learned()) {
-      system_->require_learnable(*its.source.family, its.where, command_.learning, its.step);
+    if (contender.is_learned()) {
+      system_->require_learnable(*contender.source.family, contender.where, command_.learning,
+                                 contender.step);
     }
-    all_.push_back(std::move(its));
+    all_.push_back(std::move(contender));
   } catch (const refusal& problem) {
     leave_out(problem.what());
   } catch (const std::invalid_argument& problem) {
@@ -288,55 +292,57 @@ trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::
   trajectories_plan plan{step, steps_within("--horizon", command_.horizon, step), count, seed,
                          common_.threads};
   if (!metric().is_along_paths()) return plan;
-  plan.steps = steps_beyond("--horizon", command_.horizon, step);  // errors are means over all of it
+  plan.steps = steps_beyond("--horizon", command_.horizon, step);  // errors are means over all of the horizon
   plan.horizon = command_.horizon;
   return plan;
 }
 
-void recommendation::prepare(candidate& its, const std::vector<double>& from, bool from_there_alone) {
-  its.reason.clear();
-  const double samples = command_.horizon / its.step;
+void recommendation::prepare(candidate& contender, const std::vector<double>& from, bool from_there_alone) {
+  contender.reason.clear();
+  const double samples = command_.horizon / contender.step;
   if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
-    its.reason = fmt::format(
+    contender.reason = fmt::format(
         "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean "
         "over time takes",
-        command_.horizon, samples, its.step, fewest_samples);
+        command_.horizon, samples, contender.step, fewest_samples);
     return;
   }
   try {
-    if (!its.is_learned()) {
+    if (!contender.is_learned()) {
       std::vector<std::string> ignored;
-      its.method = coefficients_at(its.source, *system_, its.step, false, placement_asked(command_.placement),
-                                   ignored);
+      contender.method = coefficients_at(contender.source, *system_, contender.step, false,
+                                         placement_asked(command_.placement), ignored);
       return;
     }
-    learn_plan plan = plan_for(*its.source.family, its.where, its.step, command_.learning, common_);
+    learn_plan plan =
+        plan_for(*contender.source.family, contender.where, contender.step, command_.learning, common_);
     plan.from = from;
     plan.from_there_alone = from_there_alone;
-    its.learned = learn_with(*system_, plan, shown_);
-    its.method = its.learned->method;
-    const fit_summary& fit = its.learned->fit;
+    contender.learned = learn_with(*system_, plan, shown_);
+    contender.method = contender.learned->method;
+    const fit_summary& fit = contender.learned->fit;
     if (!fit.usable) {
-      its.reason = "the fit is not usable: " + fit.reason;
-    } else if (const auto known = known_as(*its.source.family, theta_of(fit), formulas_at(its.step))) {
-      its.reason = "nothing was learned: it is " + *known;
+      contender.reason = "the fit is not usable: " + fit.reason;
+    } else if (const auto known =
+                   known_as(*contender.source.family, theta_of(fit), formulas_at(contender.step))) {
+      contender.reason = "nothing was learned: it is " + *known;
     }
   } catch (const refusal& problem) {  // an adaptive method where it is not defined
-    its.reason = problem.what();
+    contender.reason = problem.what();
   }
 }
 
 /// Methods whose coefficients depend on the step.
 std::vector<tabulated> recommendation::formulas_at(double step) const {
   std::vector<tabulated> all;
-  if (system_->its_bath().acts()) return all;
-  for (const auto& its : all_) {
-    if (its.source.adaptive == nullptr) continue;
+  if (system_->heat_bath().acts()) return all;
+  for (const auto& contender : all_) {
+    if (contender.source.adaptive == nullptr) continue;
     try {
       std::vector<std::string> ignored;
-      const auto method = coefficients_at(its.source, *system_, step, false, {}, ignored);
-      all.emplace_back(its.source.typed, method.letters(), method.coefficients(), method);
-    } catch (const refusal&) {  // where it is not defined
+      const auto method = coefficients_at(contender.source, *system_, step, false, {}, ignored);
+      all.emplace_back(contender.source.typed, method.letters(), method.coefficients(), method);
+    } catch (const refusal&) {  // where the method is not defined
     }
   }
   return all;
@@ -344,15 +350,15 @@ std::vector<tabulated> recommendation::formulas_at(double step) const {
 
 void recommendation::measure_on_test(std::vector<candidate*> all) {
   measure(all, command_.trajectories, seed_for(role::test, common_.seed));
-  for (candidate* its : all) {
-    if (its->method) its->seconds_per_time = seconds_of_step(*its) / its->step;
+  for (candidate* contender : all) {
+    if (contender->method) contender->seconds_per_time = seconds_of_step(*contender) / contender->step;
   }
 }
 
 void recommendation::measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed) {
-  std::map<double, std::vector<candidate*>> by_step;  // they share the reference
-  for (candidate* its : all) {
-    if (its->reason.empty()) by_step[its->step].push_back(its);
+  std::map<double, std::vector<candidate*>> by_step;  // candidates at one step share the reference
+  for (candidate* contender : all) {
+    if (contender->reason.empty()) by_step[contender->step].push_back(contender);
   }
   for (const auto& [step, group] : by_step) measure_at(step, group, count, seed);
 }
@@ -361,52 +367,55 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
                                 std::uint64_t seed) {
   const trajectories_plan plan = plan_at(step, count, seed);
   shown_.part(fmt::format("comparing {} at step {:g}", group.size() == 1 ? "one" : "some", step));
-  const auto take = [&](candidate& its, estimate mean, std::vector<double> scores, const auto& diverged_at) {
-    its.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
-    its.error.is_heavy = tail_of(its.error.scores).is_heavy();
-    if (its.error.diverged < count) return;
+  const auto take = [&](candidate& contender, estimate mean, std::vector<double> scores,
+                        const auto& diverged_at) {
+    contender.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
+    contender.error.is_heavy = tail_of(contender.error.scores).is_heavy();
+    if (contender.error.diverged < count) return;
     const auto earliest = std::ranges::min(diverged_at, {}, &diverged_trajectory::step);
-    its.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
+    contender.reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
   };
   if (command_.metric == "acceptance") {
-    for (candidate* its : group) {
-      const auto found = system_->acceptance(*its->method, plan, command_.hmc_temperature, {});
+    for (candidate* contender : group) {
+      const auto found = system_->acceptance(*contender->method, plan, command_.hmc_temperature, {});
       std::vector<double> rejected;
       for (const double a : found.of_each) rejected.push_back(1.0 - a);
-      its->evaluations_per_time = found.evaluations_per_time;
-      take(*its, {1.0 - found.probability.mean, found.probability.standard_error}, std::move(rejected),
+      contender->evaluations_per_time = found.evaluations_per_time;
+      take(*contender, {1.0 - found.probability.mean, found.probability.standard_error}, std::move(rejected),
            found.diverged_at);
     }
     return;
   }
   std::vector<tabulated> methods;
-  for (const candidate* its : group) methods.push_back(*its->method);
+  for (const candidate* contender : group) methods.push_back(*contender->method);
   const errors_plan asked{
       .trajectories = plan, .metrics = {metric()}, .fine_step = system_->fine_step_for_ranking(step)};
   const auto found = system_->errors(methods, asked, shown_.counter(plan.count)).front();
   const bool is_root = statistic(false).is_root;
   for (std::size_t k = 0; k < group.size(); ++k) {
-    candidate& its = *group[k];
-    const method_error& its_error = found.methods[k];
-    std::vector<double> scores = its_error.own;
+    candidate& contender = *group[k];
+    const method_error& method = found.methods[k];
+    std::vector<double> scores = method.own;
     if (is_root) {
       for (double& x : scores) x *= x;
     }
-    its.evaluations_per_time = its_error.evaluations_per_time;
-    if (found.reference_error) its.reference_error = found.reference_error->mean;
-    its.reference = found.reference;
-    take(its, its_error.error, std::move(scores), its_error.diverged_at);
+    contender.evaluations_per_time = method.evaluations_per_time;
+    if (found.reference_error) contender.reference_error = found.reference_error->mean;
+    contender.reference = found.reference;
+    take(contender, method.error, std::move(scores), method.diverged_at);
   }
 }
 
 /// A reference that errs like the method says nothing of it.
 void recommendation::warn_of_reference(const contest& among) {
-  for (const auto& its : among.all) {
-    if (!its.reference_error || !its.stands() || *its.reference_error <= 0.1 * its.error.mean.mean) continue;
+  for (const auto& contender : among.all) {
+    if (!contender.reference_error || !contender.stands() ||
+        *contender.reference_error <= 0.1 * contender.error.mean.mean)
+      continue;
     warnings_.push_back(
         fmt::format("the reference's own error {:.1e} is not ten times smaller than that of {}, "
                     "{:.1e}",
-                    *its.reference_error, its.source.typed, its.error.mean.mean));
+                    *contender.reference_error, contender.source.typed, contender.error.mean.mean));
   }
 }
 

@@ -37,25 +37,26 @@ class recommendation {
   void require_sound_command() const;
   void plan_classical();
   void plan_families();
-  void consider(candidate one);
+  void consider(candidate contender);
   bool is_fixed_in(const run_time_family& family) const;
 
   // At one error.
   void rank_at_one_error();
   void find_steps(std::vector<candidate>& all);
   static const double grid_ratio;
-  double grid_step(const candidate& its, int k) const;
-  void prepare_search(candidate& its) const;
+  double grid_step(const candidate& contender, int k) const;
+  void prepare_search(candidate& contender) const;
   /// The point of the grid to try next; nothing if there is none.
   static std::optional<int> next_of(const bracket& search);
-  void probe(candidate& its, int k);
-  void judge(candidate& its, int k) const;
-  void step_down(candidate& its);
+  void probe(candidate& contender, int k);
+  void judge(candidate& contender, int k) const;
+  void step_down(candidate& contender);
 
   asked_metric metric() const { return {command_.metric, command_.observable}; }
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
-  /// Coefficients at its step; of a family with the optimum of a step nearby as one more start, or the only.
-  void prepare(candidate& its, const std::vector<double>& from = {}, bool from_there_alone = false);
+  /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
+  /// or the only.
+  void prepare(candidate& contender, const std::vector<double>& from = {}, bool from_there_alone = false);
   std::vector<tabulated> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
@@ -63,17 +64,19 @@ class recommendation {
 
   // Seconds.
   void time_steps();
-  double seconds_of_step(const candidate& its) const { return step_seconds_.at(its.source.typed).least; }
-  double noise_of(const candidate& its) const;
+  double seconds_of_step(const candidate& contender) const {
+    return step_seconds_.at(contender.source.typed).least;
+  }
+  double noise_of(const candidate& contender) const;
   double noise_of(const candidate& a, const candidate& b) const;
   contest at_equal_seconds(double seconds_per_time, const contest* known) const;
 
   void settle(contest& among);
   void run(contest& among);
-  /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it. False
-  /// if it is not to be taken so.
-  void confirm(contest& among, candidate& its);
-  std::string objection_to(const candidate& its) const;
+  /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
+  /// Where there is an objection, the contender takes a smaller step (at one error) or gets a reason.
+  void confirm(contest& among, candidate& contender);
+  std::string objection_to(const candidate& contender) const;
   error_statistic statistic(bool by_quantiles) const;
   bool is_heavy(const contest& among) const;
   void warn_of_reference(const contest& among);
@@ -82,12 +85,12 @@ class recommendation {
   std::string advice() const;
   std::string advice_of(const contest& among) const;
   std::string advice_on_seconds() const;
-  std::string costs(const candidate& its, const candidate& other) const;
-  std::string as_options(const candidate& its) const;
-  std::string bound_of(const contest& among, const candidate& its) const;
+  std::string costs(const candidate& contender, const candidate& other) const;
+  std::string as_options(const candidate& contender) const;
+  std::string bound_of(const contest& among, const candidate& contender) const;
   std::string quantity() const;
-  double quantile_of(const measured_error& its) const;
-  json row_json(const contest& among, const candidate& its) const;
+  double quantile_of(const measured_error& error) const;
+  json row_json(const contest& among, const candidate& contender) const;
   json contest_json(const contest& among) const;
 
   recommend_command command_;

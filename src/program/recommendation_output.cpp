@@ -33,29 +33,29 @@ std::string multiple_of(double ratio, double tolerance, const char* what, const 
 
 }  // namespace
 
-std::string recommendation::as_options(const candidate& its) const {
+std::string recommendation::as_options(const candidate& contender) const {
   const std::string where = command_.placement.empty() ? "" : " --placement " + command_.placement;
-  return fmt::format("--method {} --step {:.12g}{}", its.source.typed, its.step, where);
+  return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
 }
 
 /// What one costs beside the other: "as many evaluations and 1.3 times the seconds".
-std::string recommendation::costs(const candidate& its, const candidate& other) const {
+std::string recommendation::costs(const candidate& contender, const candidate& other) const {
   constexpr double start_up = 0.05;  // a start costs one evaluation, of twenty at least
-  const double noise = noise_of(its, other);
-  return multiple_of(its.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations",
+  const double noise = noise_of(contender, other);
+  return multiple_of(contender.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations",
                      "as many evaluations") +
          " and " +
-         multiple_of(its.seconds_per_time / other.seconds_per_time, noise, "seconds",
+         multiple_of(contender.seconds_per_time / other.seconds_per_time, noise, "seconds",
                      fmt::format("the same seconds within {:.2g} %", 100.0 * noise));
 }
 
 /// Of errors below the one asked for.
-std::string recommendation::bound_of(const contest& among, const candidate& its) const {
-  if (!command_.error || !its.confirmed) return {};
+std::string recommendation::bound_of(const contest& among, const candidate& contender) const {
+  if (!command_.error || !contender.confirmed) return {};
   return fmt::format(", where {} is {:.2e}, and with 97.7 % confidence at most {:.2e}",
                      among.statistic.is_quantile ? "the error of 95 of 100 trajectories" : "the error",
-                     among.statistic(its.confirmed->scores),
-                     among.statistic.upper_bound(its.confirmed->scores));
+                     among.statistic(contender.confirmed->scores),
+                     among.statistic.upper_bound(contender.confirmed->scores));
 }
 
 std::string recommendation::advice_of(const contest& among) const {
@@ -105,15 +105,15 @@ std::string recommendation::advice_on_seconds() const {
   if (first == nullptr || fast == nullptr) return {};
   const std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
   if (fast->source.typed == first->source.typed) return same;
-  const std::string its = fmt::format("{} at step {:.4g}", fast->source.typed, fast->step);
+  const std::string method_at_step = fmt::format("{} at step {:.4g}", fast->source.typed, fast->step);
   if (!command_.budget) {
     const double ratio = first->seconds_per_time / fast->seconds_per_time;
     if (!(ratio > by_seconds_->cost_ratio)) return same;
     return fmt::format(
         " By seconds another wins: {} takes {:.2g} times fewer of them, {:.0f} ns per unit time, "
         "and {:.2g} times the evaluations{}.",
-        its, ratio, 1e9 * fast->seconds_per_time, fast->evaluations_per_time / first->evaluations_per_time,
-        bound_of(*by_seconds_, *fast));
+        method_at_step, ratio, 1e9 * fast->seconds_per_time,
+        fast->evaluations_per_time / first->evaluations_per_time, bound_of(*by_seconds_, *fast));
   }
   const ratio_estimate ratio = by_seconds_->error_ratio(*first, *fast);
   if (!ratio.is_above_one()) {
@@ -123,17 +123,18 @@ std::string recommendation::advice_on_seconds() const {
   return fmt::format(
       " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "
       "times the evaluations (--budget-seconds {:.3g}).",
-      1e9 * first->seconds_per_time, its, in_words(ratio),
+      1e9 * first->seconds_per_time, method_at_step, in_words(ratio),
       fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
 }
 
 std::string recommendation::advice() const { return advice_of(asked()) + advice_on_seconds(); }
 
 std::optional<std::string> recommendation::scheme() const {
-  const candidate* its = asked().winner();
-  if (its == nullptr || !its->is_learned()) return std::nullopt;
-  const learn_plan plan = plan_for(*its->source.family, its->where, its->step, command_.learning, common_);
-  return scheme_text({*its->learned}, *system_, plan);
+  const candidate* winner = asked().winner();
+  if (winner == nullptr || !winner->is_learned()) return std::nullopt;
+  const learn_plan plan =
+      plan_for(*winner->source.family, winner->where, winner->step, command_.learning, common_);
+  return scheme_text({*winner->learned}, *system_, plan);
 }
 
 std::string recommendation::quantity() const {
@@ -142,37 +143,40 @@ std::string recommendation::quantity() const {
   return command_.metric + " error";
 }
 
-json recommendation::row_json(const contest& among, const candidate& its) const {
-  const bool has_error = its.reason.empty() && !its.error.scores.empty();
-  json row{{"method", its.source.typed},
-           {"learned", its.is_learned()},
-           {"order", its.order},
-           {"reversible", its.symmetric},
-           {"rotation", its.rotates},
-           {"evaluations_per_step", its.source.evaluations_per_step},
-           {"step_size", its.step},
-           {"evaluations_per_time", its.evaluations_per_time},
-           {"seconds_per_time", its.seconds_per_time},
-           {"error", its.error.mean.mean},
-           {"standard_error", its.error.mean.standard_error},
-           {"tail", its.error.is_heavy},
-           {"error_of_95_percent", has_error && its.stands() ? json(quantile_of(its.error)) : json(nullptr)},
-           {"diverged", its.error.diverged},
-           {"reference_error", its.reference_error ? json(*its.reference_error) : json(nullptr)},
+json recommendation::row_json(const contest& among, const candidate& contender) const {
+  const bool has_error = contender.reason.empty() && !contender.error.scores.empty();
+  json row{{"method", contender.source.typed},
+           {"learned", contender.is_learned()},
+           {"order", contender.order},
+           {"reversible", contender.symmetric},
+           {"rotation", contender.rotates},
+           {"evaluations_per_step", contender.source.evaluations_per_step},
+           {"step_size", contender.step},
+           {"evaluations_per_time", contender.evaluations_per_time},
+           {"seconds_per_time", contender.seconds_per_time},
+           {"error", contender.error.mean.mean},
+           {"standard_error", contender.error.mean.standard_error},
+           {"tail", contender.error.is_heavy},
+           {"error_of_95_percent",
+            has_error && contender.stands() ? json(quantile_of(contender.error)) : json(nullptr)},
+           {"diverged", contender.error.diverged},
+           {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
            {"confirmed", nullptr}};
-  if (its.confirmed && its.reason.empty()) {
-    row["confirmed"] = {{"error", among.statistic(its.confirmed->scores)},
-                        {"upper_bound", among.statistic.upper_bound(its.confirmed->scores)}};
+  if (contender.confirmed && contender.reason.empty()) {
+    row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
+                        {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
   }
-  if (!its.reason.empty()) row["reason"] = its.reason;
+  if (!contender.reason.empty()) row["reason"] = contender.reason;
   return row;
 }
 
-double recommendation::quantile_of(const measured_error& its) const { return statistic(true)(its.scores); }
+double recommendation::quantile_of(const measured_error& error) const {
+  return statistic(true)(error.scores);
+}
 
 json recommendation::contest_json(const contest& among) const {
-  const auto name_of = [](const candidate* its) {
-    return its == nullptr ? json(nullptr) : json(its->source.typed);
+  const auto name_of = [](const candidate* contender) {
+    return contender == nullptr ? json(nullptr) : json(contender->source.typed);
   };
   const candidate* learned = among.best_of(true);
   const candidate* classical = among.best_of(false);
@@ -195,11 +199,11 @@ json recommendation::contest_json(const contest& among) const {
 json recommendation::document() const {
   json rows = json::array();
   json fits = json::array();
-  for (const auto& its : asked().all) {
-    rows.push_back(row_json(asked(), its));
-    if (!its.learned) continue;
-    json fit{{"method", its.source.typed}};
-    fit.update(fit_json(its.learned->fit));
+  for (const auto& contender : asked().all) {
+    rows.push_back(row_json(asked(), contender));
+    if (!contender.learned) continue;
+    json fit{{"method", contender.source.typed}};
+    fit.update(fit_json(contender.learned->fit));
     fits.push_back(fit);
   }
   json left_out = json::array();
@@ -219,7 +223,7 @@ json recommendation::document() const {
   result["advice"] = advice();
   result["by_seconds"] = contest_json(*by_seconds_);
   json in_seconds = json::array();
-  for (const auto& its : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, its));
+  for (const auto& contender : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, contender));
   result["by_seconds"]["rows"] = in_seconds;
   result["rows"] = rows;
   result["fits"] = fits;
@@ -241,23 +245,23 @@ std::string recommendation::readable() const {
   const auto number = [](const char* format, double x) {
     return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
   };
-  for (const auto& its : among.all) {
-    const bool has_quantile = its.stands() && !its.error.scores.empty();
-    const double quantile = has_quantile ? quantile_of(its.error) : std::nan("");
-    ranking.add({its.source.typed, fmt::format("{}", its.order), number("{:.4g}", its.step),
-                 number("{:.1f}", its.evaluations_per_time), number("{:.0f}", 1e9 * its.seconds_per_time),
-                 number("{:.2e}", its.error.mean.mean),
-                 its.error.is_heavy ? "tail" : number("{:.1e}", its.error.mean.standard_error),
-                 number("{:.2e}", quantile),
-                 fmt::format("{}/{}", its.error.diverged, command_.trajectories)});
+  for (const auto& contender : among.all) {
+    const bool has_quantile = contender.stands() && !contender.error.scores.empty();
+    const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
+    ranking.add(
+        {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
+         number("{:.1f}", contender.evaluations_per_time), number("{:.0f}", 1e9 * contender.seconds_per_time),
+         number("{:.2e}", contender.error.mean.mean),
+         contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
+         number("{:.2e}", quantile), fmt::format("{}/{}", contender.error.diverged, command_.trajectories)});
   }
   text += ranking.text();
   if (among.statistic.is_quantile) {
     text +=
         "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
   }
-  for (const auto& its : among.all) {
-    if (!its.reason.empty()) text += fmt::format("{}: {}\n", its.source.typed, its.reason);
+  for (const auto& contender : among.all) {
+    if (!contender.reason.empty()) text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
   }
   std::map<std::string, std::string> by_reason;
   for (const auto& [name, reason] : left_out_) {

@@ -12,11 +12,11 @@ namespace nysalt::program {
 namespace {
 
 tabulated first_member(const std::string& family, std::optional<placement> where) {
-  const run_time_family its = placed(family, where);
-  return {its.name,
-          its.letters,
-          its.coefficients(its.starts.front().theta),
-          {its.order, its.symmetric, its.requires_quadratic_kinetic}};
+  const run_time_family placed_family = placed(family, where);
+  return {placed_family.name,
+          placed_family.letters,
+          placed_family.coefficients(placed_family.starts.front().theta),
+          {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic}};
 }
 
 }  // namespace
@@ -29,20 +29,21 @@ void recommendation::time_steps() {
   constexpr std::int64_t steps = 256;                   // beside which the first evaluation counts little
   std::vector<std::string> names;
   std::vector<timed_method> methods;
-  std::erase_if(all_, [&](candidate& its) {
-    const double step = its.source.evaluations_per_step * small;
+  std::erase_if(all_, [&](candidate& contender) {
+    const double step = contender.source.evaluations_per_step * small;
     try {
       std::vector<std::string> ignored;
-      const auto method = its.is_learned() ? first_member(*its.source.family, its.where)
-                                           : coefficients_at(its.source, *system_, step, false,
-                                                             placement_asked(command_.placement), ignored);
+      const auto method = contender.is_learned()
+                              ? first_member(*contender.source.family, contender.where)
+                              : coefficients_at(contender.source, *system_, step, false,
+                                                placement_asked(command_.placement), ignored);
       methods.push_back({method,
                          {step, steps, command_.trajectories, common_.seed, common_.threads},
-                         its.source.evaluations_per_step / step});
-      names.push_back(its.source.typed);
+                         contender.source.evaluations_per_step / step});
+      names.push_back(contender.source.typed);
       return false;
     } catch (const refusal& problem) {
-      left_out_.emplace_back(its.source.typed, problem.what());
+      left_out_.emplace_back(contender.source.typed, problem.what());
       return true;
     }
   });
@@ -57,8 +58,8 @@ void recommendation::time_steps() {
 }
 
 /// By how much repeated timings differ, relatively: half of them are within it of the least.
-double recommendation::noise_of(const candidate& its) const {
-  const timed_job& one = step_seconds_.at(its.source.typed);
+double recommendation::noise_of(const candidate& contender) const {
+  const timed_job& one = step_seconds_.at(contender.source.typed);
   return one.median / one.least - 1.0;
 }
 
@@ -75,24 +76,25 @@ contest recommendation::at_equal_seconds(double seconds_per_time, const contest*
                  .cost_ratio = 1.0,
                  .statistic = statistic(false)};
   for (const candidate& planned : all_) {
-    candidate its = planned;
-    its.step = seconds_of_step(its) / seconds_per_time;
+    candidate contender = planned;
+    contender.step = seconds_of_step(contender) / seconds_per_time;
     if (known != nullptr) {
       const auto same = std::ranges::find_if(
-          known->all, [&](const candidate& other) { return other.source.typed == its.source.typed; });
+          known->all, [&](const candidate& other) { return other.source.typed == contender.source.typed; });
       const bool is_there = same != known->all.end();
-      if (is_there && std::abs(std::log(its.step / same->step)) <= noise_of(its, *known->best())) {
+      if (is_there &&
+          std::abs(std::log(contender.step / same->step)) <= noise_of(contender, *known->best())) {
         result.all.push_back(*same);
         continue;
       }
     }
-    its.method.reset();
+    contender.method.reset();
     try {
-      plan_at(its.step, command_.trajectories, 0);
+      plan_at(contender.step, command_.trajectories, 0);
     } catch (const refusal& problem) {
-      its.reason = problem.what();
+      contender.reason = problem.what();
     }
-    result.all.push_back(std::move(its));
+    result.all.push_back(std::move(contender));
   }
   return result;
 }

@@ -24,7 +24,7 @@ restart::restart(const std::filesystem::path& output, const std::filesystem::pat
   if (resume) {
     take_up(question);
   } else {
-    its_.question = question;
+    state_.question = question;
     begin();
   }
 }
@@ -41,11 +41,11 @@ void restart::begin() {
     refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
            file_.string());
   }
-  its_.output = output_.filename().string();
+  state_.output = output_.filename().string();
   part_.emplace(output_);
   try {
     if (arrays_) arrays_->lay_out(*part_);
-    if (arrays_) its_.written = sum_in(part_->part()).value_or(file_sum());
+    if (arrays_) state_.written = sum_in(part_->part()).value_or(file_sum());
     reached({});
   } catch (...) {
     part_->remove();
@@ -55,30 +55,31 @@ void restart::begin() {
 }
 
 void restart::take_up(const json& question) {
-  its_ = read_checkpoint(file_);
-  require_question(its_, question, file_);
-  if (!its_.output.empty() && its_.output != output_.filename()) {
-    refuse("{} is of a run with the --output {}, not {}", file_.string(), its_.output, output_.string());
+  state_ = read_checkpoint(file_);
+  require_question(state_, question, file_);
+  if (!state_.output.empty() && state_.output != output_.filename()) {
+    refuse("{} is of a run with the --output {}, not {}", file_.string(), state_.output, output_.string());
   }
   const auto part = unfinished_file::part_of(output_);
-  if (its_.finished) {
+  if (state_.finished) {
     if (!is_there(output_)) {
       refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
              file_.string(), output_.string());
     }
-    // It was stopped right before it took away what it had sorted.
-    if (!its_.in_order && is_there(part)) std::filesystem::remove(part);
+    // The run was stopped right before it took away what it had sorted.
+    if (!state_.in_order && is_there(part)) std::filesystem::remove(part);
     return;
   }
-  const bool is_whole = its_.at.first == question.at("trajectories");
-  if (is_whole && its_.in_order && !is_there(part) && sum_in(output_) == its_.written) return;  // or there
+  const bool is_whole = state_.at.first == question.at("trajectories");
+  if (is_whole && state_.in_order && !is_there(part) && sum_in(output_) == state_.written)
+    return;  // or there
   part_.emplace(go_on_with_part());
 }
 
 unfinished_file restart::go_on_with_part() const {
-  if (!arrays_) return {output_, its_.written};
+  if (!arrays_) return {output_, state_.written};
   auto part = unfinished_file::left_by_another(output_);
-  if (sum_in(part.part()) == its_.written) return part;
+  if (sum_in(part.part()) == state_.written) return part;
   refuse(
       "{} is not what the run to resume left there: it was edited or cut; remove the checkpoint to begin "
       "anew",
@@ -91,19 +92,19 @@ std::optional<file_sum> restart::sum_in(const std::filesystem::path& file) const
 
 void restart::reached(const standing& at) {
   // Of one trajectory alone what is written is in order, wherever it is cut.
-  if (at.wave.diverged_at.size() > 1 && !arrays_) its_.in_order = false;
+  if (at.wave.diverged_at.size() > 1 && !arrays_) state_.in_order = false;
   part_->put_on_disk();
-  warn_of_version(its_, file_);  // only now: the run has taken what it was given
-  its_.version.clear();
-  its_.at = at;
+  warn_of_version(state_, file_);  // only now: the run has taken what it was given
+  state_.version.clear();
+  state_.at = at;
   is_fresh_ = false;
-  if (!arrays_) its_.written = part_->written();
-  write_checkpoint(file_, its_);
+  if (!arrays_) state_.written = part_->written();
+  write_checkpoint(file_, state_);
 }
 
 void restart::commit() {
   if (!part_) return;
-  if (its_.in_order) {
+  if (state_.in_order) {
     part_->finish();
   } else {
     put_by_trajectory(unfinished_file::part_of(output_), output_);
@@ -111,12 +112,12 @@ void restart::commit() {
 }
 
 void restart::finish() {
-  its_.finished = true;
-  its_.written = sum_in(output_).value_or(file_sum());
-  write_checkpoint(file_, its_);
-  if (part_ && !its_.in_order) part_->remove();
+  state_.finished = true;
+  state_.written = sum_in(output_).value_or(file_sum());
+  write_checkpoint(file_, state_);
+  if (part_ && !state_.in_order) part_->remove();
 }
 
-bool restart::was_changed() const { return sum_in(output_) != its_.written; }
+bool restart::was_changed() const { return sum_in(output_) != state_.written; }
 
 }  // namespace nysalt::program

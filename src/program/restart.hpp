@@ -25,16 +25,16 @@ class restart {
   restart(const restart&) = delete;
   restart& operator=(const restart&) = delete;
 
-  bool is_finished() const { return its_.finished; }
+  bool is_finished() const { return state_.finished; }
   /// Whether the output of a finished run is not what the run wrote any more.
   bool was_changed() const;
-  const standing& from() const { return its_.at; }
-  const std::vector<diverged_trajectory>& lost() const { return its_.lost; }
+  const standing& from() const { return state_.at; }
+  const std::vector<diverged_trajectory>& lost() const { return state_.lost; }
 
   /// Whether there is an output under way: not if it has its name already.
   bool is_under_way() const { return part_.has_value(); }
   unfinished_file& part() { return *part_; }
-  void lose(const diverged_trajectory& one) { its_.lost.push_back(one); }
+  void lose(const diverged_trajectory& one) { state_.lost.push_back(one); }
   /// Makes a checkpoint of all that was written.
   void reached(const standing& at);
   /// The output is whole: it takes its name.
@@ -52,7 +52,7 @@ class restart {
   std::filesystem::path output_;
   std::filesystem::path file_;
   std::optional<array_layout> arrays_;
-  checkpoint its_;
+  checkpoint state_;
   bool is_fresh_ = false;                // begun here, and nothing reached
   std::optional<unfinished_file> part_;  // none once the output has its name
 };

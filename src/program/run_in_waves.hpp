@@ -29,7 +29,7 @@ inline std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std:
 }
 
 /// bundled_system::run, with as many trajectories side by side as P has lanes. Rank 0 takes, and its plan
-/// says where to begin; all ranks call it.
+/// says where to begin; all ranks call the function.
 template <class P>
 void run_in_waves(const model& system, const stiff_springs& springs, const initial_states& starts,
                   const tabulated& method, const sampled_plan& plan,
@@ -44,9 +44,9 @@ void run_in_waves(const model& system, const stiff_springs& springs, const initi
   const trajectories_plan& all = plan.trajectories;
   const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
   using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
-  const stretches its(all.steps, plan.stretch);
+  const stretches run_stretches(all.steps, plan.stretch);
   const std::int64_t numbers =
-      (its.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system);
+      (run_stretches.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system);
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(plan.from.wave.diverged_at);
@@ -66,7 +66,7 @@ void run_in_waves(const model& system, const stiff_springs& springs, const initi
       }
     });
     for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
-      end = its.end_after(step);
+      end = run_stretches.end_after(step);
       const std::int64_t before = under_way > 0 || step > 0 ? step : -1;
       std::vector<record> records(static_cast<std::size_t>(shared.count()));
       for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;

@@ -23,20 +23,20 @@ json question_of(const run_command& command, const bundled_system& system, const
 
 json about_run(const run_command& command, const bundled_system& system, const tabulated& method,
                std::int64_t steps, std::uint64_t seed) {
-  json its{{"format", "nysalt run"}, {"format_version", 1}};
+  json result{{"format", "nysalt run"}, {"format_version", 1}};
   json libraries = versions();
-  its["nysalt"] = libraries["nysalt"];
+  result["nysalt"] = libraries["nysalt"];
   libraries.erase("nysalt");
   libraries["HDF5"] = hdf5_version();
-  its["libraries"] = libraries;
-  its["description"] = system.description();
-  its["method"] = command.method;
-  its.update(question_of(command, system, method, steps, seed));
-  its["observables"] = listed(command.observables);
-  its["units"] =
+  result["libraries"] = libraries;
+  result["description"] = system.description();
+  result["method"] = command.method;
+  result.update(question_of(command, system, method, steps, seed));
+  result["observables"] = listed(command.observables);
+  result["units"] =
       "those of the system's Hamiltonian, in which nothing is scaled; t = step number * step; kinetic "
       "temperatures are energies (kT)";
-  return its;
+  return result;
 }
 
 }  // namespace nysalt::program

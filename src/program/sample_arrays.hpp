@@ -19,7 +19,7 @@ class sample_arrays final : public sample_sink {
  public:
   sample_arrays(unfinished_file& file, const array_layout& layout);
 
-  void take(std::int64_t trajectory, const record& its) override;
+  void take(std::int64_t trajectory, const record& segment) override;
   void flush() override;
 
  private:
@@ -28,7 +28,7 @@ class sample_arrays final : public sample_sink {
     std::vector<double> numbers = {};
     std::uint64_t end() const { return at + 8 * numbers.size(); }
   };
-  void hand_on(gathered& its);
+  void hand_on(gathered& numbers);
 
   unfinished_file* file_;
   sampled_shape shape_;

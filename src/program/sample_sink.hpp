@@ -16,7 +16,7 @@ class sample_sink {
   /// Before the first record of a run that begins.
   virtual void begin() {}
   /// More samples of a trajectory, in the order in which a system hands them over.
-  virtual void take(std::int64_t trajectory, const record& its) = 0;
+  virtual void take(std::int64_t trajectory, const record& segment) = 0;
   /// What was taken is handed on.
   virtual void flush() {}
 };

@@ -26,11 +26,11 @@ json samples::columns() const {
   return all;
 }
 
-void samples::take(std::int64_t trajectory, const record& its) {
+void samples::take(std::int64_t trajectory, const record& segment) {
   const std::size_t width = observables_.size();
-  for (std::size_t i = 0; i < its.values.size(); i += width) {
-    const std::int64_t n = its.first + static_cast<std::int64_t>(i / width) * every_;
-    add(trajectory, n, std::span(its.values).subspan(i, width));
+  for (std::size_t i = 0; i < segment.values.size(); i += width) {
+    const std::int64_t n = segment.first + static_cast<std::int64_t>(i / width) * every_;
+    add(trajectory, n, std::span(segment.values).subspan(i, width));
   }
   hand_on();
 }
@@ -59,7 +59,7 @@ first_trajectory read_first_trajectory(const std::string& table, std::int64_t ev
   std::ifstream file(table);
   std::string row;
   std::getline(file, row);
-  first_trajectory its{{}, std::vector<std::vector<double>>(observables)};
+  first_trajectory result{{}, std::vector<std::vector<double>>(observables)};
   for (std::int64_t n = 0; std::getline(file, row) && row.starts_with("0,"); ++n) {
     if (n % every != 0) continue;
     std::vector<std::string_view> fields;
@@ -71,11 +71,11 @@ first_trajectory read_first_trajectory(const std::string& table, std::int64_t ev
       const auto value = k < fields.size() ? number_from(fields[k]) : std::nullopt;
       return value.value_or(std::numeric_limits<double>::quiet_NaN());
     };
-    its.t.push_back(number(2));
-    for (std::size_t k = 0; k < observables; ++k) its.values[k].push_back(number(3 + k));
+    result.t.push_back(number(2));
+    for (std::size_t k = 0; k < observables; ++k) result.values[k].push_back(number(3 + k));
   }
-  if (its.t.empty()) refuse("{} cannot be read again to be drawn", table);
-  return its;
+  if (result.t.empty()) refuse("{} cannot be read again to be drawn", table);
+  return result;
 }
 
 }  // namespace nysalt::program

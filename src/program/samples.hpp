@@ -22,7 +22,7 @@ class samples final : public sample_sink {
 
   /// Writes the first line, with the names of the columns.
   void begin() override;
-  void take(std::int64_t trajectory, const record& its) override;
+  void take(std::int64_t trajectory, const record& segment) override;
 
   json columns() const;
   const json& rows() const { return rows_; }

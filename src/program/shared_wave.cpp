@@ -54,9 +54,9 @@ void shared_wave::hand_over(const std::vector<record>& own,
   if (ranks_->is_first()) {
     for (std::size_t i = 0; i < own.size(); ++i) hand_on(first_ + static_cast<std::int64_t>(i), own[i]);
     for (int r = 1; r < ranks_->size(); ++r) {
-      const std::int64_t its = first_of(r + 1) - first_of(r);
-      const auto heads = receive<std::int64_t>(*ranks_, 3 * its, r);
-      for (std::int64_t i = 0; i < its; ++i) {
+      const std::int64_t count_of_rank = first_of(r + 1) - first_of(r);
+      const auto heads = receive<std::int64_t>(*ranks_, 3 * count_of_rank, r);
+      for (std::int64_t i = 0; i < count_of_rank; ++i) {
         const std::int64_t* head = heads.data() + 3 * i;
         hand_on(first_of(r) + i, {head[0], receive<double>(*ranks_, head[1], r), loss_of(head[2])});
       }
@@ -101,20 +101,20 @@ saved_runs shared_wave::scatter(const saved_runs& all) const {
   std::int64_t each = ranks_->is_first() ? std::ssize(all.numbers) / count_ : 0;
   broadcast(*ranks_, each);
   for (int r = 0; r < ranks_->size(); ++r) {
-    const std::int64_t its = first_of(r + 1) - first_of(r);
+    const std::int64_t count_of_rank = first_of(r + 1) - first_of(r);
     std::vector<std::int64_t> losses;
     std::vector<double> numbers;
     if (ranks_->is_first()) {
       const auto from = first_of(r) - first_;
-      for (std::int64_t i = 0; i < its; ++i) {
+      for (std::int64_t i = 0; i < count_of_rank; ++i) {
         losses.push_back(number_of(all.diverged_at[static_cast<std::size_t>(from + i)]));
       }
-      numbers.assign(all.numbers.begin() + from * each, all.numbers.begin() + (from + its) * each);
+      numbers.assign(all.numbers.begin() + from * each, all.numbers.begin() + (from + count_of_rank) * each);
       if (r > 0) send(*ranks_, losses, r);
       if (r > 0) send(*ranks_, numbers, r);
     } else if (ranks_->rank() == r) {
-      losses = receive<std::int64_t>(*ranks_, its, 0);
-      numbers = receive<double>(*ranks_, its * each, 0);
+      losses = receive<std::int64_t>(*ranks_, count_of_rank, 0);
+      numbers = receive<double>(*ranks_, count_of_rank * each, 0);
     }
     if (ranks_->rank() != r) continue;
     for (const std::int64_t one : losses) own.diverged_at.push_back(loss_of(one));

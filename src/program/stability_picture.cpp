@@ -32,12 +32,12 @@ std::string table_of(const stability_curve& curve) {
 
 panel stability_panel(const std::string& name, const stability_curve& curve, const stability_chart& chart,
                       const std::optional<marked_step>& marked) {
-  panel its{.title = name, .x_label = "z = h omega", .y_label = "trace/2", .curves = {}};
-  its.y_range = "[-1.5:1.5]";  // beyond +-1 it does not matter by how much
-  its.levels = {{"", -1.0}, {"", 1.0}};
-  its.curves.push_back({.label = "trace/2", .x = curve.z, .y = curve.half_trace, .emphasised = true});
+  panel plot{.title = name, .x_label = "z = h omega", .y_label = "trace/2", .curves = {}};
+  plot.y_range = "[-1.5:1.5]";  // beyond +-1 it does not matter by how much
+  plot.levels = {{"", -1.0}, {"", 1.0}};
+  plot.curves.push_back({.label = "trace/2", .x = curve.z, .y = curve.half_trace, .emphasised = true});
   if (!chart.touching.empty()) {
-    nysalt::curve& points = its.curves.emplace_back();
+    nysalt::curve& points = plot.curves.emplace_back();
     points.label = "windows touch";
     points.points_only = true;
     for (const double z : chart.touching) {
@@ -46,16 +46,16 @@ panel stability_panel(const std::string& name, const stability_curve& curve, con
       points.y.push_back(std::copysign(1.0, curve.half_trace[static_cast<std::size_t>(next)]));
     }
   }
-  for (const auto& window : chart.windows) its.stretches.push_back({"stable", window.low, window.high});
-  if (!marked) return its;
-  its.title += fmt::format(", {} at step {:g}", marked->system, marked->step);
+  for (const auto& window : chart.windows) plot.stretches.push_back({"stable", window.low, window.high});
+  if (!marked) return plot;
+  plot.title += fmt::format(", {} at step {:g}", marked->system, marked->step);
   for (const auto& band : marked->bands) {
     const double low = marked->step * band.low;
     if (low >= curve.z.back()) continue;
-    its.stretches.push_back(
+    plot.stretches.push_back(
         {"frequencies of the system", low, std::min(marked->step * band.high, curve.z.back())});
   }
-  return its;
+  return plot;
 }
 
 }  // namespace nysalt::program

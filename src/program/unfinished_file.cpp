@@ -43,10 +43,10 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, const file_s
 }
 
 unfinished_file unfinished_file::left_by_another(const std::filesystem::path& file) {
-  unfinished_file its;
-  its.path_ = file;
-  its.open(false);
-  return its;
+  unfinished_file result;
+  result.path_ = file;
+  result.open(false);
+  return result;
 }
 
 void unfinished_file::open(bool anew) {
@@ -66,7 +66,7 @@ void unfinished_file::open(bool anew) {
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", part.string());
   }
-  require_its_own(descriptor);
+  require_same_file(descriptor);
   std::error_code failure;
   if (anew && std::filesystem::file_size(part, failure) > 0) {
     refuse("{} was left by a run that was stopped: go on with its checkpoint, or remove the file",
@@ -75,7 +75,7 @@ void unfinished_file::open(bool anew) {
 }
 
 /// Who held the lock before may have given the file its name meanwhile.
-void unfinished_file::require_its_own(int descriptor) const {
+void unfinished_file::require_same_file(int descriptor) const {
   struct stat opened {};
   struct stat named {};
   const bool is_known = fstat(descriptor, &opened) == 0 && stat(part_of(path_).c_str(), &named) == 0;
@@ -139,16 +139,16 @@ void unfinished_file::fail() const {
 std::optional<file_sum> sum_of(const std::filesystem::path& file, const std::vector<byte_range>& left_out) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(std::fopen(file.c_str(), "rb"), std::fclose);
   if (!opened) return std::nullopt;
-  boost::crc_32_type its;
+  boost::crc_32_type sum;
   std::uint64_t at = 0;
   for (const auto& [first, end] : left_out) {
-    add(its, opened.get(), first - at);
+    add(sum, opened.get(), first - at);
     if (fseeko(opened.get(), static_cast<off_t>(end), SEEK_SET) != 0) return std::nullopt;
     at = end;
   }
-  add(its, opened.get(), std::numeric_limits<std::uint64_t>::max());
+  add(sum, opened.get(), std::numeric_limits<std::uint64_t>::max());
   if (fseeko(opened.get(), 0, SEEK_END) != 0) return std::nullopt;
-  return file_sum{static_cast<std::uint64_t>(ftello(opened.get())), its.checksum()};
+  return file_sum{static_cast<std::uint64_t>(ftello(opened.get())), sum.checksum()};
 }
 
 }  // namespace nysalt::program

@@ -26,36 +26,38 @@ struct byte_range {
   std::uint64_t first;
   std::uint64_t end;
 };
-/// The CRC-32 leaves out some ranges, which do not overlap, in their order. Nothing if it cannot be read.
+/// The CRC-32 leaves out some ranges, which do not overlap, in their order. Nothing if the file
+/// cannot be read.
 std::optional<file_sum> sum_of(const std::filesystem::path& file,
                                const std::vector<byte_range>& left_out = {});
 
-/// FILE.part, which becomes FILE when it is finished. One process alone can hold it.
+/// FILE.part, which becomes FILE when it is finished. One process alone can hold the file.
 class unfinished_file {
  public:
   static std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
-  /// Begins it. Throws refusal if there is one, which a run that was stopped may need, if another process
-  /// writes it, or it cannot be made.
+  /// Begins the file. Throws refusal if there is one, which a run that was stopped may need, if another
+  /// process writes the file, or the file cannot be made.
   explicit unfinished_file(const std::filesystem::path& file);
-  /// Goes on after its beginning; what follows that is cut off. Throws refusal if it is not there, shorter,
-  /// or begins otherwise, too.
+  /// Goes on after the beginning of the file; what follows that is cut off. Throws refusal if the file is not
+  /// there, shorter, or begins otherwise, too.
   unfinished_file(const std::filesystem::path& file, const file_sum& beginning);
-  /// Goes on in the midst of it, whatever it is. Throws refusal if it is not there.
+  /// Goes on in the midst of the file, whatever it holds. Throws refusal if the file is not there.
   static unfinished_file left_by_another(const std::filesystem::path& file);
 
   std::filesystem::path part() const { return part_of(path_); }
-  /// At its end. Throws refusal if it cannot be written.
+  /// At the end of the file. Throws refusal if the text cannot be written.
   void write(std::string_view text);
-  /// At a place of its own, where nothing was written to the end. Throws refusal if it cannot be written.
+  /// Bytes at a place of their own, where nothing was written to the end. Throws refusal if the bytes cannot
+  /// be written.
   void put(std::uint64_t at, std::span<const std::byte> bytes);
   /// Puts on the disk what was written.
   void put_on_disk();
   file_sum written() const { return {length_, sum_.checksum()}; }
 
-  /// It becomes FILE. Throws refusal if that cannot be.
+  /// FILE.part becomes FILE. Throws refusal if that cannot be.
   void finish();
-  /// FILE was made of it in another way.
+  /// FILE was made of FILE.part in another way.
   void remove();
 
  private:
@@ -65,7 +67,7 @@ class unfinished_file {
 
   unfinished_file() = default;
   void open(bool anew);
-  void require_its_own(int descriptor) const;
+  void require_same_file(int descriptor) const;
   void require_beginning(const file_sum& beginning);
   [[noreturn]] void fail() const;
 

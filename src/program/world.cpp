@@ -66,11 +66,11 @@ bool was_launched() {
 }
 
 int ranks_of_machine() {
-  MPI_Comm its;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &its);
+  MPI_Comm ranks;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &ranks);
   int size = 1;
-  MPI_Comm_size(its, &size);
-  MPI_Comm_free(&its);
+  MPI_Comm_size(ranks, &size);
+  MPI_Comm_free(&ranks);
   return size;
 }
 
@@ -134,11 +134,11 @@ int joined_world::leave(int code) const { return code; }
 #endif
 
 namespace {
-/// That this process may use.
+/// Cores that this process may use.
 int cores() {
-  cpu_set_t its;
-  if (sched_getaffinity(0, sizeof its, &its) != 0) return 1;  // of more than 1024
-  return std::max(1, CPU_COUNT(&its));
+  cpu_set_t cpus;
+  if (sched_getaffinity(0, sizeof cpus, &cpus) != 0) return 1;  // of more than 1024
+  return std::max(1, CPU_COUNT(&cpus));
 }
 bool is_bound() { return cores() < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)); }
 }  // namespace

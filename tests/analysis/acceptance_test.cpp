@@ -108,10 +108,10 @@ BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
       on_ranks.ranks = &ranks;
       found[static_cast<std::size_t>(ranks.rank())] = acceptance(chain, bcss2(), law, on_ranks);
     });
-    for (const auto& its : found) {
-      BOOST_TEST(its.of_each == expected.of_each);
-      BOOST_TEST(its.probability.mean == expected.probability.mean);
-      BOOST_TEST(its.diverged_at.size() == expected.diverged_at.size());
+    for (const auto& result : found) {
+      BOOST_TEST(result.of_each == expected.of_each);
+      BOOST_TEST(result.probability.mean == expected.probability.mean);
+      BOOST_TEST(result.diverged_at.size() == expected.diverged_at.size());
     }
   }
 }

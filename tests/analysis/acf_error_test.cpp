@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(one_law_is_at_the_floor) {
 
 // The scatter of the error over 40 repetitions is known to 1/sqrt(80) = 11 %, each error to 1/sqrt(28) = 19
 // %.
-BOOST_AUTO_TEST_CASE(its_error_is_that_of_repetitions) {
+BOOST_AUTO_TEST_CASE(the_standard_error_is_that_of_repetitions) {
   std::vector<double> rms;
   double error = 0.0;
   for (std::uint64_t k = 0; k < 40; ++k) {

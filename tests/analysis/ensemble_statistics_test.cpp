@@ -227,10 +227,10 @@ BOOST_AUTO_TEST_CASE(ranks_change_no_bit) {
         on_ranks.ranks = &ranks;
         found[static_cast<std::size_t>(ranks.rank())] = galaxy::run(galaxy::system, on_ranks);
       });
-      for (const auto& its : found) {
-        BOOST_TEST(equal(its, expected));
+      for (const auto& result : found) {
+        BOOST_TEST(equal(result, expected));
         for (std::size_t g = 0; g < expected.histogram_of_groups.size(); ++g) {
-          BOOST_TEST(its.histogram_of_groups.at(g).counts() == expected.histogram_of_groups[g].counts(),
+          BOOST_TEST(result.histogram_of_groups.at(g).counts() == expected.histogram_of_groups[g].counts(),
                      boost::test_tools::per_element());
         }
       }

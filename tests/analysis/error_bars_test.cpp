@@ -97,8 +97,8 @@ struct coverage {
   int whole = 0;
   int half = 0;
 
-  void count(const estimate& its, double truth) {
-    const double off = std::abs(its.mean - truth) / its.standard_error;
+  void count(const estimate& measured, double truth) {
+    const double off = std::abs(measured.mean - truth) / measured.standard_error;
     if (off <= factor) ++whole;
     if (off <= 0.5 * factor) ++half;
   }
@@ -106,7 +106,7 @@ struct coverage {
 
 /// P(|x| <= factor) of a mean of m scores divided by its standard error, to the order 1/m, by their skewness
 /// and excess kurtosis: 2 F(z) - 1 + 2 f(z) z ((kurtosis/12)(z^2 - 3) - (skewness^2/18)(z^4 + 2 z^2 - 3) -
-/// (z^2 + 1)/4)/m, Edgeworth's expansion of Student's ratio. Without both it is Student's own.
+/// (z^2 + 1)/4)/m, Edgeworth's expansion of Student's ratio. Without both the ratio is Student's own.
 double expected_coverage(double z, double m, double skewness = 0.0, double kurtosis = 0.0) {
   const double z2 = z * z;
   const double f = std::exp(-0.5 * z2) / std::sqrt(2.0 * std::numbers::pi);
@@ -245,9 +245,9 @@ BOOST_AUTO_TEST_CASE(bars_at_the_floor_are_too_long) {
   double said = 0.0;
   for (std::uint64_t n = 0; n < 400; ++n) {
     const std::vector<std::vector<histogram>> other{groups_around(0.0, 2 * n, bins)};
-    const estimate its = mean_total_variation(groups_around(0.0, 2 * n + 1, bins), other);
-    distances.push_back(its.mean);
-    said += its.standard_error / 400.0;
+    const estimate distance = mean_total_variation(groups_around(0.0, 2 * n + 1, bins), other);
+    distances.push_back(distance.mean);
+    said += distance.standard_error / 400.0;
   }
   const double scatter = mean_and_error(distances).standard_error * std::sqrt(400.0);
   const auto near = boost::test_tools::tolerance(4 * .035);

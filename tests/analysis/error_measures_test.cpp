@@ -249,9 +249,9 @@ BOOST_AUTO_TEST_CASE(a_negative_energy_is_as_good) {
 BOOST_AUTO_TEST_CASE(an_error_is_the_mean_of_its_parts) {
   const std::vector<double> scores{0.5, NAN, 2.0, 0.25, 1.0};
   const std::vector<double> sizes{1.0, 2.0, 0.5, 4.0, 3.0};
-  const auto check = [&](const auto& measure, const std::vector<double>& its_sizes = {}) {
-    const auto parts = measure.parts(scores, its_sizes);
-    const estimate whole = measure.average(scores, its_sizes);
+  const auto check = [&](const auto& measure, const std::vector<double>& given_sizes = {}) {
+    const auto parts = measure.parts(scores, given_sizes);
+    const estimate whole = measure.average(scores, given_sizes);
     BOOST_TEST(mean_and_error(parts).mean == whole.mean, near);
     BOOST_TEST(mean_and_error(parts).standard_error == whole.standard_error, near);
     BOOST_TEST(std::isnan(parts[1]));

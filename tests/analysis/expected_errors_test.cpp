@@ -75,9 +75,9 @@ BOOST_AUTO_TEST_CASE(an_error_relative_to_what_passes_through_zero_has_none) {
     return relative * relative;
   };
   const auto all = at_numbers(swing, swings, measure);
-  for (const auto& its : all) BOOST_TEST(its.spread.largest.is_heavy());
+  for (const auto& result : all) BOOST_TEST(result.spread.largest.is_heavy());
   BOOST_TEST(all.back().error.mean > 3.0 * all.front().error.mean);
-  // As a scale it would be refused: -1 + p^2/2 + ... is of both signs.
+  // As a scale the energy would be refused: -1 + p^2/2 + ... is of both signs.
   measure.scale = [](auto at_start) { return at_start[0]; };
   measure.no_scale = "of both signs";
   BOOST_CHECK_THROW(at_numbers(swing, swings, measure), std::invalid_argument);

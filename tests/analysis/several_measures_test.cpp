@@ -151,8 +151,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   wide.width = 200'000;
   const std::vector two{wide, wide};
   const trajectory_options options{.step = .02, .steps = 5, .trajectories = 1};
-  const auto judge = [&](std::span<const error_measure> measures, const trajectory_options& its) {
-    trajectory_errors(chain, reference, law, pairs[0], measures, its);
+  const auto judge = [&](std::span<const error_measure> measures, const trajectory_options& run_options) {
+    trajectory_errors(chain, reference, law, pairs[0], measures, run_options);
   };
   BOOST_CHECK_NO_THROW(require_room(options, 1, wide.width));
   const auto too_wide = [&] { judge(two, options); };
@@ -162,8 +162,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([&] { require_room(many, 1, 1, 3); }, {"fit into memory"}));
   BOOST_TEST(refuses<std::invalid_argument>([&] { judge({}, options); }, {"at least one measure"}));
   for (const double perturbation : {0.0, -1.0, static_cast<double>(INFINITY), std::nan("")}) {
-    trajectory_options its = options;
-    its.perturbation = perturbation;
-    BOOST_TEST(refuses<std::invalid_argument>([&] { judge(std::span(all), its); }, {"perturbation"}));
+    trajectory_options perturbed_options = options;
+    perturbed_options.perturbation = perturbation;
+    BOOST_TEST(
+        refuses<std::invalid_argument>([&] { judge(std::span(all), perturbed_options); }, {"perturbation"}));
   }
 }

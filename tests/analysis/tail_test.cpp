@@ -26,12 +26,12 @@ numbers pareto(draws& random, double index, int count) {
 // Of 0, 0, 0, 4: mean 1, central moments 3 and 6; (sum x)^2/sum x^2 = 1.
 BOOST_AUTO_TEST_CASE(a_tail_is_what_its_moments_say) {
   const auto near = boost::test_tools::tolerance(32 * eps);
-  const tail its = tail_of(numbers{0.0, NAN, 0.0, 4.0, 0.0});
-  BOOST_TEST(its.count == 4.0);
-  BOOST_TEST(its.skewness == 6.0 / std::pow(3.0, 1.5), near);
-  BOOST_TEST(its.deciding == 1.0, near);
-  BOOST_TEST(its.enough() == 25.0 * 36.0 / 27.0, near);
-  BOOST_TEST(its.is_heavy());
+  const tail found = tail_of(numbers{0.0, NAN, 0.0, 4.0, 0.0});
+  BOOST_TEST(found.count == 4.0);
+  BOOST_TEST(found.skewness == 6.0 / std::pow(3.0, 1.5), near);
+  BOOST_TEST(found.deciding == 1.0, near);
+  BOOST_TEST(found.enough() == 25.0 * 36.0 / 27.0, near);
+  BOOST_TEST(found.is_heavy());
   BOOST_TEST(std::abs(tail_of(numbers{1.0, 2.0, 3.0}).skewness) < 8 * eps);
   BOOST_TEST(tail_of(numbers{2.0, 2.0, 2.0}).deciding == 3.0);
 }
@@ -39,10 +39,10 @@ BOOST_AUTO_TEST_CASE(a_tail_is_what_its_moments_say) {
 BOOST_AUTO_TEST_CASE(units_do_not_matter) {
   draws random;
   numbers small = pareto(random, 3.0, 100);
-  const tail its = tail_of(small);
+  const tail unscaled = tail_of(small);
   for (double& x : small) x *= 0x1p-900;
-  BOOST_TEST(tail_of(small).skewness == its.skewness);  // a power of two: to the bit
-  BOOST_TEST(tail_of(small).deciding == its.deciding);
+  BOOST_TEST(tail_of(small).skewness == unscaled.skewness);  // a power of two: to the bit
+  BOOST_TEST(tail_of(small).deciding == unscaled.deciding);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_equal_or_nothing_has_no_tail) {

@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_crossed_is_bounded) {
   BOOST_TEST((above.kind == crossing_kind::above_from_first));
   BOOST_TEST(above.x == .1);
   BOOST_TEST(std::isnan(above.last_below));
-  for (const auto& its : {below, above}) BOOST_TEST(std::isnan(its.standard_error));
+  for (const auto& crossing : {below, above}) BOOST_TEST(std::isnan(crossing.standard_error));
 }
 
 BOOST_AUTO_TEST_CASE(what_diverged_is_above_any_level) {

@@ -15,10 +15,10 @@ BOOST_AUTO_TEST_CASE(jobs_take_turns_and_run_once_more_than_they_are_timed) {
   const auto timed = interleaved_seconds({[&] { order += 'a'; }, [&] { order += 'b'; }}, 3);
   BOOST_TEST(order == "abababab");
   BOOST_TEST(timed.size() == 2);
-  for (const timed_job& its : timed) {
-    BOOST_TEST(its.rounds == 3);
-    BOOST_TEST(its.least >= 0.0);
-    BOOST_TEST(its.median >= its.least);
+  for (const timed_job& job : timed) {
+    BOOST_TEST(job.rounds == 3);
+    BOOST_TEST(job.least >= 0.0);
+    BOOST_TEST(job.median >= job.least);
   }
 }
 

@@ -57,7 +57,7 @@ double error_of(const tabulated& method, const trajectory_options& options, cons
 /// A reference that says another noise than its own.
 struct untrue : fine_paths<> {
   explicit untrue(double step) : fine_paths<>(step) {}
-  explicit untrue(const fine_paths<>& its) : fine_paths<>(its) {}
+  explicit untrue(const fine_paths<>& reference) : fine_paths<>(reference) {}
   template <class S, class T>
   void advance(const S& system, phase_point<T, 1>& x, double t, const path_place& at,
                std::span<vector<T, 1>> xi) const {
@@ -89,8 +89,8 @@ double error_by_hand(const tabulated& method, const trajectory_options& options,
     const auto stepper = make_stepper(warm, method, options.step, noise);
     for (std::int64_t n = 0; n < options.steps; ++n) {
       stepper.step(y, trajectory, n);
-      const state& its = expected[static_cast<std::size_t>(n)];
-      squares += std::pow(2.0 * (y.q[0] - its.q[0]), 2) + std::pow(y.p[0] - its.p[0], 2);
+      const state& wanted = expected[static_cast<std::size_t>(n)];
+      squares += std::pow(2.0 * (y.q[0] - wanted.q[0]), 2) + std::pow(y.p[0] - wanted.p[0], 2);
     }
   }
   return std::sqrt(squares / static_cast<double>(options.trajectories * options.steps));
@@ -210,8 +210,8 @@ BOOST_AUTO_TEST_CASE(a_method_that_diverges_is_told_with_its_step) {
 BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise_and_no_part) {
   // Parts of .12 in thirds would not be multiples of .06.
   const trajectory_options options{.step = 0.12, .steps = 20, .trajectories = 5};
-  for (const double its : {0.0, friction}) {
-    const system_type quiet(harmonic_oscillator(2.0), bath::of_sigma(its, 0.0));
+  for (const double bath_friction : {0.0, friction}) {
+    const system_type quiet(harmonic_oscillator(2.0), bath::of_sigma(bath_friction, 0.0));
     const auto found = judged(all, options, fine_paths(0.06), quiet);
     for (const auto& method : found.methods) BOOST_TEST(method.error.mean < 0.05);
     BOOST_TEST(found.methods[0].error.mean > found.reference_error->mean);

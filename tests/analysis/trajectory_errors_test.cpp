@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_ranks_changes_no_bit) {
       run_ranks(size, [&](const communicator& ranks) {
         found[static_cast<std::size_t>(ranks.rank())] = run(ranks, threads, 1);
       });
-      for (const auto& its : found) BOOST_TEST(same_bits(its, expected));
+      for (const auto& result : found) BOOST_TEST(same_bits(result, expected));
       BOOST_REQUIRE(!told.empty());
       BOOST_TEST(told.back() == 50);
     }
@@ -302,13 +302,13 @@ BOOST_AUTO_TEST_CASE(the_number_of_lanes_changes_no_bit) {
     const auto agree = [&](const auto& measure) {
       const auto one = run(singly, measure);
       const auto same = [&](const auto& other) {
-        const auto& its = other.methods[0];
+        const auto& found = other.methods[0];
         const auto& expected = one.methods[0];
-        BOOST_TEST(same_bits(its.error, expected.error));
-        BOOST_REQUIRE(its.diverged == expected.diverged);
+        BOOST_TEST(same_bits(found.error, expected.error));
+        BOOST_REQUIRE(found.diverged == expected.diverged);
         for (std::size_t i = 0; i < expected.diverged_at.size(); ++i) {
-          BOOST_TEST(its.diverged_at[i].trajectory == expected.diverged_at[i].trajectory);
-          BOOST_TEST(its.diverged_at[i].step == expected.diverged_at[i].step);
+          BOOST_TEST(found.diverged_at[i].trajectory == expected.diverged_at[i].trajectory);
+          BOOST_TEST(found.diverged_at[i].step == expected.diverged_at[i].step);
         }
         if (one.reference_error) BOOST_TEST(same_bits(*other.reference_error, *one.reference_error));
       };
@@ -470,7 +470,7 @@ BOOST_AUTO_TEST_CASE(all_ranks_name_the_first_trajectory_in_trouble) {
     run_ranks(size, [&](const communicator& ranks) {
       found[static_cast<std::size_t>(ranks.rank())] = said(ranks);
     });
-    for (const auto& its : found) BOOST_TEST(its == expected);
+    for (const auto& message : found) BOOST_TEST(message == expected);
   }
 }
 

@@ -103,5 +103,5 @@ BOOST_AUTO_TEST_CASE(what_fails_on_one_fails_on_all) {
     if (ranks.rank() == 1) throw std::invalid_argument("the second");
   };
   BOOST_CHECK_EXCEPTION(together(ranks, fails), std::invalid_argument,
-                        [](const auto& its) { return its.what() == std::string("the second"); });
+                        [](const auto& problem) { return problem.what() == std::string("the second"); });
 }

@@ -29,7 +29,7 @@ std::vector<asked_metric> metrics_of(const bundled_system& system) {
 
 tabulated method_of(const std::string& name) {
   const auto& all = classical_methods();
-  return std::ranges::find(all, name, [](const auto& its) { return its.method.name(); })->method;
+  return std::ranges::find(all, name, [](const auto& entry) { return entry.method.name(); })->method;
 }
 
 /// Errors of one method at one step by all metrics, over trajectories of a seed.
@@ -96,7 +96,7 @@ std::vector<row> rows_at(const bundled_system& system, const std::string& name, 
 std::vector<std::string> names_of(const extent& what) {
   if (!what.systems.empty()) return what.systems;
   std::vector<std::string> all;
-  for (const auto& its : system_entries()) all.push_back(its.name);
+  for (const auto& entry : system_entries()) all.push_back(entry.name);
   return all;
 }
 
@@ -126,11 +126,12 @@ std::vector<row> covered_rows(const extent& what) {
 std::string csv_of(const std::vector<row>& all) {
   table result({"system", "metric", "method", "step", "error", "standard_error", "covered", "marked",
                 "misled", "samples", "tail", "agrees"});
-  for (const row& its : all) {
-    result.add({its.system, its.metric, its.method, fmt::format("{}", its.step),
-                fmt::format("{}", its.truth.mean), fmt::format("{}", its.truth.standard_error),
-                fmt::format("{}", its.covered), fmt::format("{}", its.marked), fmt::format("{}", its.misled),
-                fmt::format("{}", its.samples), its.has_tail() ? "1" : "0", its.agrees ? "1" : "0"});
+  for (const row& line : all) {
+    result.add({line.system, line.metric, line.method, fmt::format("{}", line.step),
+                fmt::format("{}", line.truth.mean), fmt::format("{}", line.truth.standard_error),
+                fmt::format("{}", line.covered), fmt::format("{}", line.marked),
+                fmt::format("{}", line.misled), fmt::format("{}", line.samples), line.has_tail() ? "1" : "0",
+                line.agrees ? "1" : "0"});
   }
   return result.csv();
 }
@@ -153,26 +154,26 @@ std::string page_of(const std::vector<row>& all, const extent& what) {
   const auto count = [&](const auto& is_so) { return std::ranges::count_if(all, is_so); };
   result.list(
       {fmt::format("{} rows; {} cover at least 13 of 16, {} are marked `tail`, {} neither", all.size(),
-                   count([](const row& its) { return its.covers(); }),
-                   count([](const row& its) { return its.has_tail(); }),
-                   count([](const row& its) { return !its.covers() && !its.has_tail(); })),
+                   count([](const row& line) { return line.covers(); }),
+                   count([](const row& line) { return line.has_tail(); }),
+                   count([](const row& line) { return !line.covers() && !line.has_tail(); })),
        fmt::format("in {} rows errors at other numbers of trajectories do not agree",
-                   count([](const row& its) { return !its.agrees; })),
+                   count([](const row& line) { return !line.agrees; })),
        fmt::format("in {} rows more than three of 16 samples mislead: what no sample has met, none tells",
-                   count([](const row& its) { return 16 * its.misled > 3 * its.samples; })),
+                   count([](const row& line) { return 16 * line.misled > 3 * line.samples; })),
        fmt::format("of the rows that cover, {} are marked: their intervals are better than the rule asks",
-                   count([](const row& its) { return its.covers() && its.has_tail(); }))});
+                   count([](const row& line) { return line.covers() && line.has_tail(); }))});
   table rows({"system", "metric", "method", "step", "error", "covered", "marked", "mislead", "row", "agree"},
              3);
-  for (const row& its : all) {
-    rows.add({its.system, its.metric, its.method, fmt::format("{:.3g}", its.step),
-              fmt::format("{:.2e} ± {:.0e}", its.truth.mean, its.truth.standard_error),
-              fmt::format("{}/{}", its.covered, its.samples), fmt::format("{}", its.marked),
-              fmt::format("{}", its.misled),
-              its.has_tail() ? "tail"
-              : its.covers() ? "covers"
-                             : "NOT SO",
-              its.agrees ? "yes" : "NO"});
+  for (const row& line : all) {
+    rows.add({line.system, line.metric, line.method, fmt::format("{:.3g}", line.step),
+              fmt::format("{:.2e} ± {:.0e}", line.truth.mean, line.truth.standard_error),
+              fmt::format("{}/{}", line.covered, line.samples), fmt::format("{}", line.marked),
+              fmt::format("{}", line.misled),
+              line.has_tail() ? "tail"
+              : line.covers() ? "covers"
+                              : "NOT SO",
+              line.agrees ? "yes" : "NO"});
   }
   result.table(rows);
   return result.markdown();

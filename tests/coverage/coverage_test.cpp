@@ -25,26 +25,26 @@ const std::vector<row>& rows() {
 
 BOOST_AUTO_TEST_CASE(error_bars_cover_or_are_marked) {
   BOOST_REQUIRE(rows().size() == 3U * 2U * 4U);
-  for (const row& its : rows()) {
-    BOOST_TEST_CONTEXT(its.system << ", " << its.metric << ", " << its.method << ": " << its.covered) {
-      BOOST_TEST((its.covers() || its.has_tail()));
-      BOOST_TEST(its.agrees);
+  for (const row& line : rows()) {
+    BOOST_TEST_CONTEXT(line.system << ", " << line.metric << ", " << line.method << ": " << line.covered) {
+      BOOST_TEST((line.covers() || line.has_tail()));
+      BOOST_TEST(line.agrees);
     }
   }
 }
 
-// Of the pendulum, where starts lie near the separatrix, they do not cover; of a linear chain no state has a
-// tail.
+// Error bars of the pendulum, where starts lie near the separatrix, do not cover; of a linear chain no state
+// has a tail.
 BOOST_AUTO_TEST_CASE(marks_are_neither_on_all_nor_on_none) {
   const auto is_of = [](const char* system, const char* metric) {
-    return [=](const row& its) { return its.system == system && its.metric == metric; };
+    return [=](const row& line) { return line.system == system && line.metric == metric; };
   };
   const auto count = [](const auto& is_wanted, const auto& is_so) {
-    return std::ranges::count_if(rows(), [&](const row& its) { return is_wanted(its) && is_so(its); });
+    return std::ranges::count_if(rows(), [&](const row& line) { return is_wanted(line) && is_so(line); });
   };
-  const auto has_tail = [](const row& its) { return its.has_tail(); };
+  const auto has_tail = [](const row& line) { return line.has_tail(); };
   BOOST_TEST(count(is_of("pendulum", "state"), has_tail) == 2);
-  BOOST_TEST(count(is_of("pendulum", "state"), [](const row& its) { return !its.covers(); }) > 0);
+  BOOST_TEST(count(is_of("pendulum", "state"), [](const row& line) { return !line.covers(); }) > 0);
   BOOST_TEST(count(is_of("linear_chain", "state"), has_tail) == 0);
 }
 

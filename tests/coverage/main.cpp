@@ -26,7 +26,7 @@ int main(int count, char** arguments) {
     const auto all = coverage::covered_rows(what);
     write_file(folder / "table.md", coverage::page_of(all, what));
     write_file(folder / "table.csv", coverage::csv_of(all));
-    const auto is_wrong = [](const coverage::row& its) { return !its.covers() && !its.has_tail(); };
+    const auto is_wrong = [](const coverage::row& line) { return !line.covers() && !line.has_tail(); };
     const auto wrong = std::ranges::count_if(all, is_wrong);
     fmt::print("{} rows, {} neither cover nor are marked; {}\n", all.size(), wrong,
                (folder / "table.md").string());

@@ -26,9 +26,9 @@ struct in_both {
   open_wells<N> open;
   std::vector<phase_point<double, N>> states;
 
-  explicit in_both(const units& its) {
-    boxed.its = its;
-    open.its = its;
+  explicit in_both(const units& scales) {
+    boxed.scales = scales;
+    open.scales = scales;
     const starts_in_units<N> starts(boxed);
     for (std::uint64_t n = 0; n < 12; ++n) states.push_back(starts(1, n));
   }
@@ -62,20 +62,20 @@ vector<double, N> by_absolute_step(const boxed_wells<N>& system, const vector<do
 }
 
 template <int N>
-void check_derivatives(const units& its) {
-  const in_both<N> wells(its);
+void check_derivatives(const units& scales) {
+  const in_both<N> wells(scales);
   const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
   lifted_room<double, N> room(N);
   for (std::size_t n = 0; n < wells.states.size(); ++n) {
     const auto& x = wells.states[n];
     vector<double, N> v;
-    for (Eigen::Index i = 0; i < N; ++i) v[i] = 0.3 * x.p[i] * wells.boxed.inverse_mass(i) * its.time;
+    for (Eigen::Index i = 0; i < N; ++i) v[i] = 0.3 * x.p[i] * wells.boxed.inverse_mass(i) * scales.time;
     vector<double, N> found;
     vector<double, N> exact;
     force_along<field::whole, double>(wells.boxed, x.q, v, found, room);
     force_along<field::whole, double>(wells.open, x.q, v, exact, room);
     BOOST_TEST(wells.relative(found, exact, length) < 1e-7);
-    if (its.length * its.mixed == 1e-6 && its.length == 1e-6 && its.offset == 0.0) {
+    if (scales.length * scales.mixed == 1e-6 && scales.length == 1e-6 && scales.offset == 0.0) {
       BOOST_TEST(wells.relative(by_absolute_step(wells.boxed, x.q, v), exact, length) > 1e-2);
     }
     using D = dual<double, 1>;
@@ -95,8 +95,8 @@ void check_derivatives(const units& its) {
 }
 
 template <int N>
-void check_kicks(const units& its) {
-  const in_both<N> wells(its);
+void check_kicks(const units& scales) {
+  const in_both<N> wells(scales);
   const auto length = [&](Eigen::Index i) { return wells.boxed.length(i); };
   for (const double h : {0.1, 0.3, 0.5}) {  // wells that are bound to others have frequencies up to some 4
     for (const auto& x : wells.states) {
@@ -104,7 +104,7 @@ void check_kicks(const units& its) {
       auto exact = x;
       const auto kick = [&](const auto& system, auto& y) {
         using S = std::decay_t<decltype(system)>;
-        stepper<S, word<gradient_kick>>(system, {0.0, 1.0}, h * its.time).step(y);
+        stepper<S, word<gradient_kick>>(system, {0.0, 1.0}, h * scales.time).step(y);
       };
       kick(wells.boxed, found);
       kick(wells.open, exact);
@@ -119,7 +119,7 @@ void check_kicks(const units& its) {
       wells.open.force(x.q, f);
       const double reached = detail::part_of_displacement * h * h * size(f) / wells.open.energy();
       const double rounding =
-          4.0 * eps * size(x.p) / size(kicked) + 4.0 * eps * (1.0 + std::abs(its.offset)) / reached;
+          4.0 * eps * size(x.p) / size(kicked) + 4.0 * eps * (1.0 + std::abs(scales.offset)) / reached;
       BOOST_TEST_CONTEXT("h = " << h) {
         BOOST_TEST(wells.relative(vector<double, N>(found.p - x.p), kicked, length) < 1e-7 + rounding);
       }
@@ -128,8 +128,8 @@ void check_kicks(const units& its) {
 }
 
 template <int N>
-void check_checks(const units& its) {
-  const in_both<N> wells(its);
+void check_checks(const units& scales) {
+  const in_both<N> wells(scales);
   const auto points = wells.points();
   const auto right = check_force(wells.boxed, points);
   BOOST_TEST(right.passed(), right.report());
@@ -146,42 +146,42 @@ void check_checks(const units& its) {
   const auto boxed = stiffness_along(wells.boxed, wells.states);
   const auto open = stiffness_along(wells.open, wells.states);
   BOOST_TEST(std::abs(boxed.highest / open.highest - 1.0) < 1e-6);
-  BOOST_TEST(open.highest_frequency() * its.time > 0.5);
+  BOOST_TEST(open.highest_frequency() * scales.time > 0.5);
 }
 
 template <int N>
-void check_all(const units& its) {
-  BOOST_TEST_CONTEXT(N << " wells, length " << its.length << ", mixed " << its.mixed << ", time " << its.time
-                       << ", offset " << its.offset) {
-    check_derivatives<N>(its);
-    check_kicks<N>(its);
-    check_checks<N>(its);
+void check_all(const units& scales) {
+  BOOST_TEST_CONTEXT(N << " wells, length " << scales.length << ", mixed " << scales.mixed << ", time "
+                       << scales.time << ", offset " << scales.offset) {
+    check_derivatives<N>(scales);
+    check_kicks<N>(scales);
+    check_checks<N>(scales);
   }
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(all_units_are_alike) {
-  for (const units& its : some_units()) {
-    check_all<1>(its);
-    check_all<2>(its);
-    check_all<7>(its);
+  for (const units& scales : some_units()) {
+    check_all<1>(scales);
+    check_all<2>(scales);
+    check_all<7>(scales);
   }
 }
 
 // Differences of a part of h^2 M^-1 f depend on q alone: a step of Chin's method is as reversible as with
 // exact derivatives.
 BOOST_AUTO_TEST_CASE(gradient_kicks_of_a_black_box_are_reversible) {
-  for (const units& its : some_units()) {
-    const in_both<2> wells(its);
+  for (const units& scales : some_units()) {
+    const in_both<2> wells(scales);
     for (const auto& x : wells.states) {
       auto y = x;
-      const auto stepper = make_stepper(wells.boxed, chin4a(), 0.3 * its.time);
+      const auto stepper = make_stepper(wells.boxed, chin4a(), 0.3 * scales.time);
       stepper.step(y);
       y.p = -y.p;
       stepper.step(y);
       for (Eigen::Index i = 0; i < 2; ++i) {  // some hundred operations, of q as large as it is
-        const double size = wells.boxed.length(i) * (2.0 + std::abs(its.offset));
+        const double size = wells.boxed.length(i) * (2.0 + std::abs(scales.offset));
         BOOST_TEST(std::abs(y.q[i] - x.q[i]) < 1e3 * eps * size);
       }
     }

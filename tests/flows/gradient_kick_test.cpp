@@ -52,7 +52,7 @@ constexpr double rounding = 30.0 * eps;  // some 30 operations on numbers below 
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(with_the_whole_force_it_is_its_formula) {
+BOOST_AUTO_TEST_CASE(with_the_whole_force_the_kick_is_that_of_the_formula) {
   draws random;
   for (int n = 0; n < 10; ++n) {
     const auto x = random.state(two_masses(), 1.0);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(with_the_whole_force_it_is_its_formula) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(with_the_soft_force_it_is_its_formula) {
+BOOST_AUTO_TEST_CASE(with_the_soft_force_the_kick_is_that_of_the_formula) {
   draws random;
   for (int n = 0; n < 10; ++n) {
     const auto x = random.state(two_masses(), 1.0);
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(with_the_soft_force_it_is_its_formula) {
     BOOST_TEST_CONTEXT("seed " << draws::seed) {
       BOOST_TEST(distance(kicked<word<soft_gradient_kick>>(split(), x), y) <= rounding);
       BOOST_TEST(distance(kicked_by("H", split(), x), y) <= rounding);
-      BOOST_TEST(distance(kicked<word<gradient_kick>>(split(), x), y) > 1e-6);  // that is of the whole force
+      BOOST_TEST(distance(kicked<word<gradient_kick>>(split(), x), y) > 1e-6);  // G is of the whole force
     }
   }
 }

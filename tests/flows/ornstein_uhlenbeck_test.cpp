@@ -71,13 +71,13 @@ BOOST_AUTO_TEST_CASE(noise_cannot_go_back_in_time) {
   const auto noisy = bath::of_sigma(0.4, 0.9);
   const auto heating = bath::of_sigma(0.0, 0.9);
   const auto cold = bath::of_sigma(0.4, 0.0);
-  for (const auto& its : {noisy, heating}) {
-    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, its); },
+  for (const auto& heat_bath : {noisy, heating}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, heat_bath); },
                                               {"letter O", "back in time", "-0.2", "same sign"}));
-    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, its); },
+    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, heat_bath); },
                                               {"back in time"}));
-    BOOST_TEST(ornstein_uhlenbeck::prepare(0.0, 0.2, its).deviation == 0.0);
-    BOOST_TEST(ornstein_uhlenbeck::prepare(-1.0, -0.2, its).deviation == its.deviation(0.2));
+    BOOST_TEST(ornstein_uhlenbeck::prepare(0.0, 0.2, heat_bath).deviation == 0.0);
+    BOOST_TEST(ornstein_uhlenbeck::prepare(-1.0, -0.2, heat_bath).deviation == heat_bath.deviation(0.2));
   }
   BOOST_TEST(refuses<std::invalid_argument>(
       [&] { ornstein_uhlenbeck::prepare(pack<double, 3>(-1.0), 0.2, noisy); }, {"back in time"}));

@@ -29,18 +29,18 @@ BOOST_AUTO_TEST_CASE(a_refusal_and_a_result_keep_all_promises) {
 }
 
 BOOST_AUTO_TEST_CASE(a_result_that_breaks_one_is_found) {
-  BOOST_TEST(breaks(done, [](remains& its) { its.code = 1; }));
-  BOOST_TEST(breaks(done, [](remains& its) { its.code = 139; }));
-  BOOST_TEST(breaks(done, [](remains& its) { its.files.insert("out.csv.17.part"); }));
+  BOOST_TEST(breaks(done, [](remains& left) { left.code = 1; }));
+  BOOST_TEST(breaks(done, [](remains& left) { left.code = 139; }));
+  BOOST_TEST(breaks(done, [](remains& left) { left.files.insert("out.csv.17.part"); }));
 }
 
 BOOST_AUTO_TEST_CASE(a_refusal_that_breaks_one_is_found) {
-  BOOST_TEST(breaks(refused, [](remains& its) { its.err = ""; }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.err = "terminate called\n"; }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.err += its.err; }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.err.insert(9, "\033[K"); }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.out = "trajectory,step,t\n"; }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.files.insert("out.csv"); }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.files.clear(); }));
-  BOOST_TEST(breaks(refused, [](remains& its) { its.inputs_are_whole = false; }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.err = ""; }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.err = "terminate called\n"; }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.err += left.err; }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.err.insert(9, "\033[K"); }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.out = "trajectory,step,t\n"; }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.files.insert("out.csv"); }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.files.clear(); }));
+  BOOST_TEST(breaks(refused, [](remains& left) { left.inputs_are_whole = false; }));
 }

@@ -39,9 +39,9 @@ std::vector<span> numbers_in(const std::string& text) {
   auto found = words_of(text, [](unsigned char c) {
     return std::isdigit(c) != 0 || c == '.' || c == '-' || c == '+' || c == 'e';
   });
-  std::erase_if(found, [&](const span& its) {
-    return std::none_of(text.begin() + static_cast<long>(its.first),
-                        text.begin() + static_cast<long>(its.last),
+  std::erase_if(found, [&](const span& word) {
+    return std::none_of(text.begin() + static_cast<long>(word.first),
+                        text.begin() + static_cast<long>(word.last),
                         [](unsigned char c) { return std::isdigit(c) != 0; });
   });
   return found;

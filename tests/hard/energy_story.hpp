@@ -112,12 +112,13 @@ struct contender {
   }
 };
 
-/// Follows it over a time, at a step per evaluation.
+/// Follows a contender over a time, at a step per evaluation.
 template <HasEnergy S>
-energy_story follow(const S& system, const contender& its, double per_evaluation,
+energy_story follow(const S& system, const contender& compared, double per_evaluation,
                     const phase_point<double, S::dimension>& start, double time) {
-  const double step = its.step(per_evaluation);
-  return follow(system, its.method, step, start, std::llround(time / step), its.label, its.learned);
+  const double step = compared.step(per_evaluation);
+  return follow(system, compared.method, step, start, std::llround(time / step), compared.label,
+                compared.learned);
 }
 
 /// One panel of energy errors over time.

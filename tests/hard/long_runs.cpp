@@ -170,12 +170,12 @@ verdict many_steps(extent how) {
                              "most {:.2e}",
                              static_cast<double>(steps), plain.largest, kept.largest, bound));
   // The root mean square of 16 normal numbers is off by more than a factor of 2 less than once in 1000.
-  const auto as_predicted = [&](const random_walk& its, bool is_compensated, const char* what) {
+  const auto as_predicted = [&](const random_walk& measured, bool is_compensated, const char* what) {
     const double expected = predicted_rms(h, is_compensated, steps);
-    const double ratio = its.rms.y.back() / expected;
+    const double ratio = measured.rms.y.back() / expected;
     result.require(ratio > 0.5 && ratio < 2.0,
                    fmt::format("rounding moves the energy by {:.1e} {}, expected {:.1e} = {:.2g} sqrt(n) eps",
-                               its.rms.y.back(), what, expected,
+                               measured.rms.y.back(), what, expected,
                                expected / std::sqrt(static_cast<double>(steps)) / 2.2e-16));
   };
   as_predicted(plain, false, "with plain sums");

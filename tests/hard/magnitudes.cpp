@@ -116,9 +116,9 @@ verdict a_million(extent how) {
   const auto whole = integrate(chain, tabulated(verlet{}), h, start, steps).finish;
   const auto equal_pairs = [&](Eigen::Index half) {
     const fpu_chain<> cut(2 * half, omega);
-    const phase_point<double, Eigen::Dynamic> its_start{warm.q.segment(2 * (middle - half), 4 * half),
+    const phase_point<double, Eigen::Dynamic> cut_start{warm.q.segment(2 * (middle - half), 4 * half),
                                                         warm.p.segment(2 * (middle - half), 4 * half)};
-    const auto x = integrate(cut, tabulated(verlet{}), h, its_start, steps).finish;
+    const auto x = integrate(cut, tabulated(verlet{}), h, cut_start, steps).finish;
     int equal = 0;
     for (Eigen::Index k = -5; k < 5; ++k) {
       equal += whole.q[middle + k] == x.q[2 * (half + k)] &&

@@ -20,7 +20,7 @@ using namespace nysalt;
 using namespace nysalt::hard;
 
 struct finished_case {
-  hard_case its;
+  hard_case tested;
   verdict what_came_out;
 };
 struct finished_topic {
@@ -50,10 +50,10 @@ std::vector<finished_topic> run_all(const std::vector<std::string>& wanted) {
       const auto begin = std::chrono::steady_clock::now();
       all.back().cases.push_back({one, one.run(extent::full)});
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-      const verdict& its = all.back().cases.back().what_came_out;
+      const verdict& result = all.back().cases.back().what_came_out;
       say_under_way("");
-      fmt::print("{:<10} {:<26} {:6.1f} s\n", its.holds() ? "holds" : "BROKEN", one.name, seconds.count());
-      for (const auto& sentence : its.measured()) fmt::print("{:>11}{}\n", "", sentence);
+      fmt::print("{:<10} {:<26} {:6.1f} s\n", result.holds() ? "holds" : "BROKEN", one.name, seconds.count());
+      for (const auto& sentence : result.measured()) fmt::print("{:>11}{}\n", "", sentence);
       std::fflush(stdout);
     }
   }
@@ -72,21 +72,21 @@ page page_of(const std::vector<finished_topic>& all) {
   result.text(fmt::format("{:%Y-%m-%d}, compiler {}.", fmt::gmtime(std::time(nullptr)), __VERSION__));
   table summary({"case", "what must hold", "holds"}, 3);
   for (const auto& topic : all) {
-    for (const auto& [its, out] : topic.cases)
-      summary.add({in_words(its.name), its.must_hold, out.holds() ? "yes" : "NO"});
+    for (const auto& [tested, out] : topic.cases)
+      summary.add({in_words(tested.name), tested.must_hold, out.holds() ? "yes" : "NO"});
   }
   result.table(summary);
   for (const auto& topic : all) {
     if (topic.cases.empty()) continue;
     result.heading(topic.title);
-    for (const auto& [its, out] : topic.cases) {
-      result.subheading(in_words(its.name));
-      result.text(its.what);
-      result.list({"**Must hold:** " + its.must_hold, "**Must fail:** " + its.must_fail});
+    for (const auto& [tested, out] : topic.cases) {
+      result.subheading(in_words(tested.name));
+      result.text(tested.what);
+      result.list({"**Must hold:** " + tested.must_hold, "**Must fail:** " + tested.must_fail});
       result.text(out.holds() ? "Measured:" : "Measured, and **not as it must be**:");
       result.list(out.measured());
       if (const auto& shown = out.picture()) {
-        result.picture({.name = its.name, .panels = shown->panels, .width = shown->width}, shown->caption);
+        result.picture({.name = tested.name, .panels = shown->panels, .width = shown->width}, shown->caption);
       }
     }
   }

@@ -51,17 +51,17 @@ struct ellipse {
   double per_evaluation;  // step, such that the pericentre takes some steps
 };
 
-verdict ellipses(const ellipse& its, extent how) {
+verdict ellipses(const ellipse& orbit, extent how) {
   const kepler system;
-  const auto start = at_pericentre(its.eccentricity);
-  const double periods = how == extent::quick ? (its.eccentricity > 0.95 ? 4.0 : 20.0) : 400.0;
+  const auto start = at_pericentre(orbit.eccentricity);
+  const double periods = how == extent::quick ? (orbit.eccentricity > 0.95 ? 4.0 : 20.0) : 400.0;
   const double time = periods * 2.0 * std::numbers::pi;
   verdict result;
   std::vector<curve> curves;
   std::string errors;
   bool bounded = true;
   for (const auto& one : side_by_side(learned_fg4_for_kepler())) {
-    auto story = follow(system, one, its.per_evaluation, start, time);
+    auto story = follow(system, one, orbit.per_evaluation, start, time);
     bounded = bounded && story.has_no_trend();
     errors += fmt::format("{}{} {:.1e}", errors.empty() ? "" : ", ", one.label, story.largest);
     if (!story.has_no_trend()) {
@@ -72,10 +72,10 @@ verdict ellipses(const ellipse& its, extent how) {
   }
   result.require(bounded,
                  fmt::format("{:.0f} revolutions at {} evaluations each; largest energy error: {}", periods,
-                             std::llround(2.0 * std::numbers::pi / its.per_evaluation), errors));
+                             std::llround(2.0 * std::numbers::pi / orbit.per_evaluation), errors));
 
   // Kicks are central and drifts straight: each conserves q x p, and rounds its two products by eps.
-  const double step = 2.0 * its.per_evaluation;
+  const double step = 2.0 * orbit.per_evaluation;
   const std::int64_t steps = std::llround(time / step);
   const double momentum = angular_momentum(start);
   double off = 0.0;
@@ -90,7 +90,7 @@ verdict ellipses(const ellipse& its, extent how) {
       off <= rounding,
       fmt::format("mclachlan2: angular momentum off by {:.1e}, rounding allows {:.1e}", off, rounding));
 
-  const double of_four = 4.0 * its.per_evaluation;
+  const double of_four = 4.0 * orbit.per_evaluation;
   auto drifting = runge_kutta(system, of_four, start, std::llround(time / of_four));
   result.require(
       !drifting.has_no_trend(),
@@ -98,9 +98,9 @@ verdict ellipses(const ellipse& its, extent how) {
           "Runge and Kutta's method is found to drift: {:.1e} in the first half, {:.1e} in the second",
           drifting.early, drifting.late));
   curves.push_back(std::move(drifting.shown));
-  result.show({energy_panel(fmt::format("Kepler, eccentricity {}", its.eccentricity), std::move(curves))},
+  result.show({energy_panel(fmt::format("Kepler, eccentricity {}", orbit.eccentricity), std::move(curves))},
               fmt::format("Energy error of an ellipse of eccentricity {} at {} per evaluation.",
-                          its.eccentricity, its.per_evaluation));
+                          orbit.eccentricity, orbit.per_evaluation));
   return result;
 }
 

@@ -61,19 +61,19 @@ struct quartic {
 phase_point<double, 1> on_line(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
 
 /// Least squares of log y over log x: the power of x.
-double power_of(const curve& its) {
+double power_of(const curve& points) {
   double x_mean = 0.0;
   double y_mean = 0.0;
-  const auto n = static_cast<double>(its.x.size());
-  for (std::size_t i = 0; i < its.x.size(); ++i) {
-    x_mean += std::log(its.x[i]) / n;
-    y_mean += std::log(its.y[i]) / n;
+  const auto n = static_cast<double>(points.x.size());
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    x_mean += std::log(points.x[i]) / n;
+    y_mean += std::log(points.y[i]) / n;
   }
   double xx = 0.0;
   double xy = 0.0;
-  for (std::size_t i = 0; i < its.x.size(); ++i) {
-    xx += (std::log(its.x[i]) - x_mean) * (std::log(its.x[i]) - x_mean);
-    xy += (std::log(its.x[i]) - x_mean) * (std::log(its.y[i]) - y_mean);
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    xx += (std::log(points.x[i]) - x_mean) * (std::log(points.x[i]) - x_mean);
+    xy += (std::log(points.x[i]) - x_mean) * (std::log(points.y[i]) - y_mean);
   }
   return xy / xx;
 }

@@ -15,12 +15,12 @@ using namespace nysalt::test;
 namespace {
 
 template <Family F, class S>
-Eigen::VectorXd learned_for(const units& its, double factor = 1.0) {
+Eigen::VectorXd learned_for(const units& scales, double factor = 1.0) {
   S system;
-  system.its = its;
+  system.scales = scales;
   S wrong = system;
   wrong.first_factor = factor;
-  const double h = 0.6 * its.time;
+  const double h = 0.6 * scales.time;
   const starts_in_units<2> starts(system);
   const auto data = [&](std::uint64_t seed) {
     const data_options options{.step = h, .horizon = 10.0 * h, .trajectories = 20, .seed = seed};
@@ -39,10 +39,10 @@ Eigen::VectorXd learned_for(const units& its, double factor = 1.0) {
 template <Family F>
 void check(const std::vector<units>& all) {
   const Eigen::VectorXd expected = learned_for<F, open_wells<2>>(units());
-  for (const units& its : all) {
-    BOOST_TEST_CONTEXT(F::name << ", length " << its.length << ", mixed " << its.mixed << ", time "
-                               << its.time << ", offset " << its.offset) {
-      const Eigen::VectorXd found = learned_for<F, boxed_wells<2>>(its);
+  for (const units& scales : all) {
+    BOOST_TEST_CONTEXT(F::name << ", length " << scales.length << ", mixed " << scales.mixed << ", time "
+                               << scales.time << ", offset " << scales.offset) {
+      const Eigen::VectorXd found = learned_for<F, boxed_wells<2>>(scales);
       BOOST_TEST((found - expected).cwiseAbs().maxCoeff() < 1e-6);
     }
   }

@@ -66,9 +66,10 @@ BOOST_AUTO_TEST_CASE(the_probability_is_that_of_the_beta_binomial_law) {
         };
         const double expected =
             boost::math::quadrature::gauss_kronrod<double, 61>::integrate(at_least, 0.0, 1.0, 15, 1e-12);
-        const energies_outside its{.seen = {0.0, 1.0}, .trajectories = m, .looked_at = n, .outside = outside};
+        const energies_outside counts{
+            .seen = {0.0, 1.0}, .trajectories = m, .looked_at = n, .outside = outside};
         BOOST_TEST_CONTEXT(outside << " of " << n << " beyond " << m) {
-          BOOST_TEST(its.probability() == expected, boost::test_tools::tolerance(1e-9));
+          BOOST_TEST(counts.probability() == expected, boost::test_tools::tolerance(1e-9));
         }
       }
     }

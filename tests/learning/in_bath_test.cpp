@@ -43,9 +43,10 @@ data_sets made_by(const auto& method, const galaxy& system = warm) {
   return {make(1), make(2)};
 }
 data_sets followed(const auto& reference, std::uint64_t seed = 1) {
-  const auto make = [&](std::uint64_t its) {
-    return make_flow_map_data(warm, starts, reference,
-                              {.step = h, .horizon = 2.5, .trajectories = 30, .seed = its, .noise_parts = 2});
+  const auto make = [&](std::uint64_t data_seed) {
+    return make_flow_map_data(
+        warm, starts, reference,
+        {.step = h, .horizon = 2.5, .trajectories = 30, .seed = data_seed, .noise_parts = 2});
   };
   return {make(seed), make(seed + 1)};
 }

@@ -38,8 +38,8 @@ data_type make(std::int64_t trajectories, std::uint64_t seed, const communicator
 }
 
 /// All numbers of a fit.
-std::vector<double> numbers_of(const learned<nystrom>& its) {
-  const fit_summary& fit = its.summary;
+std::vector<double> numbers_of(const learned<nystrom>& fitted) {
+  const fit_summary& fit = fitted.summary;
   std::vector<double> all{fit.loss,
                           fit.held_out_loss,
                           fit.held_out_start_loss,
@@ -56,7 +56,7 @@ std::vector<double> numbers_of(const learned<nystrom>& its) {
                           static_cast<double>(fit.learning_evaluations),
                           static_cast<double>(fit.iterations)};
   for (const auto& one : fit.parameters) all.insert(all.end(), {one.value, one.standard_error});
-  const auto energies = its.method.energies();
+  const auto energies = fitted.method.energies();
   if (energies) all.insert(all.end(), {energies->low, energies->high});
   return all;
 }
@@ -173,9 +173,9 @@ BOOST_AUTO_TEST_CASE(an_own_loss_that_throws_on_one_rank_throws_on_all) {
     const auto problem = make_learning_problem(run_time_family(nystrom{}), swing, data, data, {}, of_place);
     try {
       problem.loss(problem.family.starts.front().theta);
-    } catch (const std::invalid_argument& its) {
+    } catch (const std::invalid_argument& thrown) {
       const std::lock_guard lock(guard);
-      BOOST_TEST(its.what() == words);
+      BOOST_TEST(thrown.what() == words);
       ++refused;
     }
   });
@@ -195,9 +195,9 @@ BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
     }
     try {
       learn(nystrom{}, swing, data, data);
-    } catch (const std::invalid_argument& its) {
+    } catch (const std::invalid_argument& thrown) {
       const std::lock_guard lock(guard);
-      BOOST_TEST(its.what() == words);
+      BOOST_TEST(thrown.what() == words);
       ++refused;
     }
   });

@@ -65,7 +65,7 @@ template <Family F>
 double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta, std::size_t steps) {
   const auto c = F::coefficients(theta);
   const std::string letters = F::word::letters();
-  const bath& its = warm.bath();
+  const bath& heat_bath = warm.bath();
   vector<double, 2> of_q(0.0, 0.0), of_p(0.0, 0.0), sigma_q(0.0, 0.0), sigma_p(0.0, 0.0);
   double stretches = 0.0;
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
@@ -79,7 +79,7 @@ double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& the
         force<double>(warm, x.q, f);
         if (letter == 'A') x.q += x.p * time;
         if (letter == 'B') x.p += f * time;
-        if (letter == 'O') x.p = x.p * its.decay(time) + data.noise[next++] * its.deviation(time);
+        if (letter == 'O') x.p = x.p * heat_bath.decay(time) + data.noise[next++] * heat_bath.deviation(time);
       }
       of_q += (x.q - data.finish[n + steps - 1].q).cwiseAbs2();
       of_p += (x.p - data.finish[n + steps - 1].p).cwiseAbs2();

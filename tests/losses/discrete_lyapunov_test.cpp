@@ -68,8 +68,8 @@ BOOST_AUTO_TEST_CASE(what_a_map_of_determinant_one_adds) {
   }
   // Of a rotation the trace vanishes to twice as many digits; by products it does not.
   const auto turn = sheared_turn(1.0, 0.7, 1e-17);
-  const auto its = excess_of_turn(turn);
-  BOOST_TEST(std::abs(its.xx + its.yy) <= eps * eps);
+  const auto excess = excess_of_turn(turn);
+  BOOST_TEST(std::abs(excess.xx + excess.yy) <= eps * eps);
 }
 
 BOOST_AUTO_TEST_CASE(a_map_that_does_not_forget_keeps_nothing) {

@@ -123,9 +123,9 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
 
 BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not_at_all) {
   const told method = tell(two_stages<placement::symmetric>());
-  const bath its = bath::of_temperature(1.0, 0.125);
-  const auto alone = residuals_of(in_bath(harmonic_oscillator(50.0), its), method, 0.03);
-  const auto chain = residuals_of(in_bath(fpu_chain<3>(50.0), its), method, 0.03);
+  const bath heat_bath = bath::of_temperature(1.0, 0.125);
+  const auto alone = residuals_of(in_bath(harmonic_oscillator(50.0), heat_bath), method, 0.03);
+  const auto chain = residuals_of(in_bath(fpu_chain<3>(50.0), heat_bath), method, 0.03);
   BOOST_TEST(chain.size() == 3);  // three modes of frequency zero, three of frequency 50
   BOOST_TEST((chain - std::sqrt(3.0) * alone).norm() <= 4.0 * eps * chain.norm());  // a product each
   BOOST_TEST(alone.norm() > 1e-3);
@@ -134,11 +134,11 @@ BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not
   const Eigen::Vector3d stiffness(36.0, 8.0, 0.0);
   const Eigen::Vector3d masses(4.0, 2.0, 1.0);
   const linear_chain springs(stiffness.asDiagonal(), masses);
-  const auto both = residuals_of(in_bath(springs, its), method, 0.3);
+  const auto both = residuals_of(in_bath(springs, heat_bath), method, 0.3);
   BOOST_TEST(both.size() == 6);
   for (Eigen::Index k = 0; k < both.size() / 3; ++k) {
     const double omega = k == 0 ? 2.0 : 3.0;
-    const auto mode = residuals_of(in_bath(harmonic_oscillator(omega), its), method, 0.3);
+    const auto mode = residuals_of(in_bath(harmonic_oscillator(omega), heat_bath), method, 0.3);
     // Frequencies are known to some eps, and residuals change by less than 10 of that and their own rounding.
     const double tolerance = 100.0 * eps + 2.0 * rounding_of({omega, 1.0, 0.5}, method, 0.3);
     BOOST_TEST((both.segment<3>(3 * k) - mode).norm() <= tolerance);

@@ -31,7 +31,7 @@ bool alike(const auto& one, const auto& other, const phase_point<double, N>& x) 
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(it_is_the_word_without_its_letters_o, M, noisy_methods) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_is_that_of_the_word_without_letters_o, M, noisy_methods) {
   using W = typename M::word;
   try_on<M, quiet_systems>([](const auto& system, const auto& method, double step, const auto& x) {
     using S = std::remove_cvref_t<decltype(system)>;
@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(it_is_the_word_without_its_letters_o, M, noisy_met
                                                     step);
     BOOST_TEST(alike(make_stepper(system, method, step), expected, x));
     BOOST_TEST(alike(make_stepper(system, tabulated(method), step), expected, x));
-    for (const auto& its : quiet) {
-      const in_bath in_it(system, its);
+    for (const auto& heat_bath : quiet) {
+      const in_bath in_it(system, heat_bath);
       BOOST_TEST(alike(make_stepper(in_it, method, step), expected, x));
       BOOST_TEST(alike(make_stepper(in_it, tabulated(method), step), expected, x));
     }

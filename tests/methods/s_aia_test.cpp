@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(from_sqrt_8_on_it_is_verlet) {
   for (const double z : {2.829, 3.0, 3.5, 3.999}) BOOST_TEST(a_at(z) == 0.25);
 }
 
-BOOST_AUTO_TEST_CASE(it_is_stable_up_to_its_z) {
+BOOST_AUTO_TEST_CASE(a_method_is_stable_up_to_the_z_it_is_made_for) {
   for (const double z : {1e-3, 1.0, 2.0, 2.6, 2.7, 2.8, 2.82, 2.829, 3.0, 3.5, 3.999}) {
     BOOST_TEST_CONTEXT("z " << z) { BOOST_TEST(is_stable(stability_windows(s_aia2(z)), 0.0, z)); }
   }

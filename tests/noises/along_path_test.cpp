@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
     lockstep<std::remove_cvref_t<decltype(along)>, T> together(along, all, 8, 40);
     together.go_on(10);
     for (int k = 0; k < 8; ++k) {
-      const auto its = 40 + static_cast<std::uint64_t>(k);
+      const auto trajectory_of_lane = 40 + static_cast<std::uint64_t>(k);
       const auto alone = [&](std::uint64_t trajectory) {
         const auto own = path_of(trajectory, 60);
         const auto single = stepper_of(own, method);
@@ -151,11 +151,12 @@ BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
         single.advance(run, 10);
         return single.synchronous(run);
       };
-      BOOST_TEST(same_bits(lane(together.synchronous(), k), alone(its)));
-      BOOST_TEST(!same_bits(lane(together.synchronous(), k), alone(its + 1)));
-      auto one_of_several = along.open(lane(all, k), its);  // as where a lane is gone through again
+      BOOST_TEST(same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane)));
+      BOOST_TEST(!same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane + 1)));
+      auto one_of_several =
+          along.open(lane(all, k), trajectory_of_lane);  // as where a lane is gone through again
       along.advance(one_of_several, 10);
-      BOOST_TEST(same_bits(along.synchronous(one_of_several), alone(its)));
+      BOOST_TEST(same_bits(along.synchronous(one_of_several), alone(trajectory_of_lane)));
     }
   };
   check(baoab());

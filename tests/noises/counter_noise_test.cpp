@@ -75,10 +75,10 @@ BOOST_AUTO_TEST_CASE(a_lane_sees_the_noise_of_its_trajectory) {
   for (int k = 0; k < 5; ++k) {
     const auto trajectory = static_cast<std::uint64_t>(11 + k);
     const auto alone = normals<3>(source, {trajectory, 4, 1});
-    const auto its_halves = halves<3>(source, {trajectory, 4, 0});
+    const auto halves_alone = halves<3>(source, {trajectory, 4, 0});
     for (int i = 0; i < 3; ++i) {
       BOOST_TEST(xi[i][k] == alone[static_cast<std::size_t>(i)]);
-      BOOST_TEST(zeta[i][k] == its_halves[static_cast<std::size_t>(i)]);
+      BOOST_TEST(zeta[i][k] == halves_alone[static_cast<std::size_t>(i)]);
     }
   }
 }

@@ -41,10 +41,10 @@ numbers reversed_in_one(double damping, std::span<const numbers> intervals) {
 }
 
 /// The momentum after the flow O over a time.
-numbers after(const numbers& p, const bath& its, double time, const numbers& xi) {
-  const in_bath system(henon_heiles(), its);
+numbers after(const numbers& p, const bath& heat_bath, double time, const numbers& xi) {
+  const in_bath system(henon_heiles(), heat_bath);
   flow_state<double, 2> x{{numbers(0.0, 0.0), p}, numbers()};
-  ornstein_uhlenbeck::apply(system, ornstein_uhlenbeck::prepare(1.0, time, its), xi, x);
+  ornstein_uhlenbeck::apply(system, ornstein_uhlenbeck::prepare(1.0, time, heat_bath), xi, x);
   return x.p;
 }
 
@@ -56,23 +56,23 @@ BOOST_AUTO_TEST_CASE(many_flows_are_one_with_the_noise_of_all) {
   constexpr double tau = 0.01;
   for (const double friction : {0.0, 1e-300, 1e-12, 1e-6, 0.01, 1.0, 70.0, 1e5}) {
     for (const std::int64_t n : {1, 2, 3, 190, 1000}) {
-      const bath its = bath::of_sigma(friction, 0.5);
+      const bath heat_bath = bath::of_sigma(friction, 0.5);
       const auto noise = drawn(n);
       const numbers start(1.0, -0.3);
       numbers p = start;
       double size = largest(start);
       for (const numbers& xi : noise) {
-        p = after(p, its, tau, xi);
-        size += 2.0 * its.deviation(tau) * largest(xi);
+        p = after(p, heat_bath, tau, xi);
+        size += 2.0 * heat_bath.deviation(tau) * largest(xi);
       }
       const double time = tau * static_cast<double>(n);
       // Each flow rounds its four operations, and the decays of n flows err by n roundings against that of
       // one.
       const double rounding = 4.0 * static_cast<double>(n) * eps * size;
       BOOST_TEST_CONTEXT("friction " << friction << ", " << n << " intervals") {
-        BOOST_TEST(largest(after(start, its, time, in_one(friction * tau, noise)) - p) <= rounding);
+        BOOST_TEST(largest(after(start, heat_bath, time, in_one(friction * tau, noise)) - p) <= rounding);
         if (n > 1 && friction >= 1e-6) {
-          const numbers other = after(start, its, time, reversed_in_one(friction * tau, noise));
+          const numbers other = after(start, heat_bath, time, reversed_in_one(friction * tau, noise));
           BOOST_TEST(largest(other - p) > 10.0 * rounding);
         }
       }
@@ -100,10 +100,11 @@ BOOST_AUTO_TEST_CASE(coarse_of_coarse_is_coarse) {
     // A dozen additions of numbers below 4.
     const double rounding = 12.0 * 4.0 * eps;
     for (const std::size_t length : {2U, 3U, 4U, 6U}) {
-      const double its = damping * static_cast<double>(length);
-      BOOST_TEST(largest(in_one(its, coarser(length, in_one)) - in_one(damping, all)) <= rounding);
+      const double coarse_damping = damping * static_cast<double>(length);
+      BOOST_TEST(largest(in_one(coarse_damping, coarser(length, in_one)) - in_one(damping, all)) <= rounding);
       if (damping < 0.3) continue;
-      BOOST_TEST(largest(in_one(its, coarser(length, reversed_in_one)) - in_one(damping, all)) > 1e-3);
+      BOOST_TEST(largest(in_one(coarse_damping, coarser(length, reversed_in_one)) - in_one(damping, all)) >
+                 1e-3);
       BOOST_TEST(largest(in_one(damping, coarser(length, in_one)) - in_one(damping, all)) > 1e-3);
     }
   }

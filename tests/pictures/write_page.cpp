@@ -11,7 +11,7 @@ using namespace nysalt;
 namespace {
 
 figure errors() {
-  panel its{.title = "errors", .x_label = "cost", .y_label = "error", .log_log = true, .curves = {}};
+  panel plot{.title = "errors", .x_label = "cost", .y_label = "error", .log_log = true, .curves = {}};
   for (int j = 0; j < 8; ++j) {
     curve one{.label = "method " + std::to_string(j), .x = {}, .y = {}, .emphasised = j == 0};
     for (int i = 0; i < 6; ++i) {
@@ -20,16 +20,16 @@ figure errors() {
       one.error.push_back(0.2 * one.y.back());
       one.hollow.push_back(i == 0);
     }
-    its.curves.push_back(one);
+    plot.curves.push_back(one);
   }
-  its.levels = {{"null model", 0.05}};
-  return {"errors", {its}};
+  plot.levels = {{"null model", 0.05}};
+  return {"errors", {plot}};
 }
 
 figure lines() {
-  panel its;
-  its.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
-  return {"lines", {its}};
+  panel plot;
+  plot.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
+  return {"lines", {plot}};
 }
 
 std::string replaced(std::string text, const std::string& old, const std::string& by) {
@@ -44,7 +44,7 @@ int main(int, char** arguments) {
   page report("Pictures");
   report.picture(errors(), "Error against cost, of `<b>&\"'`.");
   report.picture(lines(), "A line.");
-  for (const auto& its : report.figures()) draw(its, folder);
+  for (const auto& picture : report.figures()) draw(picture, folder);
   const std::string well = report.html(folder);
   write_file(folder / "well.html", well);
   const std::size_t last = well.rfind("<svg");

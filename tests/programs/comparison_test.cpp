@@ -159,8 +159,8 @@ BOOST_AUTO_TEST_CASE(rankings_follow_from_the_rows) {
   BOOST_TEST(in_front < all["rows"].size());
 
   const auto cost_at = [&](std::size_t level, const std::string& method) {
-    for (const auto& its : ranking["levels"][level]["methods"]) {
-      if (its["method"] == method) return its["evaluations_per_time"];
+    for (const auto& entry : ranking["levels"][level]["methods"]) {
+      if (entry["method"] == method) return entry["evaluations_per_time"];
     }
     return json();
   };
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(rankings_follow_from_the_rows) {
   }
   std::sort(rows.rbegin(), rows.rend());
   const auto above =
-      std::find_if(rows.begin(), rows.end(), [](const auto& its) { return its.second >= 0.1; });
+      std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.second >= 0.1; });
   BOOST_TEST_REQUIRE((above != rows.begin() && above != rows.end()));
   const auto below = above - 1;
   const double share = std::log(0.1 / below->second) / std::log(above->second / below->second);
@@ -272,7 +272,7 @@ BOOST_AUTO_TEST_CASE(levels_come_from_the_errors) {
   const auto& levels = all["rankings"][0]["levels"];
   BOOST_REQUIRE(levels.size() == 1U);
   BOOST_REQUIRE(levels[0]["methods"].size() == 2U);
-  for (const auto& its : levels[0]["methods"]) BOOST_TEST(its["evaluations_per_time"]["kind"] == "found");
+  for (const auto& entry : levels[0]["methods"]) BOOST_TEST(entry["evaluations_per_time"]["kind"] == "found");
   const double level = levels[0]["level"];
   const double digit = level / std::pow(10.0, std::floor(std::log10(level) + 1e-9));
   BOOST_TEST((std::abs(digit - 1.0) < 1e-9 || std::abs(digit - 2.0) < 1e-9 || std::abs(digit - 5.0) < 1e-9));

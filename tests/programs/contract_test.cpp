@@ -423,7 +423,7 @@ BOOST_AUTO_TEST_CASE(alone_it_shows_three_commands) {
   BOOST_TEST(shown == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(it_tells_its_version) {
+BOOST_AUTO_TEST_CASE(the_program_tells_its_version) {
   const auto done = run("--version");
   BOOST_TEST(done.code == 0);
   BOOST_REQUIRE(done.out.starts_with("nysalt "));

@@ -70,7 +70,7 @@ BOOST_FIXTURE_TEST_CASE(it_holds_each_parameter_at_each_step_in_their_order, cur
   BOOST_TEST((contents(folder / "again.json") == text));
 }
 
-BOOST_FIXTURE_TEST_CASE(between_its_steps_it_does_as_well_as_what_is_learned_there, curve) {
+BOOST_FIXTURE_TEST_CASE(between_its_steps_a_curve_does_as_well_as_what_is_learned_there, curve) {
   const double learned_there = error_at(folder, "learned:fg_chin", "0.72");
   const double between = error_at(folder, "curve.json", "0.72");
   const double of_a_neighbour = [&] {
@@ -83,7 +83,7 @@ BOOST_FIXTURE_TEST_CASE(between_its_steps_it_does_as_well_as_what_is_learned_the
   BOOST_TEST(of_a_neighbour > 1.1 * learned_there);
 }
 
-BOOST_FIXTURE_TEST_CASE(beyond_its_ends_and_elsewhere_it_is_refused, curve) {
+BOOST_FIXTURE_TEST_CASE(beyond_its_ends_and_elsewhere_a_curve_is_refused, curve) {
   const std::string at = "run --system henon_heiles --horizon 4.2 --method curve.json --step ";
   BOOST_TEST(run(folder, at + "0.7").code == 0);
   BOOST_TEST(refused(run(folder, at + "0.35"), {"steps from 0.4 to 1", "0.35", "--force"}));
@@ -110,17 +110,17 @@ BOOST_FIXTURE_TEST_CASE(one_that_is_not_whole_is_refused, curve) {
       {[](json& s) { s["parameters"]["b"][2] = 5.0; }, {"the parameter b", "5"}},
       {[](json& s) { s["version"] = 1; }, {"version 1", "several steps"}},
       {[](json& s) { s["version"] = 4; }, {"version 4", "newer"}}};
-  for (const auto& its : changes) {
-    write(folder, "forged.json", forged(text, its.of));
+  for (const auto& forgery : changes) {
+    write(folder, "forged.json", forged(text, forgery.of));
     const finished done =
         run(folder, "run --system henon_heiles --horizon 4 --step 0.4 --method forged.json");
-    BOOST_TEST(refused(done, its.words), done.err);
+    BOOST_TEST(refused(done, forgery.words), done.err);
   }
 }
 
 // Equal steps are stable far beyond each of two learned ones, and between them they need not be: two nystrom
 // methods, both good for their step, whose mean has a gap.
-BOOST_AUTO_TEST_CASE(between_its_steps_it_must_be_stable) {
+BOOST_AUTO_TEST_CASE(between_its_steps_a_curve_must_be_stable) {
   const scratch folder("unstable_curve");
   const finished learned =
       run(folder, "learn --system fpu --family nystrom --steps 0.04,0.05 --output curve.json");

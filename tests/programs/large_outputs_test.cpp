@@ -42,8 +42,8 @@ const std::vector<std::string> kinds {
 };
 
 void done(const scratch& folder, const std::string& line) {
-  const auto its = run(folder, line);
-  BOOST_TEST_REQUIRE(its.code == 0, line << ": " << its.err);
+  const auto result = run(folder, line);
+  BOOST_TEST_REQUIRE(result.code == 0, line << ": " << result.err);
 }
 
 /// The numbers of a table of samples where arrays have them, observable by observable; elsewhere NaN.
@@ -59,7 +59,7 @@ std::vector<std::vector<double>> numbers_of(const std::filesystem::path& table, 
     const std::uint64_t m = std::strtoull(rest, &rest, 10);
     const std::uint64_t i = std::strtoull(rest + 1, &rest, 10) / static_cast<std::uint64_t>(every);
     std::strtod(rest + 1, &rest);
-    for (auto& its : all) its[m * samples + i] = std::strtod(rest + 1, &rest);
+    for (auto& column : all) column[m * samples + i] = std::strtod(rest + 1, &rest);
   }
   return all;
 }
@@ -70,9 +70,9 @@ std::vector<double> values(const std::filesystem::path& file, std::size_t k, con
   if (file.string().find(".h5") != std::string::npos) return read_hdf5(file, name).numbers;
 #endif
   const array all = read_npy(file);
-  std::vector<double> its;
-  for (std::size_t i = k; i < all.numbers.size(); i += all.shape[2]) its.push_back(all.numbers[i]);
-  return its;
+  std::vector<double> result;
+  for (std::size_t i = k; i < all.numbers.size(); i += all.shape[2]) result.push_back(all.numbers[i]);
+  return result;
 }
 
 bool are_equal(double a, double b) {
@@ -82,10 +82,10 @@ bool are_equal(double a, double b) {
 
 void refused(const scratch& folder, const std::string& line, const std::string& why) {
   const auto before = folder.files();
-  const auto its = shell(folder, line);
-  BOOST_TEST(its.code == 2, line << " ended with " << its.code);
-  BOOST_TEST(its.err.find(why) != std::string::npos, line << " said " << its.err);
-  BOOST_TEST(std::count(its.err.begin(), its.err.end(), '\n') == 1, its.err);
+  const auto result = shell(folder, line);
+  BOOST_TEST(result.code == 2, line << " ended with " << result.code);
+  BOOST_TEST(result.err.find(why) != std::string::npos, line << " said " << result.err);
+  BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
   BOOST_TEST((folder.files() == before), line << " left something");
 }
 
@@ -99,19 +99,20 @@ BOOST_AUTO_TEST_CASE(arrays_hold_the_numbers_of_the_table_to_the_bit) {
     std::size_t samples;
     int every;
   };
-  for (const auto& its : {asked{in_bath, {"stiff_energy", "q1", "p6"}, 37, 58, 70},
-                          asked{with_losses, {"energy", "q2"}, 40, 286, 7}}) {
+  for (const auto& request : {asked{in_bath, {"stiff_energy", "q1", "p6"}, 37, 58, 70},
+                              asked{with_losses, {"energy", "q2"}, 40, 286, 7}}) {
     const scratch folder("arrays");
-    done(folder, its.line + "--output a.csv");
-    const auto expected = numbers_of(folder / "a.csv", its.trajectories, its.samples, its.every);
+    done(folder, request.line + "--output a.csv");
+    const auto expected = numbers_of(folder / "a.csv", request.trajectories, request.samples, request.every);
     for (const auto& kind : kinds) {
-      done(folder, its.line + "--output a" + kind);
-      done(folder, its.line + "--seed 2 --output other" + kind);
+      done(folder, request.line + "--output a" + kind);
+      done(folder, request.line + "--seed 2 --output other" + kind);
       BOOST_TEST(!std::filesystem::exists(folder / ("a" + kind + ".part")));
-      for (std::size_t k = 0; k < its.names.size(); ++k) {
-        const auto found = values(folder / ("a" + kind), k, its.names[k]);
-        BOOST_TEST(std::ranges::equal(found, expected[k], are_equal), its.line << kind << its.names[k]);
-        const auto other = values(folder / ("other" + kind), k, its.names[k]);
+      for (std::size_t k = 0; k < request.names.size(); ++k) {
+        const auto found = values(folder / ("a" + kind), k, request.names[k]);
+        BOOST_TEST(std::ranges::equal(found, expected[k], are_equal),
+                   request.line << kind << request.names[k]);
+        const auto other = values(folder / ("other" + kind), k, request.names[k]);
         BOOST_TEST(!std::ranges::equal(other, expected[k], are_equal));
       }
     }
@@ -124,8 +125,8 @@ BOOST_AUTO_TEST_CASE(a_manifest_says_what_numpys_file_has_no_place_for) {
   BOOST_TEST_REQUIRE(told.code == 0, told.err);
   const auto document = json_of(told);
   BOOST_TEST(document["output"] == "a.npy");
-  const array its = read_npy(folder / "a.npy");
-  BOOST_TEST(its.shape == (std::vector<std::uint64_t>{40, 286, 2}), boost::test_tools::per_element());
+  const array stored = read_npy(folder / "a.npy");
+  BOOST_TEST(stored.shape == (std::vector<std::uint64_t>{40, 286, 2}), boost::test_tools::per_element());
   const auto manifest = nlohmann::ordered_json::parse(contents(folder / "a.npy.manifest.json"));
   BOOST_TEST(manifest["observables"] == (nlohmann::ordered_json{"energy", "q2"}));
   BOOST_TEST(manifest["diverged"] == document["diverged"]);
@@ -218,7 +219,7 @@ BOOST_AUTO_TEST_CASE(an_output_under_way_that_is_another_is_refused) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(its_picture_is_that_of_the_table) {
+BOOST_AUTO_TEST_CASE(the_picture_of_an_array_is_that_of_the_table) {
   const scratch folder("arrays_plot");
   done(folder, in_bath + "--plot --output a.csv");
   const std::string data = contents(folder / "a.dat");

@@ -40,20 +40,20 @@ learned<nystrom> fitted(coordinates how) {
 BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
   for (const auto how : {coordinates::qp, coordinates::modes}) {
     const auto fit = fitted(how).summary;
-    const auto its = document(
+    const auto printed = document(
         "learn --family nystrom --seed 5 --step 0.02 --trajectories 15 --horizon 0.4 --coordinates " +
         std::string(to_string(how)));
     for (const auto& parameter : fit.parameters) {
-      BOOST_TEST(its["parameters"][parameter.name] == parameter.value);
-      BOOST_TEST(its["standard_errors"][parameter.name] == parameter.standard_error);
+      BOOST_TEST(printed["parameters"][parameter.name] == parameter.value);
+      BOOST_TEST(printed["standard_errors"][parameter.name] == parameter.standard_error);
     }
-    BOOST_TEST(its["loss"] == fit.loss);
-    BOOST_TEST(its["held_out_loss"] == fit.held_out_loss);
-    BOOST_TEST(its["held_out_loss"] != its["loss"]);
-    BOOST_TEST(its["samples"] == fit.samples);
-    BOOST_TEST(its["learning_evaluations"] == fit.learning_evaluations);
-    BOOST_TEST(its["reference_error"] == fit.reference_error);
-    BOOST_TEST(its["iterations"] == fit.iterations);
+    BOOST_TEST(printed["loss"] == fit.loss);
+    BOOST_TEST(printed["held_out_loss"] == fit.held_out_loss);
+    BOOST_TEST(printed["held_out_loss"] != printed["loss"]);
+    BOOST_TEST(printed["samples"] == fit.samples);
+    BOOST_TEST(printed["learning_evaluations"] == fit.learning_evaluations);
+    BOOST_TEST(printed["reference_error"] == fit.reference_error);
+    BOOST_TEST(printed["iterations"] == fit.iterations);
   }
 }
 

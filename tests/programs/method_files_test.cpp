@@ -87,15 +87,15 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_is_used_as_it_was_learned, learned) {
   const auto compared =
       json_of(run(folder, errors + "scheme.json,learned:nystrom --steps 0.01,0.02 --learn-trajectories 20 "
                                    "--learn-horizon 0.2"));
-  std::vector<double> at_its_step;
+  std::vector<double> errors_at_step;
   int rows_of_file = 0;
   for (const auto& row : compared["rows"]) {
     if (row["method"] == "scheme.json") ++rows_of_file;
-    if (row["step"] == 0.02) at_its_step.push_back(row["error"]);
+    if (row["step"] == 0.02) errors_at_step.push_back(row["error"]);
   }
-  BOOST_TEST(rows_of_file == 1);  // at its own step only
-  BOOST_REQUIRE(at_its_step.size() == 2U);
-  BOOST_TEST(at_its_step[0] == at_its_step[1]);
+  BOOST_TEST(rows_of_file == 1);  // the scheme at its own step only
+  BOOST_REQUIRE(errors_at_step.size() == 2U);
+  BOOST_TEST(errors_at_step[0] == errors_at_step[1]);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_scheme_stays_at_its_step_and_system, learned) {
@@ -213,12 +213,12 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
       {[](json& s) { s["usable"] = 1; }, {"\"usable\"", "true or false"}},
       {[](json& s) { s["reason"] = json::array(); }, {"\"reason\"", "text"}},
   };
-  for (const auto& its : changes) {
-    write(folder, "other.json", forged(text, its.of));
+  for (const auto& forgery : changes) {
+    write(folder, "other.json", forged(text, forgery.of));
     const finished done = run(folder, "run --method other.json --step 0.02 --horizon 0.2");
     BOOST_TEST_CONTEXT(done.code << " " << done.err) {
       BOOST_TEST(refused(done, {"other.json"}));
-      BOOST_TEST(refused(done, its.words));
+      BOOST_TEST(refused(done, forgery.words));
     }
   }
   // That the changes are refused for what they are, and not for the forgery: no change is none.

@@ -46,11 +46,11 @@ void same_as_alone(const std::string& line, const std::string& kind, const std::
   BOOST_TEST((contents(folder / ("a" + kind)) != expected));  // so that the test can tell
   for (const auto& by : all) {
     std::filesystem::remove(folder / ("a" + kind));
-    const auto its = shell(folder, on(by) + line + threads(by) + "--json --output a" + kind);
+    const auto result = shell(folder, on(by) + line + threads(by) + "--json --output a" + kind);
     BOOST_TEST_CONTEXT(line << kind << " on " << by.ranks << " ranks, " << by.threads << " threads") {
-      BOOST_TEST_REQUIRE(its.code == 0, its.err);
+      BOOST_TEST_REQUIRE(result.code == 0, result.err);
       BOOST_TEST((contents(folder / ("a" + kind)) == expected));
-      BOOST_TEST(without_times(its.out) == without_times(alone.out));
+      BOOST_TEST(without_times(result.out) == without_times(alone.out));
     }
   }
 }
@@ -63,10 +63,10 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 void refused_once(const scratch& folder, const std::string& line, const std::string& why) {
   const auto before = folder.files();
-  const auto its = shell(folder, line);
-  BOOST_TEST(its.code == 2, line << " ended with " << its.code);
-  BOOST_TEST(count(its.err, why) == 1U, line << " said " << its.err);
-  BOOST_TEST(count(its.err, "nysalt: ") == 1U, line << " said " << its.err);
+  const auto result = shell(folder, line);
+  BOOST_TEST(result.code == 2, line << " ended with " << result.code);
+  BOOST_TEST(count(result.err, why) == 1U, line << " said " << result.err);
+  BOOST_TEST(count(result.err, "nysalt: ") == 1U, line << " said " << result.err);
   BOOST_TEST((folder.files() == before), line << " left something");
 }
 
@@ -123,9 +123,9 @@ BOOST_AUTO_TEST_CASE(a_rank_that_dies_ends_the_job_and_others_go_on_with_it) {
                           wait_for("a.checkpoint", 500) + "kill -9 $(cat pid.2) && ! wait $pid");
     BOOST_TEST(killed.code == 0, killed.err);
     BOOST_TEST(std::filesystem::exists(folder / ("a" + kind + ".part")));
-    const auto its = kind == ".csv" ? run(folder, command + "5000 --resume")
-                                    : run_on(2, folder, command + "5000 --resume");
-    BOOST_TEST_REQUIRE(its.code == 0, its.err);
+    const auto resumed = kind == ".csv" ? run(folder, command + "5000 --resume")
+                                        : run_on(2, folder, command + "5000 --resume");
+    BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
     BOOST_TEST((contents(folder / ("a" + kind)) == contents(folder / ("whole" + kind))));
   }
 }

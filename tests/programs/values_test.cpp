@@ -53,14 +53,14 @@ template <Method M>
 void must_be(const json& row, const M& method, const error_measure& measure) {
   const trajectory_options options{
       .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
-  const auto its = trajectory_errors(chain, fine_steps<>(.02 / 200), law, method, measure, options);
+  const auto expected = trajectory_errors(chain, fine_steps<>(.02 / 200), law, method, measure, options);
   BOOST_TEST_CONTEXT(row["method"] << " by " << measure.name) {
-    BOOST_TEST(row["error"] == its.methods[0].error.mean);
-    BOOST_TEST(row["standard_error"] == its.methods[0].error.standard_error);
-    BOOST_TEST(row["evaluations_per_time"] == its.methods[0].evaluations_per_time);
+    BOOST_TEST(row["error"] == expected.methods[0].error.mean);
+    BOOST_TEST(row["standard_error"] == expected.methods[0].error.standard_error);
+    BOOST_TEST(row["evaluations_per_time"] == expected.methods[0].evaluations_per_time);
     BOOST_TEST(row["diverged"] == 0);
-    if (its.reference_error) BOOST_TEST(row["reference_error"] == its.reference_error->mean);
-    BOOST_TEST(row["reference_error"].is_null() == !its.reference_error.has_value());
+    if (expected.reference_error) BOOST_TEST(row["reference_error"] == expected.reference_error->mean);
+    BOOST_TEST(row["reference_error"].is_null() == !expected.reference_error.has_value());
   }
 }
 
@@ -94,16 +94,16 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
 BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
   const vector<double, 2> rest(0.0, 0.0);
   const henon_heiles system;
-  const auto its = trajectory_errors(
+  const auto expected = trajectory_errors(
       system, fine_steps<>(.25 / 50), normal_around<2>({rest, rest}, .1, .1), mclachlan2(),
       state_measure(system),
       {.step = .25, .steps = 40, .trajectories = 7, .seed = seed_for(role::test, 1), .horizon = 10.0});
   const auto all = document(
       "compare --system henon_heiles --methods mclachlan2 --steps 0.25 --horizon 10 --trajectories 7 "
       "--metric state --fine-step 0.005");
-  BOOST_TEST(all["references"][0]["reference"] == its.reference);
-  BOOST_TEST(all["references"][0]["error"] == its.reference_error->mean);
-  BOOST_TEST(all["rows"][0]["error"] == its.methods[0].error.mean);
+  BOOST_TEST(all["references"][0]["reference"] == expected.reference);
+  BOOST_TEST(all["references"][0]["error"] == expected.reference_error->mean);
+  BOOST_TEST(all["rows"][0]["error"] == expected.methods[0].error.mean);
 }
 
 /// Where the second trajectory starts, and where a step of Verlet leads: energy, q1 and the last of p.

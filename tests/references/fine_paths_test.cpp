@@ -60,11 +60,11 @@ double distance(const noise& a, const noise& b) {
 
 /// Root of the mean square distance, over many trajectories, of a path at time 1 from another on the same
 /// noise.
-double distance_between(const fine_paths<>& reference, const fine_paths<>& other, const bath& its) {
+double distance_between(const fine_paths<>& reference, const fine_paths<>& other, const bath& heat_bath) {
   constexpr int lanes = 8;
   constexpr int blocks = 50;
   using T = pack<double, lanes>;
-  const galaxy system(henon_heiles(), its);
+  const galaxy system(henon_heiles(), heat_bath);
   double sum = 0.0;
   for (int block = 0; block < blocks; ++block) {
     const path_place at{7, static_cast<std::uint64_t>(block * lanes), 0};
@@ -80,8 +80,8 @@ double distance_between(const fine_paths<>& reference, const fine_paths<>& other
   }
   return std::sqrt(sum / (lanes * blocks));
 }
-double change_with_half_the_step(const fine_paths<>& reference, const bath& its) {
-  return distance_between(reference, reference.finer(), its);
+double change_with_half_the_step(const fine_paths<>& reference, const bath& heat_bath) {
+  return distance_between(reference, reference.finer(), heat_bath);
 }
 
 }  // namespace
@@ -175,9 +175,9 @@ BOOST_AUTO_TEST_CASE(the_error_is_told_from_the_difference) {
   auto exact = reference;
   for (int n = 0; n < 6; ++n) exact = exact.finer();
   for (const double friction : {0.01, 0.1, 1.0}) {
-    const bath its = bath::of_sigma(friction, 0.1);
-    const double error = distance_between(reference, exact, its);
-    const double ratio = error / change_with_half_the_step(reference, its);
+    const bath heat_bath = bath::of_sigma(friction, 0.1);
+    const double error = distance_between(reference, exact, heat_bath);
+    const double ratio = error / change_with_half_the_step(reference, heat_bath);
     BOOST_TEST(ratio <= 1.05 * error_over_difference, "friction " << friction << ": " << ratio);
     BOOST_TEST(ratio >= 0.95 * std::sqrt(4.0 / 3.0), "friction " << friction << ": " << ratio);
   }
@@ -196,10 +196,11 @@ BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
       reference.advance(warm, one.x, 0.1, path_place{7, trajectory, 5}, std::span(one.xi));
       return one;
     };
-    const auto its = 40 + static_cast<std::uint64_t>(k);
-    BOOST_TEST(same_bits(lane(all, k), alone(its).x));
-    BOOST_TEST((lane(xi[0], k) == alone(its).xi[0] && lane(xi[1], k) == alone(its).xi[1]));
-    BOOST_TEST(!same_bits(lane(all, k), alone(its + 1).x));
+    const auto trajectory_of_lane = 40 + static_cast<std::uint64_t>(k);
+    BOOST_TEST(same_bits(lane(all, k), alone(trajectory_of_lane).x));
+    BOOST_TEST((lane(xi[0], k) == alone(trajectory_of_lane).xi[0] &&
+                lane(xi[1], k) == alone(trajectory_of_lane).xi[1]));
+    BOOST_TEST(!same_bits(lane(all, k), alone(trajectory_of_lane + 1).x));
   }
 }
 
@@ -223,9 +224,9 @@ BOOST_AUTO_TEST_CASE(a_dynamic_dimension_is_served) {
   std::vector<vector<double, Eigen::Dynamic>> xi(2, zero);
   fine_paths(0.01).finer().advance(ring, x, 0.1, path_place{1, 0, 0}, std::span(xi));
   BOOST_TEST(is_finite(x));
-  // It began at rest: the momentum is that of the noise alone, but for forces of its third power.
-  const bath& its = ring.bath();
-  const Eigen::VectorXd expected = (xi[0] * its.decay(0.05) + xi[1]) * its.deviation(0.05);
+  // The ring began at rest: the momentum is that of the noise alone, but for forces of its third power.
+  const bath& heat_bath = ring.bath();
+  const Eigen::VectorXd expected = (xi[0] * heat_bath.decay(0.05) + xi[1]) * heat_bath.deviation(0.05);
   BOOST_TEST((x.p - expected).norm() < 0.1 * expected.norm());
   BOOST_TEST(expected.norm() > 0.0);
 }

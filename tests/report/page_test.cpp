@@ -45,17 +45,17 @@ std::multiset<std::string> matches(const std::string& text, const char* pattern)
 }
 
 page example() {
-  page its("Speed, `x_1` <now>");
-  its.heading("One");
-  its.text("See **this** and [that](a/b.md): 2 * 3 < `a*b`.");
-  its.list({"first", "second"});
+  page report("Speed, `x_1` <now>");
+  report.heading("One");
+  report.text("See **this** and [that](a/b.md): 2 * 3 < `a*b`.");
+  report.list({"first", "second"});
   nysalt::table cells({"method", "error"});
   cells.add({"a|b", "1e-3"});
-  its.table(cells);
-  its.subheading("Two");
-  its.code("nysalt compare");
-  its.picture(named("p"), "A [picture].");
-  return its;
+  report.table(cells);
+  report.subheading("Two");
+  report.code("nysalt compare");
+  report.picture(named("p"), "A [picture].");
+  return report;
 }
 
 }  // namespace
@@ -74,9 +74,9 @@ BOOST_AUTO_TEST_CASE(markdown_is_as_expected) {
 }
 
 BOOST_AUTO_TEST_CASE(code_with_backquotes_has_a_longer_fence) {
-  page its("t");
-  its.code("```\n");
-  BOOST_TEST(has(its.markdown(), "\n````\n```\n````\n"));
+  page report("t");
+  report.code("```\n");
+  BOOST_TEST(has(report.markdown(), "\n````\n```\n````\n"));
 }
 
 BOOST_AUTO_TEST_CASE(html_says_the_same) {
@@ -98,17 +98,17 @@ BOOST_AUTO_TEST_CASE(html_says_the_same) {
 BOOST_AUTO_TEST_CASE(what_looks_like_a_tag_is_text_wherever_it_stands) {
   const scratch folder("page");
   write_file(folder / "p.svg", svg);
-  page its(nasty);
-  its.heading(nasty);
-  its.subheading(nasty);
-  its.text(nasty + " `" + nasty + "` **" + nasty + "** [" + nasty + "](x?\"'&<)");
-  its.list({nasty});
+  page report(nasty);
+  report.heading(nasty);
+  report.subheading(nasty);
+  report.text(nasty + " `" + nasty + "` **" + nasty + "** [" + nasty + "](x?\"'&<)");
+  report.list({nasty});
   nysalt::table cells({nasty, nasty});
   cells.add({nasty, nasty});
-  its.table(cells);
-  its.code(nasty);
-  its.picture(named("p"), nasty);
-  const auto html = its.html(folder.path());
+  report.table(cells);
+  report.code(nasty);
+  report.picture(named("p"), nasty);
+  const auto html = report.html(folder.path());
   BOOST_TEST(!has(html, "<b>"));
   BOOST_TEST(!has(html, "&\""));
   BOOST_TEST(has(html, "aria-label=\"&lt;b&gt;&amp;&quot;&#39;\""));
@@ -116,22 +116,22 @@ BOOST_AUTO_TEST_CASE(what_looks_like_a_tag_is_text_wherever_it_stands) {
 }
 
 BOOST_AUTO_TEST_CASE(a_link_that_would_run_something_is_no_link) {
-  page its("t");
-  its.text("[a](javascript:alert(1)) and [b](https://example.org/c) and [open](");
-  const auto html = its.html(".");
+  page report("t");
+  report.text("[a](javascript:alert(1)) and [b](https://example.org/c) and [open](");
+  const auto html = report.html(".");
   BOOST_TEST((matches(html, "href=\"([^\"]*)\"") == std::multiset<std::string>{"https://example.org/c"}));
   BOOST_TEST(has(html, "[a](javascript:"));
 }
 
 BOOST_AUTO_TEST_CASE(pictures_have_ids_of_their_own_and_nothing_dangles) {
   const scratch folder("page");
-  page its("t");
+  page report("t");
   for (const char* name : {"p", "q"}) {
     write_file(folder / (std::string(name) + ".svg"), svg);
-    its.picture(named(name), "c");
+    report.picture(named(name), "c");
   }
-  BOOST_TEST(its.figures().size() == 2U);
-  const auto html = its.html(folder.path());
+  BOOST_TEST(report.figures().size() == 2U);
+  const auto html = report.html(folder.path());
   const auto ids = matches(html, " id=[\"']([^\"']*)[\"']");
   BOOST_TEST((ids == std::multiset<std::string>{"p-clip", "p-dot", "q-clip", "q-dot"}));
   BOOST_TEST((matches(html, "(?:url\\(|href=')#([^)']*)") == ids));
@@ -143,12 +143,12 @@ BOOST_AUTO_TEST_CASE(pictures_have_ids_of_their_own_and_nothing_dangles) {
 
 BOOST_AUTO_TEST_CASE(no_address_of_anything_outside_is_in_a_page) {
   const scratch folder("page");
-  page its("t");
+  page report("t");
   panel one;
   one.curves.push_back({nasty, {0, 1}, {0, 1}});
-  its.picture({"p", {one, one}}, "c");
-  const bool drawn = draw(its.figures()[0], folder.path());
-  const auto html = its.html(folder.path());
+  report.picture({"p", {one, one}}, "c");
+  const bool drawn = draw(report.figures()[0], folder.path());
+  const auto html = report.html(folder.path());
   BOOST_TEST(has(html, "<svg") == drawn);
   const auto outside = matches(html, "([a-z:]*=?\"?https?:)");
   BOOST_TEST((outside == (drawn ? std::multiset<std::string>{"xmlns:xlink=\"http:", "xmlns=\"http:"}
@@ -169,20 +169,20 @@ BOOST_AUTO_TEST_CASE(a_missing_picture_is_a_sentence) {
 }
 
 BOOST_AUTO_TEST_CASE(more_than_three_sections_have_a_list_of_contents) {
-  page its("t");
-  for (const char* name : {"a", "b", "c"}) its.heading(name);
-  its.subheading("below");
-  BOOST_TEST(!has(its.html("."), "<nav"));
-  its.heading("`d`");
-  const auto html = its.html(".");
+  page report("t");
+  for (const char* name : {"a", "b", "c"}) report.heading(name);
+  report.subheading("below");
+  BOOST_TEST(!has(report.html("."), "<nav"));
+  report.heading("`d`");
+  const auto html = report.html(".");
   BOOST_TEST(has(html, "<a href=\"#section-5\">d</a>"));
   BOOST_TEST(has(html, "<h2 id=\"section-5\"><code>d</code></h2>"));
   BOOST_TEST(!has(html, "#section-4"));
 }
 
 BOOST_AUTO_TEST_CASE(two_pictures_of_one_name_are_refused) {
-  auto its = example();
-  BOOST_TEST(refuses<std::invalid_argument>([&] { its.picture(named("p"), "c"); }, {"two pictures", "p"}));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { its.picture(named("../p"), "c"); }, {"letters"}));
-  BOOST_TEST(its.figures().size() == 1U);
+  auto report = example();
+  BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("p"), "c"); }, {"two pictures", "p"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("../p"), "c"); }, {"letters"}));
+  BOOST_TEST(report.figures().size() == 1U);
 }

@@ -84,10 +84,10 @@ BOOST_AUTO_TEST_CASE(points_that_are_not_finite_leave_a_gap) {
 }
 
 BOOST_AUTO_TEST_CASE(points_that_do_not_count_are_hollow_and_only_they) {
-  panel its{.title = "", .x_label = "", .y_label = "", .log_log = true, .curves = {}};
-  its.curves.push_back({.label = "some", .x = {1, 2}, .y = {1, 2}, .hollow = {true, false}});
-  its.curves.push_back({.label = "all count", .x = {1, 2}, .y = {3, 4}, .hollow = {false, false}});
-  const figure picture{"hollow", {its}};
+  panel plot{.title = "", .x_label = "", .y_label = "", .log_log = true, .curves = {}};
+  plot.curves.push_back({.label = "some", .x = {1, 2}, .y = {1, 2}, .hollow = {true, false}});
+  plot.curves.push_back({.label = "all count", .x = {1, 2}, .y = {3, 4}, .hollow = {false, false}});
+  const figure picture{"hollow", {plot}};
   BOOST_TEST(detail::plot_data(picture) ==
              "# : some\n1 1 0 1\n2 2 0 0\n\n\n# : all count\n1 3 0\n2 4 0\n\n\n");
   const auto script = detail::plot_script(picture);
@@ -97,11 +97,11 @@ BOOST_AUTO_TEST_CASE(points_that_do_not_count_are_hollow_and_only_they) {
 }
 
 BOOST_AUTO_TEST_CASE(no_two_of_forty_curves_look_alike_without_their_colour_or_with_it) {
-  panel its;
-  for (int j = 0; j < 40; ++j) its.curves.push_back({fmt::format("{}", j), {0, 1}, {0, 1}});
+  panel plot;
+  for (int j = 0; j < 40; ++j) plot.curves.push_back({fmt::format("{}", j), {0, 1}, {0, 1}});
   std::set<std::string> in_colour, in_grey;
   for (std::size_t j = 0; j < 40; ++j) {
-    const auto seen = detail::look_of(its, j);
+    const auto seen = detail::look_of(plot, j);
     in_colour.insert(fmt::format("{} {}", seen.colour, seen.point));
     if (j < 30) in_grey.insert(fmt::format("{} {}", seen.point, seen.dash));
   }
@@ -110,25 +110,25 @@ BOOST_AUTO_TEST_CASE(no_two_of_forty_curves_look_alike_without_their_colour_or_w
 }
 
 BOOST_AUTO_TEST_CASE(one_absurd_error_leaves_the_others_their_room) {
-  panel its{.title = "", .x_label = "", .y_label = "", .log_log = true, .curves = {}};
-  its.curves.push_back({"a", {1, 2, 3, 4}, {1e-1, 1e-3, 1e-5, 1e-7}});
-  const auto usual = detail::range_of_logarithms(its);
+  panel plot{.title = "", .x_label = "", .y_label = "", .log_log = true, .curves = {}};
+  plot.curves.push_back({"a", {1, 2, 3, 4}, {1e-1, 1e-3, 1e-5, 1e-7}});
+  const auto usual = detail::range_of_logarithms(plot);
   BOOST_TEST(usual.outside == 0);
   BOOST_TEST((usual.low < 1e-7 && usual.low > 1e-8 && usual.high > 1e-1 && usual.high < 1.0));
-  its.curves.push_back({"b", {1, 2, 3}, {1e30, nothing, 0.0}});
-  const auto robust = detail::range_of_logarithms(its);
+  plot.curves.push_back({"b", {1, 2, 3}, {1e30, nothing, 0.0}});
+  const auto robust = detail::range_of_logarithms(plot);
   BOOST_TEST(robust.outside == 1);
   BOOST_TEST(robust.high == usual.high);
-  BOOST_TEST(detail::plot_script({"absurd", {its}}).find("1 beyond the frame") != std::string::npos);
-  its.levels = {{"null", 1e3}};  // a level is always seen, and points up to ten times it
-  BOOST_TEST(detail::range_of_logarithms(its).high > 1e3);
-  its.curves[1].y[0] = 9e3;
-  BOOST_TEST(detail::range_of_logarithms(its).outside == 0);
+  BOOST_TEST(detail::plot_script({"absurd", {plot}}).find("1 beyond the frame") != std::string::npos);
+  plot.levels = {{"null", 1e3}};  // a level is always seen, and points up to ten times it
+  BOOST_TEST(detail::range_of_logarithms(plot).high > 1e3);
+  plot.curves[1].y[0] = 9e3;
+  BOOST_TEST(detail::range_of_logarithms(plot).outside == 0);
 }
 
 BOOST_AUTO_TEST_CASE(everything_that_a_curve_can_be_is_drawn) {
   const scratch folder("plot");
-  panel its{
+  panel plot{
       .title = "", .x_label = "", .y_label = "", .curves = {}, .points = true, .levels = {{"it's", 1.5}}};
   for (int j = 0; j < 8; ++j) {
     curve one{fmt::format("c{}", j), {1, 2, 3}, {1.0 + j, 2, 3}, {0.1, 0.1, 0.1}};
@@ -136,21 +136,21 @@ BOOST_AUTO_TEST_CASE(everything_that_a_curve_can_be_is_drawn) {
     one.points_only = j == 2;
     one.front = j == 3;
     one.hollow = {j == 4, false, false};
-    its.curves.push_back(one);
+    plot.curves.push_back(one);
   }
-  panel log_x = its;
+  panel log_x = plot;
   log_x.log_log = log_x.linear_y = true;
-  panel log_xy = its;
+  panel log_xy = plot;
   log_xy.log_log = true;
-  const figure picture{"all", {its, log_x, log_xy}};
+  const figure picture{"all", {plot, log_x, log_xy}};
   BOOST_TEST(draw(picture, folder.path()) == has_gnuplot);
   const auto script = contents(folder / "all.gp");
   for (const char* words :
        {"set key outside right", "with steps", "nohead", "'it''s'", "keyentry with points"}) {
     BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
   }
-  its.curves.resize(6);
-  BOOST_TEST(detail::plot_script({"few", {its}}).find("set key outside right") == std::string::npos);
+  plot.curves.resize(6);
+  BOOST_TEST(detail::plot_script({"few", {plot}}).find("set key outside right") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_folder_that_is_not_there_is_told) {
@@ -241,12 +241,12 @@ std::vector<double> ticks_in(const std::string& script, const std::string& axis)
 
 std::string script_of(const std::vector<double>& costs, const std::vector<double>& errors,
                       bool log_log = true) {
-  panel its{.title = "",
-            .x_label = "cost",
-            .y_label = "error",
-            .log_log = log_log,
-            .curves = {{"a", costs, errors}}};
-  return detail::plot_script({.name = "picture", .panels = {its}});
+  panel plot{.title = "",
+             .x_label = "cost",
+             .y_label = "error",
+             .log_log = log_log,
+             .curves = {{"a", costs, errors}}};
+  return detail::plot_script({.name = "picture", .panels = {plot}});
 }
 
 }  // namespace

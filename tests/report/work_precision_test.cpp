@@ -54,11 +54,11 @@ BOOST_AUTO_TEST_CASE(what_is_learned_is_emphasised_and_what_does_not_count_is_ho
   auto rows = power_law();
   rows[1].learned = true;
   rows[2].counts = false;  // the cheapest of method a
-  const auto its = work_precision_panel(rows, "", "cost", &work_precision_row::evaluations_per_time);
-  BOOST_TEST(!its.curves[0].emphasised);
-  BOOST_TEST(its.curves[1].emphasised);
-  BOOST_TEST((its.curves[0].hollow == std::vector<bool>{true, false, false}));
-  BOOST_TEST((its.curves[1].hollow == std::vector<bool>{false}));
+  const auto plot = work_precision_panel(rows, "", "cost", &work_precision_row::evaluations_per_time);
+  BOOST_TEST(!plot.curves[0].emphasised);
+  BOOST_TEST(plot.curves[1].emphasised);
+  BOOST_TEST((plot.curves[0].hollow == std::vector<bool>{true, false, false}));
+  BOOST_TEST((plot.curves[1].hollow == std::vector<bool>{false}));
 }
 
 BOOST_AUTO_TEST_CASE(a_front_goes_from_cheap_to_dear) {

@@ -36,17 +36,17 @@ inline array read_npy(const std::filesystem::path& file) {
       head.find("'fortran_order': False") == std::string::npos) {
     throw std::runtime_error("another head");
   }
-  array its;
+  array result;
   std::uint64_t count = 1;
   const char* rest = head.c_str() + head.find("'shape': (") + 10;
   for (char* end = nullptr; *rest != ')'; rest = end + std::strspn(end, ", ")) {
-    its.shape.push_back(std::strtoull(rest, &end, 10));
-    count *= its.shape.back();
+    result.shape.push_back(std::strtoull(rest, &end, 10));
+    count *= result.shape.back();
   }
-  its.numbers.resize(count);
+  result.numbers.resize(count);
   if (text.size() - begin != 8 * count) throw std::runtime_error("another length");
-  std::memcpy(its.numbers.data(), text.data() + begin, 8 * count);
-  return its;
+  std::memcpy(result.numbers.data(), text.data() + begin, 8 * count);
+  return result;
 }
 
 #if defined NYSALT_HAS_HDF5
@@ -58,29 +58,29 @@ inline array read_hdf5(const std::filesystem::path& file, const std::string& nam
   const hid_t space = H5Dget_space(data);
   std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  array its{{shape.begin(), shape.end()},
-            std::vector<double>(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)))};
-  if (H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, its.numbers.data()) < 0) {
+  array result{{shape.begin(), shape.end()},
+               std::vector<double>(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)))};
+  if (H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.numbers.data()) < 0) {
     throw std::runtime_error("cannot read " + name);
   }
   H5Sclose(space);
   H5Dclose(data);
   H5Fclose(opened);
-  return its;
+  return result;
 }
 
 /// A text among the attributes.
 inline std::string text_in_hdf5(const std::filesystem::path& file, const std::string& name) {
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t its = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
-  if (its < 0) throw std::runtime_error("no attribute " + name);
-  const hid_t type = H5Aget_type(its);
+  const hid_t attribute = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
+  if (attribute < 0) throw std::runtime_error("no attribute " + name);
+  const hid_t type = H5Aget_type(attribute);
   char* text = nullptr;
-  H5Aread(its, type, static_cast<void*>(&text));
+  H5Aread(attribute, type, static_cast<void*>(&text));
   std::string result = text;
   H5free_memory(text);
   H5Tclose(type);
-  H5Aclose(its);
+  H5Aclose(attribute);
   H5Fclose(opened);
   return result;
 }
@@ -88,13 +88,13 @@ inline std::string text_in_hdf5(const std::filesystem::path& file, const std::st
 /// Numbers among the attributes.
 inline std::vector<double> numbers_in_hdf5(const std::filesystem::path& file, const std::string& name) {
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t its = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
-  if (its < 0) throw std::runtime_error("no attribute " + name);
-  const hid_t space = H5Aget_space(its);
+  const hid_t attribute = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
+  if (attribute < 0) throw std::runtime_error("no attribute " + name);
+  const hid_t space = H5Aget_space(attribute);
   std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  H5Aread(its, H5T_NATIVE_DOUBLE, result.data());
+  H5Aread(attribute, H5T_NATIVE_DOUBLE, result.data());
   H5Sclose(space);
-  H5Aclose(its);
+  H5Aclose(attribute);
   H5Fclose(opened);
   return result;
 }

@@ -53,8 +53,9 @@ inline autocovariance autocovariance_of(double phi, std::uint64_t seed, int grou
     for (int t = 0; t < samples; ++t) along.add(process.next());
     sums.push_back(along.in_lane(0));
     for (int k = 1; k < 8; ++k) {
-      const auto its = along.in_lane(k);
-      for (std::size_t lag = 0; lag < its.size(); ++lag) sums.back()[lag] = sums.back()[lag] + its[lag];
+      const auto lane_sums = along.in_lane(k);
+      for (std::size_t lag = 0; lag < lane_sums.size(); ++lag)
+        sums.back()[lag] = sums.back()[lag] + lane_sums[lag];
     }
   }
   return autocovariance(1.0, 0.0, sums);

@@ -26,19 +26,19 @@ struct units {
 template <int N>
 struct wells_in_units {
   static constexpr int dimension = N;
-  units its{};
+  units scales{};
   double first_factor = 1.0;  // of the first coordinate's force: not 1 is a mistake
   double bond_factor = 1.0;   // of the bonds' forces
 
-  double length(Eigen::Index i) const { return i % 2 == 1 ? its.length * its.mixed : its.length; }
-  double mass(Eigen::Index i) const { return energy() * its.time * its.time / (length(i) * length(i)); }
-  double energy() const { return its.mass * its.length * its.length / (its.time * its.time); }
+  double length(Eigen::Index i) const { return i % 2 == 1 ? scales.length * scales.mixed : scales.length; }
+  double mass(Eigen::Index i) const { return energy() * scales.time * scales.time / (length(i) * length(i)); }
+  double energy() const { return scales.mass * scales.length * scales.length / (scales.time * scales.time); }
   double inverse_mass(Eigen::Index i) const { return 1.0 / mass(i); }
 
   template <class T>
   vector<T, N> places(const vector<T, N>& q) const {
     vector<T, N> x;
-    for (Eigen::Index i = 0; i < N; ++i) x[i] = (q[i] - its.offset * length(i)) * (1.0 / length(i));
+    for (Eigen::Index i = 0; i < N; ++i) x[i] = (q[i] - scales.offset * length(i)) * (1.0 / length(i));
     return x;
   }
   double potential(const vector<double, N>& q) const {
@@ -62,7 +62,7 @@ struct wells_in_units {
     for (Eigen::Index i = 0; i < N; ++i) f[i] = f[i] * (energy() / length(i));
     f[0] = f[0] * first_factor;
   }
-  std::string description() const { return "wells in units of " + std::to_string(its.length); }
+  std::string description() const { return "wells in units of " + std::to_string(scales.length); }
 };
 
 template <int N>
@@ -88,8 +88,8 @@ class starts_in_units {
     const auto number = [&] { return static_cast<double>(bits() >> 11U) * 0x1p-52 - 1.0; };
     phase_point<double, N> x;
     for (Eigen::Index i = 0; i < N; ++i) {
-      x.q[i] = wells_.length(i) * (wells_.its.offset + number());
-      x.p[i] = wells_.mass(i) * wells_.length(i) / wells_.its.time * number();
+      x.q[i] = wells_.length(i) * (wells_.scales.offset + number());
+      x.p[i] = wells_.mass(i) * wells_.length(i) / wells_.scales.time * number();
     }
     return x;
   }

@@ -92,7 +92,7 @@ class thread_communicator final : public communicator {
   std::int64_t least(std::int64_t value) const override { return std::ranges::min(values_of_all(value)); }
   std::int64_t total(std::int64_t value) const override {
     std::int64_t sum = 0;
-    for (const std::int64_t its : values_of_all(value)) sum += its;
+    for (const std::int64_t term : values_of_all(value)) sum += term;
     return sum;
   }
 
@@ -138,8 +138,8 @@ inline void run_ranks(int size, const std::function<void(const thread_communicat
     });
   }
   for (auto& one : all) one.join();
-  for (const auto& its : thrown) {
-    if (its) std::rethrow_exception(its);
+  for (const auto& exception : thrown) {
+    if (exception) std::rethrow_exception(exception);
   }
 }
 

@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_derivative_that_is_inherited_beside_another_force_is_not_its) {
+BOOST_AUTO_TEST_CASE(a_derivative_that_is_inherited_is_not_that_of_another_force) {
   const stronger twice(50.0);
   const vector<double, 6> q = vector<double, 6>::Constant(0.3);
   const vector<double, 6> v = vector<double, 6>::LinSpaced(0.0, 1.0);

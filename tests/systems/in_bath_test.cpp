@@ -63,14 +63,14 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(it_is_what_the_system_is, Model, nystrom_systems) 
   }
 }
 
-BOOST_AUTO_TEST_CASE(it_knows_its_bath_and_who_it_is_alone) {
+BOOST_AUTO_TEST_CASE(a_system_knows_its_bath_and_itself_alone) {
   const in_bath system(fpu_chain<3>(50.0), bath::of_temperature(0.1, 2.0));
   BOOST_TEST(system.bath().temperature() == 2.0);
   BOOST_TEST(system.bath().friction() == 0.1);
   BOOST_TEST(describe(system.alone()) == "fpu_chain(pairs=3, omega=50)");
 }
 
-BOOST_AUTO_TEST_CASE(it_names_its_bath_if_that_acts) {
+BOOST_AUTO_TEST_CASE(a_system_names_its_bath_if_that_acts) {
   const fpu_chain<3> chain(50.0);
   BOOST_TEST(describe(in_bath(chain, some_bath)) ==
              "fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05)");

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(each_mass_moves_as_in_fpu_chain_to_the_bit) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(its_kick_is_that_of_its_force) {
+BOOST_AUTO_TEST_CASE(the_kick_of_the_chain_is_that_of_its_force) {
   draws random;
   for (const Eigen::Index pairs : {1, 2, 63, 64, 65, 129}) {
     const long_fpu_chain chain(pairs, 50.0);
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(orders_are_each_other_s_inverse) {
   BOOST_TEST(refuses<std::invalid_argument>([&] { chain.ends_in_turn(three); }, {"4 masses"}));
 }
 
-BOOST_AUTO_TEST_CASE(its_energies_are_those_of_fpu_chain) {
+BOOST_AUTO_TEST_CASE(the_energies_are_those_of_fpu_chain) {
   const fpu_chain<> in_turn(5, 50.0);
   const long_fpu_chain apart(5, 50.0);
   draws random;
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(its_energies_are_those_of_fpu_chain) {
   for (Eigen::Index j = 0; j < 5; ++j) BOOST_TEST(apart.stiff_energy(y, j) == in_turn.stiff_energy(x, j));
 }
 
-BOOST_AUTO_TEST_CASE(it_says_that_its_order_is_another_one) {
+BOOST_AUTO_TEST_CASE(the_chain_says_that_its_order_is_another_one) {
   BOOST_TEST(describe(long_fpu_chain(3, 50.0)) == "long_fpu_chain(pairs=3, omega=50)");
   BOOST_TEST(refuses<std::invalid_argument>([] { long_fpu_chain(0, 50.0); }, {"0 pairs"}));
   static_assert(!HasModes<long_fpu_chain>);  // a dense basis

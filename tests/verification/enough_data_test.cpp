@@ -100,18 +100,19 @@ BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twen
   for (const auto& family : {run_time_family(nystrom()), run_time_family(fg_chin())}) {
     const auto all = coverage_of(family);
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const auto& its = all[k];
-      BOOST_TEST_CONTEXT(family.name << " " << family.parameter_names[k] << ": " << its.by_interval
-                                     << ", of half the width " << its.by_half << ", squares " << its.squares
-                                     << ", with pairs taken apart " << its.squares_taken_apart) {
-        BOOST_TEST(its.by_interval >= 43);
-        BOOST_TEST(its.by_half < 43);
+      const auto& covered = all[k];
+      BOOST_TEST_CONTEXT(family.name << " " << family.parameter_names[k] << ": " << covered.by_interval
+                                     << ", of half the width " << covered.by_half << ", squares "
+                                     << covered.squares << ", with pairs taken apart "
+                                     << covered.squares_taken_apart) {
+        BOOST_TEST(covered.by_interval >= 43);
+        BOOST_TEST(covered.by_half < 43);
         // The squares are chi-squared; a reported variance is 15 % off at most in the mean. Errors of pairs
         // cancel along a trajectory here: taken for independent they make intervals that are far too wide.
         const boost::math::chi_squared squares(seeds);
-        BOOST_TEST(its.squares > 0.85 * quantile(squares, 1e-3));
-        BOOST_TEST(its.squares < 1.15 * quantile(squares, 1.0 - 1e-3));
-        BOOST_TEST(its.squares_taken_apart < quantile(squares, 1e-3));
+        BOOST_TEST(covered.squares > 0.85 * quantile(squares, 1e-3));
+        BOOST_TEST(covered.squares < 1.15 * quantile(squares, 1.0 - 1e-3));
+        BOOST_TEST(covered.squares_taken_apart < quantile(squares, 1e-3));
       }
     }
   }

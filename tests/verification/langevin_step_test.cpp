@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_step_is_the_word_spelled_out, M, langevin_method
 
 // The slope over the last halving is off by a term of the next order, some h = 2/1024 of it. A family
 // declares what all its members have; that at b1 = 1/2 is symmetric, and has order 2 in the middle too.
-BOOST_AUTO_TEST_CASE_TEMPLATE(without_noise_it_has_its_order, M, langevin_methods) {
+BOOST_AUTO_TEST_CASE_TEMPLATE(without_noise_a_method_has_its_order, M, langevin_methods) {
   const bool is_symmetric_member = M().name() == "nystrom_middle";
   const int order = is_symmetric_member ? 2 : M::order;
   BOOST_TEST_CONTEXT(M().name()) { BOOST_TEST(std::abs(measured_order(M()) - order) <= 0.02); }

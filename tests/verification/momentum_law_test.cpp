@@ -57,15 +57,15 @@ momenta seen(const in_bath<free_particles>& system, const M& method, Eigen::Inde
 
 /// How far means, variances and covariances of all steps are from those of the process, in standard errors.
 /// With a = e^{-gamma h}: <p_n> = a^n, <p_m p_n> - <p_m><p_n> = a^(n - m) v_m, v_m = deviation(m h)^2.
-double off(const momenta& p, const bath& its) {
+double off(const momenta& p, const bath& heat_bath) {
   double worst = 0.0;
   for (std::size_t m = 1; m < p.size(); ++m) {
     const double time = static_cast<double>(m) * step;
-    const double sd = its.deviation(time);
-    worst = std::max({worst, mean_off(p[m], its.decay(time), sd), deviation_off(p[m], sd)});
+    const double sd = heat_bath.deviation(time);
+    worst = std::max({worst, mean_off(p[m], heat_bath.decay(time), sd), deviation_off(p[m], sd)});
     for (std::size_t n = m + 1; n < p.size(); ++n) {
-      const double later = its.deviation(static_cast<double>(n) * step);
-      const double expected = its.decay(static_cast<double>(n - m) * step) * sd * sd;
+      const double later = heat_bath.deviation(static_cast<double>(n) * step);
+      const double expected = heat_bath.decay(static_cast<double>(n - m) * step) * sd * sd;
       // A covariance c of normal numbers has the error sqrt((v_m v_n + c^2)/count).
       const double error =
           std::sqrt((sd * sd * later * later + expected * expected) / static_cast<double>(p[m].size()));

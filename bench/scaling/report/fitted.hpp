@@ -26,27 +26,27 @@ struct fitted {
   double passes() const { return learn.pair.value / pass.pair.value; }
 
   /// What the model says of a piece of work, as if all cores were as quick as one alone.
-  double seconds(const series& its) const {
-    const auto share = static_cast<double>(its.largest_share);
-    const auto steps = static_cast<double>(its.steps);
-    const double sum = its.ranks > 1 ? reduction.seconds(its.ranks, bytes_of_pass(2)) : 0.0;
-    if (its.what == "two-stage") return two_stage.seconds(steps, share) + sum;
-    if (its.what == "BAOAB") return baoab.seconds(steps, share) + sum;
-    if (its.what == "data") return data.seconds(its.largest_pairs()) + sum;
-    if (its.what == "pass") return pass.seconds(its.largest_pairs()) + sum;
-    return learn.seconds(its.largest_pairs()) + passes() * sum;
+  double seconds(const series& work) const {
+    const auto share = static_cast<double>(work.largest_share);
+    const auto steps = static_cast<double>(work.steps);
+    const double sum = work.ranks > 1 ? reduction.seconds(work.ranks, bytes_of_pass(2)) : 0.0;
+    if (work.what == "two-stage") return two_stage.seconds(steps, share) + sum;
+    if (work.what == "BAOAB") return baoab.seconds(steps, share) + sum;
+    if (work.what == "data") return data.seconds(work.largest_pairs()) + sum;
+    if (work.what == "pass") return pass.seconds(work.largest_pairs()) + sum;
+    return learn.seconds(work.largest_pairs()) + passes() * sum;
   }
 };
 
 namespace detail {
 
-inline bool is_alone(const series& its) { return its.ranks == 1 && its.threads == 1; }
+inline bool is_alone(const series& work) { return work.ranks == 1 && work.threads == 1; }
 
 inline stepping_costs fit_stepping(const measured& all, const std::string& what) {
   std::vector<observation> seen;
-  for (const series& its : all.of(what)) {
-    const auto share = static_cast<double>(its.largest_share);
-    if (is_alone(its)) seen.push_back({{share * static_cast<double>(its.steps), share}, its.middle()});
+  for (const series& work : all.of(what)) {
+    const auto share = static_cast<double>(work.largest_share);
+    if (is_alone(work)) seen.push_back({{share * static_cast<double>(work.steps), share}, work.middle()});
   }
   const auto costs = fitted_costs(seen);
   return {costs.at(0), costs.at(1)};
@@ -54,8 +54,8 @@ inline stepping_costs fit_stepping(const measured& all, const std::string& what)
 
 inline pairs_costs fit_pairs(const measured& all, const std::string& what) {
   std::vector<observation> seen;
-  for (const series& its : all.of(what)) {
-    if (is_alone(its)) seen.push_back({{its.largest_pairs(), 1.0}, its.middle()});
+  for (const series& work : all.of(what)) {
+    if (is_alone(work)) seen.push_back({{work.largest_pairs(), 1.0}, work.middle()});
   }
   const auto costs = fitted_costs(seen);
   return {costs.at(0), costs.at(1)};
@@ -64,11 +64,12 @@ inline pairs_costs fit_pairs(const measured& all, const std::string& what) {
 /// Ranks beyond the cores wait for a core, not for messages: they do not count.
 inline reduction_costs fit_reductions(const measured& all) {
   std::vector<observation> seen;
-  for (const sums& its : all.reductions) {
-    if (!its.has_cores()) continue;
-    const double bytes = 8.0 * its.doubles;
-    const double levels = levels_over(its.ranks);
-    for (const double seconds : its.seconds) seen.push_back({{1.0, bytes, levels, levels * bytes}, seconds});
+  for (const sums& reduction : all.reductions) {
+    if (!reduction.has_cores()) continue;
+    const double bytes = 8.0 * reduction.doubles;
+    const double levels = levels_over(reduction.ranks);
+    for (const double seconds : reduction.seconds)
+      seen.push_back({{1.0, bytes, levels, levels * bytes}, seconds});
   }
   const auto costs = fitted_costs(seen);
   return {costs.at(0), costs.at(1), costs.at(2), costs.at(3)};
@@ -76,9 +77,9 @@ inline reduction_costs fit_reductions(const measured& all) {
 
 inline memory_costs fit_memory(const measured& all) {
   std::vector<observation> seen;
-  for (const memory_of_rank& its : all.memory) {
-    const auto share = static_cast<double>(its.share);
-    seen.push_back({{1.0, share * static_cast<double>(its.steps), share}, its.bytes});
+  for (const memory_of_rank& usage : all.memory) {
+    const auto share = static_cast<double>(usage.share);
+    seen.push_back({{1.0, share * static_cast<double>(usage.steps), share}, usage.bytes});
   }
   const auto costs = fitted_costs(seen);
   return {costs.at(0), costs.at(1), costs.at(2)};
@@ -88,8 +89,8 @@ inline memory_costs fit_memory(const measured& all) {
 inline double slower_when_full(const measured& all) {
   const series* most = nullptr;
   const auto times = all.of("BAOAB");
-  for (const series& its : times) {
-    if (its.scaling == "weak" && (most == nullptr || its.ranks > most->ranks)) most = &its;
+  for (const series& work : times) {
+    if (work.scaling == "weak" && (most == nullptr || work.ranks > most->ranks)) most = &work;
   }
   if (most == nullptr) return 1.0;
   return std::max(1.0, paired_ratio(most->seconds, all.find("BAOAB", "strong", 1, 1).seconds).value);

@@ -71,12 +71,13 @@ inline table gathering_job(const measured& all, const cluster& where) {
   table result(
       {"10^9 rows at rank 0", "times", "bytes of one", "bytes", "on the way", "made", "to the disk"});
   constexpr double numbers = 32.0;  // bytes of four
-  for (const auto& [what, its] : all.rows) {
+  for (const auto& [what, written_row] : all.rows) {
     for (const double times : {1.0, looks_of_run}) {
       const double rows = times * static_cast<double>(trajectories_of_jobs);
-      result.add({what, fmt::format("{}", times), fmt::format("{:.3g}", its.bytes), amount(its.bytes * rows),
-                  duration(numbers * rows / where.bandwidth), duration(median(its.seconds) * rows),
-                  duration(its.bytes * rows / where.disk)});
+      result.add({what, fmt::format("{}", times), fmt::format("{:.3g}", written_row.bytes),
+                  amount(written_row.bytes * rows), duration(numbers * rows / where.bandwidth),
+                  duration(median(written_row.seconds) * rows),
+                  duration(written_row.bytes * rows / where.disk)});
     }
   }
   return result;

@@ -23,8 +23,8 @@ using namespace nysalt::bench;
 std::string pages(const measured& all, const fitted& model, const cluster& where, auto form) {
   const foretold on(model, where);
   std::string text = fmt::format("{}, {} cores\n", processor(), all.reductions.at(0).cores);
-  const auto add = [&](const std::string& title, const nysalt::table& its) {
-    text += fmt::format("\n{}\n\n{}", title, form(its));
+  const auto add = [&](const std::string& title, const nysalt::table& rows) {
+    text += fmt::format("\n{}\n\n{}", title, form(rows));
   };
   add("Two ranks (? where the machine is too busy to say; then its bare kernel gains less than 1.9, too):",
       acceptance(all));

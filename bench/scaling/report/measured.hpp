@@ -92,11 +92,11 @@ T& found_or_new(std::vector<T>& all, const T& wanted, const std::function<bool(c
 }
 
 inline void add_times(const nlohmann::json& row, measured& result) {
-  const series its{row.at("what"),         row.at("scaling"), row.at("ranks"),        row.at("threads"),
-                   row.at("trajectories"), row.at("steps"),   row.at("largest_share")};
-  auto& known = found_or_new<series>(result.times, its, [&](const series& one) {
-    return one.what == its.what && one.scaling == its.scaling && one.ranks == its.ranks &&
-           one.threads == its.threads && one.trajectories == its.trajectories && one.steps == its.steps;
+  const series work{row.at("what"),         row.at("scaling"), row.at("ranks"),        row.at("threads"),
+                    row.at("trajectories"), row.at("steps"),   row.at("largest_share")};
+  auto& known = found_or_new<series>(result.times, work, [&](const series& one) {
+    return one.what == work.what && one.scaling == work.scaling && one.ranks == work.ranks &&
+           one.threads == work.threads && one.trajectories == work.trajectories && one.steps == work.steps;
   });
   known.seconds.push_back(row.at("seconds"));
 }
@@ -104,9 +104,9 @@ inline void add_times(const nlohmann::json& row, measured& result) {
 inline void add_row(const nlohmann::json& row, measured& result) {
   const std::string what = row.at("what");
   if (what == "reduction") {
-    const sums its{row.at("ranks"), row.at("cores"), row.at("doubles")};
-    auto& known = found_or_new<sums>(result.reductions, its, [&](const sums& one) {
-      return one.ranks == its.ranks && one.doubles == its.doubles;
+    const sums reduction{row.at("ranks"), row.at("cores"), row.at("doubles")};
+    auto& known = found_or_new<sums>(result.reductions, reduction, [&](const sums& one) {
+      return one.ranks == reduction.ranks && one.doubles == reduction.doubles;
     });
     known.seconds.push_back(row.at("seconds"));
     known.seconds_90.push_back(row.at("seconds_90"));

@@ -32,14 +32,14 @@ inline panel measured_panel(const measured& all, const fitted& model) {
       curve line{.label = "", .x = {1.0}, .y = {1.0}, .dashed = true};
       line.label = fmt::format("{}, model", points.label);
       const double alone = model.seconds(all.find(what, "strong", 1, 1));
-      for (const series& its : all.of(what)) {
-        if (its.scaling != scaling || its.threads > 1 || its.ranks == 1) continue;
-        const ratio e = efficiency_of(all, its);
-        points.x.push_back(its.ranks);
+      for (const series& work : all.of(what)) {
+        if (work.scaling != scaling || work.threads > 1 || work.ranks == 1) continue;
+        const ratio e = efficiency_of(all, work);
+        points.x.push_back(work.ranks);
         points.y.push_back(e.value);
         points.error.push_back(0.5 * (e.high - e.low));
-        line.x.push_back(its.ranks);
-        line.y.push_back(alone / model.seconds(its) / (scaling == "strong" ? its.ranks : 1.0));
+        line.x.push_back(work.ranks);
+        line.y.push_back(alone / model.seconds(work) / (scaling == "strong" ? work.ranks : 1.0));
       }
       result.curves.push_back(points);
       if (scaling == "strong") result.curves.push_back(line);
@@ -51,12 +51,12 @@ inline panel measured_panel(const measured& all, const fitted& model) {
 inline panel foretold_panel(const foretold& on) {
   panel result = panel_of_efficiencies("Foretold, at fixed trajectories");
   const auto add = [&](const std::string& label, const std::function<double(std::int64_t)>& seconds) {
-    curve its{.label = label, .x = {}, .y = {}};
+    curve line{.label = label, .x = {}, .y = {}};
     for (std::int64_t ranks = 1; ranks <= 1'048'576; ranks *= 2) {
-      its.x.push_back(static_cast<double>(ranks));
-      its.y.push_back(efficiency(seconds, ranks));
+      line.x.push_back(static_cast<double>(ranks));
+      line.y.push_back(efficiency(seconds, ranks));
     }
-    result.curves.push_back(its);
+    result.curves.push_back(line);
   };
   constexpr std::int64_t n = steps_of_learning;
   constexpr std::int64_t most = trajectories_of_jobs;

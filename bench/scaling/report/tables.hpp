@@ -56,9 +56,9 @@ inline table acceptance(const measured& all) {
 }
 
 /// T(1)/(R T(R)) of the same work, T(1)/T(R) of as much a rank.
-inline ratio efficiency_of(const measured& all, const series& its) {
-  ratio r = paired_ratio(all.find(its.what, "strong", 1, 1).seconds, its.seconds);
-  const double by = its.scaling == "strong" ? its.ranks : 1.0;
+inline ratio efficiency_of(const measured& all, const series& work) {
+  ratio r = paired_ratio(all.find(work.what, "strong", 1, 1).seconds, work.seconds);
+  const double by = work.scaling == "strong" ? work.ranks : 1.0;
   for (double* x : {&r.value, &r.low, &r.high}) *x /= by;
   return r;
 }
@@ -67,20 +67,20 @@ inline table efficiencies(const measured& all, const fitted& model) {
   table result(
       {"what", "scaling", "ranks", "time", "efficiency", "95 %", "model's time", "measured by model"}, 2);
   for (const auto& what : kinds_of_work) {
-    for (const series& its : all.of(what)) {
-      if (its.scaling == "size" || its.threads > 1) continue;
-      const ratio e = efficiency_of(all, its);
+    for (const series& work : all.of(what)) {
+      if (work.scaling == "size" || work.threads > 1) continue;
+      const ratio e = efficiency_of(all, work);
       std::vector<std::string> cells{name_of(what),
-                                     its.scaling,
-                                     fmt::format("{}", its.ranks),
-                                     duration(its.middle()),
+                                     work.scaling,
+                                     fmt::format("{}", work.ranks),
+                                     duration(work.middle()),
                                      fmt::format("{:.3g}", e.value),
                                      interval(e),
                                      "",
                                      ""};
       if (what != "kernel") {
-        cells[6] = duration(model.seconds(its));
-        cells[7] = fmt::format("{:.3g}", its.middle() / model.seconds(its));
+        cells[6] = duration(model.seconds(work));
+        cells[7] = fmt::format("{:.3g}", work.middle() / model.seconds(work));
       }
       result.add(cells);
     }
@@ -90,19 +90,20 @@ inline table efficiencies(const measured& all, const fitted& model) {
 
 inline table sizes(const measured& all, const fitted& model) {
   table result({"what", "trajectories", "steps", "time", "model's time", "measured by model"});
-  for (const series& its : all.times) {
-    if (its.scaling != "size") continue;
-    result.add({name_of(its.what), fmt::format("{}", its.trajectories), fmt::format("{}", its.steps),
-                duration(its.middle()), duration(model.seconds(its)),
-                fmt::format("{:.3g}", its.middle() / model.seconds(its))});
+  for (const series& work : all.times) {
+    if (work.scaling != "size") continue;
+    result.add({name_of(work.what), fmt::format("{}", work.trajectories), fmt::format("{}", work.steps),
+                duration(work.middle()), duration(model.seconds(work)),
+                fmt::format("{:.3g}", work.middle() / model.seconds(work))});
   }
   return result;
 }
 
 inline table costs(const fitted& m) {
   table result({"of", "cost", "value", "unit"}, 2);
-  const auto add = [&](const char* of, const char* name, const cost& its, const char* unit, double size) {
-    result.add({of, name, with_error(its, size), unit});
+  const auto add = [&](const char* of, const char* name, const cost& fitted_cost, const char* unit,
+                       double size) {
+    result.add({of, name, with_error(fitted_cost, size), unit});
   };
   add("two-stage", "t_step", m.two_stage.step, "ns a trajectory-step", 1e-9);
   add("two-stage", "t_start", m.two_stage.start, "ns a trajectory", 1e-9);
@@ -128,11 +129,13 @@ inline table costs(const fitted& m) {
 
 inline table reductions(const measured& all, const fitted& model) {
   table result({"ranks", "doubles", "median", "90 %", "model", "cores"}, 0);
-  for (const sums& its : all.reductions) {
-    result.add({fmt::format("{}", its.ranks), fmt::format("{}", its.doubles), duration(median(its.seconds)),
-                duration(median(its.seconds_90)),
-                its.has_cores() ? duration(model.reduction.seconds(its.ranks, 8.0 * its.doubles)) : "-",
-                its.has_cores() ? "one a rank" : "fewer than ranks"});
+  for (const sums& reduction : all.reductions) {
+    result.add({fmt::format("{}", reduction.ranks), fmt::format("{}", reduction.doubles),
+                duration(median(reduction.seconds)), duration(median(reduction.seconds_90)),
+                reduction.has_cores()
+                    ? duration(model.reduction.seconds(reduction.ranks, 8.0 * reduction.doubles))
+                    : "-",
+                reduction.has_cores() ? "one a rank" : "fewer than ranks"});
   }
   return result;
 }
@@ -163,13 +166,13 @@ inline table memory(const measured& all, const fitted& model) {
 inline table rows_of(const measured& all) {
   table result({"what", "scaling", "ranks", "threads", "trajectories", "steps", "largest_share", "rounds",
                 "median_seconds", "lower_quartile", "upper_quartile"});
-  for (const series& its : all.times) {
-    samples sorted = its.seconds;
+  for (const series& work : all.times) {
+    samples sorted = work.seconds;
     std::sort(sorted.begin(), sorted.end());
-    result.add({its.what, its.scaling, fmt::format("{}", its.ranks), fmt::format("{}", its.threads),
-                fmt::format("{}", its.trajectories), fmt::format("{}", its.steps),
-                fmt::format("{}", its.largest_share), fmt::format("{}", sorted.size()),
-                fmt::format("{:.6g}", its.middle()), fmt::format("{:.6g}", sorted[sorted.size() / 4]),
+    result.add({work.what, work.scaling, fmt::format("{}", work.ranks), fmt::format("{}", work.threads),
+                fmt::format("{}", work.trajectories), fmt::format("{}", work.steps),
+                fmt::format("{}", work.largest_share), fmt::format("{}", sorted.size()),
+                fmt::format("{:.6g}", work.middle()), fmt::format("{:.6g}", sorted[sorted.size() / 4]),
                 fmt::format("{:.6g}", sorted[3 * sorted.size() / 4])});
   }
   return result;

@@ -27,11 +27,11 @@ inline std::string amount(double bytes) {
   return fmt::format("{:.3g} TB", bytes * 1e-12);
 }
 
-inline std::string with_error(const cost& its, double unit) {
-  if (its.value == 0.0) return "too small to tell";
-  const double error = its.standard_error / unit;
+inline std::string with_error(const cost& fitted_cost, double unit) {
+  if (fitted_cost.value == 0.0) return "too small to tell";
+  const double error = fitted_cost.standard_error / unit;
   const auto digits = error >= 10.0 ? fmt::format("{:.0f}", error) : fmt::format("{:.2g}", error);
-  return fmt::format("{:.4g} +- {}", its.value / unit, digits);
+  return fmt::format("{:.4g} +- {}", fitted_cost.value / unit, digits);
 }
 
 }  // namespace nysalt::bench

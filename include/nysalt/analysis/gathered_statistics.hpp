@@ -62,9 +62,9 @@ class gathering {
     means_[slot] = along.means_in_lane(k);
     if (wanted_->histogram) histograms_[group] += along.histogram_in_lane(k);
     if (wanted_->lags) {
-      const autocovariance_sums its = along.autocovariance_in_lane(k);
-      for (std::size_t lag = 0; lag < its.size(); ++lag)
-        covariances_[group][lag] = covariances_[group][lag] + its[lag];
+      const autocovariance_sums sums = along.autocovariance_in_lane(k);
+      for (std::size_t lag = 0; lag < sums.size(); ++lag)
+        covariances_[group][lag] = covariances_[group][lag] + sums[lag];
     }
   }
 

@@ -40,21 +40,21 @@ class predictable_samples {
 
   /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.
   void add(std::int64_t i, const T& perturbed, const T& null_model) {
-    const auto within = perturbed <= null_model * share_;  // not if it has gone to NaN
+    const auto within = perturbed <= null_model * share_;  // not if a sum has gone to NaN
     for (int k = 0; k < lanes_in<T>; ++k) {
-      auto& its = until_[static_cast<std::size_t>(k)];
+      auto& exceeded_at = until_[static_cast<std::size_t>(k)];
       if (lane(within, k)) {
-        its.reset();
-      } else if (!its) {
-        its = i;
+        exceeded_at.reset();
+      } else if (!exceeded_at) {
+        exceeded_at = i;
       }
     }
   }
 
-  /// That sample in lane k; infinite if the errors are within to the end.
+  /// The first sample in lane k from which on the errors are not within; infinite if they are to the end.
   double until(int k) const {
-    const auto& its = until_[static_cast<std::size_t>(k)];
-    return its ? static_cast<double>(*its) : std::numeric_limits<double>::infinity();
+    const auto& exceeded_at = until_[static_cast<std::size_t>(k)];
+    return exceeded_at ? static_cast<double>(*exceeded_at) : std::numeric_limits<double>::infinity();
   }
 
  private:

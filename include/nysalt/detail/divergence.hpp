@@ -55,10 +55,10 @@ class divergence {
  private:
   static double energy_of_bath(const S& system) {
     if constexpr (HasBath<S>) {
-      const bath& its = system.bath();
-      if (!its.acts()) return 1.0;
-      if (!its.has_temperature()) return std::numeric_limits<double>::infinity();
-      return std::max(1.0, its.temperature() * static_cast<double>(size(system)));
+      const bath& heat_bath = system.bath();
+      if (!heat_bath.acts()) return 1.0;
+      if (!heat_bath.has_temperature()) return std::numeric_limits<double>::infinity();
+      return std::max(1.0, heat_bath.temperature() * static_cast<double>(size(system)));
     }
     return 1.0;
   }

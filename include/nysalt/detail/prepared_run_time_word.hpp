@@ -51,7 +51,7 @@ class prepared_word<run_time_word, C, N> {
       run_.undo = {prepare(w, 0, back.data(), h, around)};
     }
     if (halves_meet_) {
-      const bool is_warm = around.its_bath->sigma() > 0.0;
+      const bool is_warm = around.heat_bath->sigma() > 0.0;
       seam_ = noise_seam<C>(noise_.back(), noise_.front(), is_warm);
     }
     for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) end_step(*letters);
@@ -59,7 +59,7 @@ class prepared_word<run_time_word, C, N> {
     run_.find_pairs();
   }
 
-  /// What the loop applies: itself, as its letters lie elsewhere and no copy would be nearer.
+  /// What the loop applies: the word itself, as its letters lie elsewhere and no copy would be nearer.
   const prepared_word& in_loop() const { return *this; }
 
   /// Opens a run. Cost: the word's evaluations_to_open.

@@ -18,18 +18,18 @@ namespace nysalt {
 
 /// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
-  std::optional<bath> its_bath;                ///< for letters O; a copy, as a system may return it by value
+  std::optional<bath> heat_bath;               ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const quadratic_part> part;  ///< for letters R
 };
 
 namespace detail {
 /// One letter with its coefficients, c[0] and perhaps c[1], and the step folded in.
 template <Flow Letter, int N, Scalar C>
-auto prepare_letter(const C* c, double h, const surroundings_of_word& its) {
+auto prepare_letter(const C* c, double h, const surroundings_of_word& around) {
   if constexpr (StochasticFlow<Letter>) {
-    return Letter::prepare(c[0], h, *its.its_bath);
+    return Letter::prepare(c[0], h, *around.heat_bath);
   } else if constexpr (QuadraticFlow<Letter>) {
-    return Letter::template prepare<N>(c[0], h, its.part);
+    return Letter::template prepare<N>(c[0], h, around.part);
   } else if constexpr (Letter::slots == 2) {
     return Letter::prepare(c[0], c[1], h);
   } else {
@@ -62,20 +62,20 @@ class prepared_word<word<L...>, C, N> {
  public:
   /// One for each slot.
   using coefficients = typename W::template coefficients<C>;
-  /// Its cursor holds a flow_room: there is a letter G, R or H.
+  /// The cursor of the word holds a flow_room: there is a letter G, R or H.
   static constexpr bool needs_room = W::force_derivatives > 0 || (QuadraticFlow<L> || ...);
 
   /// Folds step and surroundings into the coefficients.
-  prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& its)
-      : letters_(prepare(c, h, its, std::make_index_sequence<W::length>{})) {
+  prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& around)
+      : letters_(prepare(c, h, around, std::make_index_sequence<W::length>{})) {
     if constexpr (W::merges) {  // letters that merge have one coefficient
       const C both = c[W::slots - 1] + c[0];
       const C back = -c[0];
-      seam_ = detail::prepare_letter<first, N>(&both, h, its);
-      undo_ = detail::prepare_letter<first, N>(&back, h, its);
+      seam_ = detail::prepare_letter<first, N>(&both, h, around);
+      undo_ = detail::prepare_letter<first, N>(&back, h, around);
     } else if constexpr (W::halves_meet) {
       seam_ = noise_seam<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
-                            its.its_bath->sigma() > 0.0);
+                            around.heat_bath->sigma() > 0.0);
     }
   }
 
@@ -124,10 +124,10 @@ class prepared_word<word<L...>, C, N> {
   static constexpr std::size_t end = W::halves_meet ? W::length - 1 : W::length;  // of loop and plain step
 
   template <std::size_t... I>
-  static auto prepare(const coefficients& c, double h, const surroundings_of_word& its,
+  static auto prepare(const coefficients& c, double h, const surroundings_of_word& around,
                       std::index_sequence<I...>) {
     return std::tuple(
-        detail::prepare_letter<typename W::template letter<I>, N>(&c[W::first_slot(I)], h, its)...);
+        detail::prepare_letter<typename W::template letter<I>, N>(&c[W::first_slot(I)], h, around)...);
   }
 
   template <std::size_t I, evaluation E, class T, System S>

@@ -19,12 +19,12 @@ concept Piece =
     std::convertible_to<const T&, std::string_view> || std::integral<T> || std::same_as<T, double>;
 
 namespace detail {
-/// Text with a hole {} for each piece. With more or fewer, or with another brace, it does not compile.
+/// Text with a hole {} for each piece. Text with more or fewer, or with another brace, does not compile.
 template <class... Pieces>
 struct pattern {
   std::string_view text;
 
-  consteval pattern(const char* its) : text(its) {  // NOLINT(google-explicit-constructor)
+  consteval pattern(const char* literal) : text(literal) {  // NOLINT(google-explicit-constructor)
     std::size_t holes = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (text[i] == '}') throw "a } without its {";

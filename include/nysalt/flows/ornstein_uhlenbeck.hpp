@@ -39,13 +39,13 @@ struct ornstein_uhlenbeck {
 
   /// Throws std::invalid_argument where noise would have to go back in time.
   template <Scalar C>
-  static prepared<C> prepare(const C& c, double h, const bath& its) {
+  static prepared<C> prepare(const C& c, double h, const bath& heat_bath) {
     const C time = c * h;
-    if (its.sigma() > 0.0 && any(time < C(0.0))) {
+    if (heat_bath.sigma() > 0.0 && any(time < C(0.0))) {
       throw std::invalid_argument(sentence(
           "a letter O cannot go back in time: its coefficient and the step ({}) must have the same sign", h));
     }
-    return {its.decay(time), its.deviation(time)};
+    return {heat_bath.decay(time), heat_bath.deviation(time)};
   }
 
   /// p <- decay p

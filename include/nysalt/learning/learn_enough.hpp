@@ -26,11 +26,11 @@ learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemb
                                const learn_options<F>& options = {}, const own_loss<Own>&... own) {
   flow_map_data data;
   flow_map_data held_out;
-  const auto grow = [&](flow_map_data& its, std::int64_t trajectories, std::uint64_t seed) {
+  const auto grow = [&](flow_map_data& data_set, std::int64_t trajectories, std::uint64_t seed) {
     data_options wanted = first;
     wanted.trajectories = trajectories;
     wanted.seed = seed;
-    extend_data(system, ensemble, reference, wanted, its);
+    extend_data(system, ensemble, reference, wanted, data_set);
   };
   enough.most = std::min(enough.most, most_trajectories(first, size(system)));
   std::optional<learned<F>> found;

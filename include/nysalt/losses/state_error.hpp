@@ -11,8 +11,8 @@ namespace nysalt {
 template <Scalar R = detail::lanes>
 stretch_error<R> state_error(const metric& measure) {
   return {.residuals = static_cast<std::size_t>(measure.residuals()),
-          .of = [its = &measure](const auto&, const auto& finish, const auto& wanted,
-                                 auto* r) { its->residual(finish.q, finish.p, wanted, r); },
+          .of = [error_metric = &measure](const auto&, const auto& finish, const auto& wanted,
+                                          auto* r) { error_metric->residual(finish.q, finish.p, wanted, r); },
           .weight_deviations = &measure.weight_deviations()};
 }
 

@@ -50,8 +50,8 @@ struct noise_of_entries {
   template <class T>
   void normals(const noise_place& at, vector<T, N>& xi) const {
     const auto& all = (*entries)[static_cast<std::size_t>(at.trajectory)].noise;
-    const auto& its = all[static_cast<std::size_t>(at.step * letters + at.flow)];
-    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = T(its[i]);
+    const auto& numbers = all[static_cast<std::size_t>(at.step * letters + at.flow)];
+    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = T(numbers[i]);
   }
 };
 

@@ -62,8 +62,8 @@ class exact_linear {
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
   void require_alone(const auto& system) const {
-    const bath& its = system.bath();
-    if (!its.acts()) return;
+    const bath& heat_bath = system.bath();
+    if (!heat_bath.acts()) return;
     throw std::invalid_argument(
         sentence("exact_linear: the flow of {} is not known, as it is in a bath", system_));
   }
@@ -96,8 +96,8 @@ class exact_linear {
     }
   }
 
-  /// That of coordinate i, at a state of size `length`.
-  [[noreturn]] void refuse_force(Eigen::Index i, double its, double expected, double length) const;
+  /// Refuses the force on coordinate i, at a state of size `length`.
+  [[noreturn]] void refuse_force(Eigen::Index i, double force, double expected, double length) const;
 
   std::string system_;
   normal_modes modes_;

@@ -70,11 +70,11 @@ class odeint_reference {
   template <System S>
   static double friction_of(const S& system) {
     if constexpr (HasBath<S>) {
-      const bath& its = system.bath();
-      if (its.sigma() == 0.0) return its.friction();
+      const bath& heat_bath = system.bath();
+      if (heat_bath.sigma() == 0.0) return heat_bath.friction();
       throw std::invalid_argument(
           sentence("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
-                   its.description()));
+                   heat_bath.description()));
     }
     return 0.0;
   }

@@ -21,17 +21,17 @@ struct look {
 bool has_hollow(const curve& one);
 
 /// What is emphasised is solid and thick, the others are thin and of five dashes.
-look look_of(const panel& its, std::size_t j);
+look look_of(const panel& plot, std::size_t j);
 
 /// The elements of a plot command that draw a curve, without its entry in the key.
-std::vector<std::string> drawing_of(const panel& its, std::size_t j, const std::string& data);
+std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std::string& data);
 
-std::string key_entry(const panel& its, std::size_t j);
+std::string key_entry(const panel& plot, std::size_t j);
 
 /// How the stretches of a label look: the first light and without a border, the next dark with one.
 std::string look_of_stretches(std::size_t label);
 
 /// Numbers of labels, in the order of their first stretches.
-std::vector<std::string> labels_of_stretches(const panel& its);
+std::vector<std::string> labels_of_stretches(const panel& plot);
 
 }  // namespace nysalt::detail

@@ -33,12 +33,12 @@ class page {
   /// A list with a dot before each item.
   void list(std::vector<std::string> items);
   /// A table; words of its cells are set as they are.
-  void table(nysalt::table its);
+  void table(nysalt::table rows);
   /// A command or an output, as it is.
   void code(std::string text);
   /// Throws std::invalid_argument if the page has a picture of that name, as their files would be one, or if
   /// the name is none that draw() takes.
-  void picture(figure its, std::string caption);
+  void picture(figure drawing, std::string caption);
 
   /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which stands below again.
   std::string markdown(const std::string& pictures = "") const;

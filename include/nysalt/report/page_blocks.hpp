@@ -25,11 +25,11 @@ struct list_block {
 };
 /// A table.
 struct table_block {
-  table its;  ///< whose cells have no markup
+  table rows;  ///< whose cells have no markup
 };
 /// A command or an output.
 struct code_block {
-  std::string text;  ///< as it is
+  std::string text;  ///< shown unchanged
 };
 /// A picture and what is said below it.
 struct picture_block {

@@ -29,7 +29,7 @@ template <NystromSystem S>
 class in_bath : public S {
  public:
   /// The bath may be one that does not act.
-  in_bath(S system, nysalt::bath its_bath) : S(std::move(system)), bath_(std::move(its_bath)) {}
+  in_bath(S system, nysalt::bath heat_bath) : S(std::move(system)), bath_(std::move(heat_bath)) {}
 
   const nysalt::bath& bath() const { return bath_; }
   const S& alone() const { return *this; }  ///< without the bath

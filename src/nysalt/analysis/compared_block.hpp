@@ -60,13 +60,14 @@ class compared_block {
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
       const std::int64_t next = std::min(done + steps_between_checks, steps);
       reference_.go_on(done, next);
-      for (watched_run& its : runs_) {
-        its.run.go_on(
-            next, 1, measures_.width(), read, [&](std::int64_t n, std::span<const T> seen, const auto& live) {
-              for (std::size_t i = 0; i < measures_.size(); ++i) {
-                its.errors[i].add(n, measures_.part(i, seen), reference_.expected(i, n), live, weights_(n));
-              }
-            });
+      for (watched_run& method_run : runs_) {
+        method_run.run.go_on(next, 1, measures_.width(), read,
+                             [&](std::int64_t n, std::span<const T> seen, const auto& live) {
+                               for (std::size_t i = 0; i < measures_.size(); ++i) {
+                                 method_run.errors[i].add(n, measures_.part(i, seen),
+                                                          reference_.expected(i, n), live, weights_(n));
+                               }
+                             });
       }
     }
   }

@@ -59,8 +59,8 @@ class compared_reference {
       reference_.emplace(system, reference, measures_, start, count, at, &path, noise_parts);
     }
     if (needed && checks.finer > 0) {
-      its_finer_self_.emplace(reference.finer());
-      finer_.emplace(system, *its_finer_self_, measures_, start, checks.finer, at);
+      finer_reference_.emplace(reference.finer());
+      finer_.emplace(system, *finer_reference_, measures_, start, checks.finer, at);
     }
     if (needed && checks.perturbed > 0 && checks.perturbation) {
       const auto from = nysalt::perturbed(start, *checks.perturbation, at.seed, at.trajectory);
@@ -115,7 +115,7 @@ class compared_reference {
     error_sum<T> null_model;
     error_sum<T> perturbed;
     predictable_samples<T> predictable;
-    T size{0.0};  // what they are relative to, summed over time
+    T size{0.0};  // what the errors are relative to, summed over time
   };
 
   std::span<const T> seen_by(const reference_along<T>& run, std::size_t i, std::int64_t n) const {
@@ -123,16 +123,16 @@ class compared_reference {
   }
 
   void compare(std::size_t i, std::int64_t to) {
-    errors_of_measure& its = errors_[i];
+    errors_of_measure& errors = errors_[i];
     for (std::int64_t n = from_ + 1; n <= to; ++n) {
       const auto exact = expected(i, n);
       const double weight = weights_(n);
-      if (measures_[i].relative_to) its.size += measures_[i].relative_to(exact) * weight;
-      if (finer_) its.finer.add(n, exact, seen_by(*finer_, i, n), live_, weight);
-      if (checks_.null_model || perturbed_) its.null_model.add(n, at_start_[i], exact, live_, weight);
+      if (measures_[i].relative_to) errors.size += measures_[i].relative_to(exact) * weight;
+      if (finer_) errors.finer.add(n, exact, seen_by(*finer_, i, n), live_, weight);
+      if (checks_.null_model || perturbed_) errors.null_model.add(n, at_start_[i], exact, live_, weight);
       if (!perturbed_) continue;
-      its.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_, weight);
-      its.predictable.add(n, its.perturbed.sum(), its.null_model.sum());
+      errors.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_, weight);
+      errors.predictable.add(n, errors.perturbed.sum(), errors.null_model.sum());
     }
   }
 
@@ -152,7 +152,7 @@ class compared_reference {
   std::vector<std::vector<T>> at_start_;
   std::vector<errors_of_measure> errors_;
   std::optional<reference_along<T>> reference_;
-  std::optional<detail::reference_value> its_finer_self_;
+  std::optional<detail::reference_value> finer_reference_;
   std::optional<reference_along<T>> finer_;
   std::optional<reference_along<T>> perturbed_;
 };

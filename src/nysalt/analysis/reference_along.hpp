@@ -73,14 +73,14 @@ class reference_along {
   /// `first` is in lane 0.
   void require_sound(std::int64_t first) const {
     for (int k = 0; k < count_; ++k) {
-      const auto& its = failures_[static_cast<std::size_t>(k)];
-      if (!its) continue;
-      const auto& measure = (*measures_)[its->measure];
-      if (its->without_scale) throw std::invalid_argument(measure.no_scale);
+      const auto& first_failure = failures_[static_cast<std::size_t>(k)];
+      if (!first_failure) continue;
+      const auto& measure = (*measures_)[first_failure->measure];
+      if (first_failure->without_scale) throw std::invalid_argument(measure.no_scale);
       throw std::runtime_error(sentence(
           "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
           "take other starts, a finer reference or a shorter horizon",
-          first + k, reference_->description(), measure.name, its->step));
+          first + k, reference_->description(), measure.name, first_failure->step));
     }
   }
 
@@ -100,19 +100,19 @@ class reference_along {
       std::optional<T> scale;
       if (measures_->reads(i) && (*measures_)[i].scale) scale = (*measures_)[i].scale(here);
       for (int k = 0; k < count_; ++k) {
-        auto& its = failures_[static_cast<std::size_t>(k)];
+        auto& first_failure = failures_[static_cast<std::size_t>(k)];
         const bool without_scale = scale && !keeps_sign(i, k, lane(*scale, k));
-        if (its || (lane(sound, k) && !without_scale)) continue;
-        its = failure{at_.step, i, lane(sound, k)};
+        if (first_failure || (lane(sound, k) && !without_scale)) continue;
+        first_failure = failure{at_.step, i, lane(sound, k)};
       }
     }
   }
 
-  /// Not where it is 0.
+  /// Whether the scale has the sign that it had before; not where the scale is 0.
   bool keeps_sign(std::size_t measure, int k, double scale) {
-    double& its = signs_[measure][static_cast<std::size_t>(k)];
-    if (its == 0.0) its = scale > 0.0 ? 1.0 : scale < 0.0 ? -1.0 : 0.0;
-    return its * scale > 0.0 || std::isnan(scale);
+    double& known_sign = signs_[measure][static_cast<std::size_t>(k)];
+    if (known_sign == 0.0) known_sign = scale > 0.0 ? 1.0 : scale < 0.0 ? -1.0 : 0.0;
+    return known_sign * scale > 0.0 || std::isnan(scale);
   }
 
   const model* system_;

@@ -146,32 +146,32 @@ class force_examination {
   using column = Eigen::VectorXd;
 
  public:
-  force_examination(const force_source& its, const column& lengths, const column& lengths_of_momenta)
-      : its_(its),
+  force_examination(const force_source& source, const column& lengths, const column& lengths_of_momenta)
+      : source_(source),
         lengths_(lengths),
         lengths_of_momenta_(lengths_of_momenta),
         along_(directions_to_look_along(lengths)),
         along_momenta_(directions_to_look_along(lengths_of_momenta)),
-        f_(its.size),
-        other_(its.size) {
-    found_.has_potential = its.has_potential;
-    found_.tolerance = its.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
-    found_.asymmetry_tolerance = its.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
+        f_(source.size),
+        other_(source.size) {
+    found_.has_potential = source.has_potential;
+    found_.tolerance = source.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
+    found_.asymmetry_tolerance = source.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
     found_.kick_tolerance = tolerance_of_exact();
     found_.derivative_tolerance = tolerance_of_differences();
-    found_.velocity_tolerance = its.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();
+    found_.velocity_tolerance = source.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();
   }
 
   void look_at(const column& q, const column& p) {
-    its_.force(q, f_);
+    source_.force(q, f_);
     keep(energies(f_), largest_force_);
-    if (its_.has_potential) look_at_potential(q);
-    if (its_.has_kick) look_at_kick(q);
-    if (its_.has_soft_force && its_.size <= looked_along_singly) look_at_soft_force(q);
-    const auto slope = [&](const column& v) { its_.force_slope(q, v, other_); };
+    if (source_.has_potential) look_at_potential(q);
+    if (source_.has_kick) look_at_kick(q);
+    if (source_.has_soft_force && source_.size <= looked_along_singly) look_at_soft_force(q);
+    const auto slope = [&](const column& v) { source_.force_slope(q, v, other_); };
     look_at_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
-    if (its_.has_derivative) look_at_derivative(q);
-    if (its_.has_velocity) look_at_velocity(p);
+    if (source_.has_derivative) look_at_derivative(q);
+    if (source_.has_velocity) look_at_velocity(p);
   }
 
   force_check result() const {
@@ -192,23 +192,23 @@ class force_examination {
  private:
   void look_at_potential(const column& q) {
     for (std::size_t j = 0; j < along_.size(); ++j) {
-      const double defect = f_.dot(along_[j]) + its_.potential_slope(q, along_[j]);
+      const double defect = f_.dot(along_[j]) + source_.potential_slope(q, along_[j]);
       note_along(defect, j, found_.gradient_defect, found_.coordinate);
     }
   }
 
   void look_at_kick(const column& q) {
     other_ = f_;
-    its_.kick(q, other_);
+    source_.kick(q, other_);
     note(energies(other_ - 1.5 * f_), found_.kick_defect, found_.kick_coordinate);
   }
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
   void look_at_soft_force(const column& q) {
-    const auto part = its_.quadratic();
-    column x = column::Zero(its_.size);
+    const auto part = source_.quadratic();
+    column x = column::Zero(source_.size);
     for (const auto& entry : part->entries()) x[entry.mode] += entry.heavy * q[entry.coordinate];
-    its_.soft_force(q, other_);
+    source_.soft_force(q, other_);
     column defect = other_ - f_;
     for (const auto& entry : part->entries()) {
       const double omega = part->frequencies()[static_cast<std::size_t>(entry.mode)];
@@ -220,11 +220,11 @@ class force_examination {
   void look_at_derivative(const column& q) {
     const auto force_at = [&](const column& x) {
       column y(x.size());
-      its_.force(x, y);
+      source_.force(x, y);
       return y;
     };
     for (const auto& v : along_) {
-      its_.derivative(q, v, other_);
+      source_.derivative(q, v, other_);
       const column differences = difference_along(force_at, q, v);
       keep(energies(other_), largest_slope_);
       keep(energies(differences), largest_slope_);
@@ -233,17 +233,17 @@ class force_examination {
   }
 
   void look_at_velocity(const column& p) {
-    column v(its_.size);
-    its_.velocity(p, v);
+    column v(source_.size);
+    source_.velocity(p, v);
     keep(v.cwiseProduct(lengths_of_momenta_), largest_velocity_);
-    if (!its_.has_kinetic_energy) {
-      const auto slope = [&](const column& along) { its_.velocity_slope(p, along, other_); };
+    if (!source_.has_kinetic_energy) {
+      const auto slope = [&](const column& along) { source_.velocity_slope(p, along, other_); };
       look_at_symmetry(along_momenta_, lengths_of_momenta_, slope, found_.velocity_asymmetry,
                        largest_velocity_slope_);
       return;
     }
     for (std::size_t j = 0; j < along_momenta_.size(); ++j) {
-      const double defect = v.dot(along_momenta_[j]) - its_.kinetic_slope(p, along_momenta_[j]);
+      const double defect = v.dot(along_momenta_[j]) - source_.kinetic_slope(p, along_momenta_[j]);
       note_along(defect, j, found_.velocity_defect, found_.velocity_coordinate);
     }
   }
@@ -282,10 +282,10 @@ class force_examination {
     found_.finite = found_.finite && std::isfinite(defect);
     if (std::abs(defect) <= most) return;
     most = std::abs(defect);
-    coordinate = its_.size <= looked_along_singly ? static_cast<Eigen::Index>(j) : -1;
+    coordinate = source_.size <= looked_along_singly ? static_cast<Eigen::Index>(j) : -1;
   }
 
-  const force_source& its_;
+  const force_source& source_;
   column lengths_;
   column lengths_of_momenta_;
   std::vector<column> along_;

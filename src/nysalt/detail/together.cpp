@@ -18,13 +18,13 @@ enum class failure : int { bad_argument, no_memory, other };
 failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
   try {
     std::rethrow_exception(thrown);
-  } catch (const std::invalid_argument& its) {
-    text = its.what();
+  } catch (const std::invalid_argument& problem) {
+    text = problem.what();
     return failure::bad_argument;
   } catch (const std::bad_alloc&) {
     return failure::no_memory;
-  } catch (const std::exception& its) {
-    text = its.what();
+  } catch (const std::exception& problem) {
+    text = problem.what();
   } catch (...) {
     text = "an unknown exception";
   }

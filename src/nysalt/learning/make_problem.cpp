@@ -165,8 +165,8 @@ learning_problem make_problem(const run_time_family& family, const model& system
       .one_step_loss = [one_step,
                         measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
       .loss_at_end = [at_end, measure](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
-      .judge = [its = other || options.loss.of != loss_choice::kind::state ? held : at_end,
-                measure](const Eigen::VectorXd& theta) { return loss_value(*its, theta); },
+      .judge = [judging_loss = other || options.loss.of != loss_choice::kind::state ? held : at_end,
+                measure](const Eigen::VectorXd& theta) { return loss_value(*judging_loss, theta); },
       .evaluations =
           [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
             return of_data + ranks.total(loss->evaluations() + held->evaluations() + one_step->evaluations() +

@@ -28,12 +28,14 @@ std::vector<double> packed(const flow_map_data& data, std::size_t begin, std::si
   for (std::size_t m = begin; m < end; ++m) {
     numbers.push_back(static_cast<double>(data.first_of[m + 1] - data.first_of[m]));
   }
-  const auto is_here = [&](const auto& its) { return first <= its.first && its.first < last; };
+  const auto is_here = [&](const auto& finer_finish) {
+    return first <= finer_finish.first && finer_finish.first < last;
+  };
   numbers.push_back(static_cast<double>(std::ranges::count_if(data.finer, is_here)));
-  for (const auto& its : data.finer) {
-    if (!is_here(its)) continue;
-    numbers.push_back(static_cast<double>(its.first - first));
-    add_state(its.second);
+  for (const auto& finer_finish : data.finer) {
+    if (!is_here(finer_finish)) continue;
+    numbers.push_back(static_cast<double>(finer_finish.first - first));
+    add_state(finer_finish.second);
   }
   const auto parts = static_cast<std::size_t>(data.noise_parts);
   for (std::size_t n = first; n < last; ++n) {
@@ -100,13 +102,13 @@ void redistribute(flow_map_data& data, const shard& next, Eigen::Index dimension
       }
       if (from != to) {
         auto length = static_cast<std::int64_t>(numbers.size());
-        const std::span its_length(&length, 1);
+        const std::span length_message(&length, 1);
         if (from == ranks.rank()) {
-          ranks.send(std::as_bytes(its_length), to);
+          ranks.send(std::as_bytes(length_message), to);
           ranks.send(std::as_bytes(std::span(numbers)), to);
           continue;
         }
-        ranks.receive(std::as_writable_bytes(its_length), from);
+        ranks.receive(std::as_writable_bytes(length_message), from);
         numbers.resize(static_cast<std::size_t>(length));
         ranks.receive(std::as_writable_bytes(std::span(numbers)), from);
       }

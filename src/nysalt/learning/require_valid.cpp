@@ -43,14 +43,14 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     throw std::invalid_argument(sentence("the data cannot have the step {}", data.step));
   }
   for (std::size_t n = 0; n < data.noise.size(); ++n) {
-    const auto its = data.noise[n];
-    if (its.size() != size(system)) refuse_size("noise", n, its.size(), size(system));
-    for (Eigen::Index i = 0; i < its.size(); ++i) {
-      if (std::isfinite(its[i])) continue;
+    const auto noise = data.noise[n];
+    if (noise.size() != size(system)) refuse_size("noise", n, noise.size(), size(system));
+    for (Eigen::Index i = 0; i < noise.size(); ++i) {
+      if (std::isfinite(noise[i])) continue;
       const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
       throw std::invalid_argument(sentence(
           "the data hold what is not finite: coordinate {} of noise {} is {}, in pair {} of trajectory {}",
-          i + 1, n, its[i], number_of(pair), trajectory_of(pair)));
+          i + 1, n, noise[i], number_of(pair), trajectory_of(pair)));
     }
   }
   const auto require_sound = [&](const char* what, std::size_t pair, const auto& x) {

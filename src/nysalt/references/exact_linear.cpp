@@ -20,11 +20,11 @@ void exact_linear::require_modes() const {
       "exact_linear: modes() of {} must give {} orthonormal columns with a frequency each", system_, n));
 }
 
-void exact_linear::refuse_force(Eigen::Index i, double its, double expected, double length) const {
+void exact_linear::refuse_force(Eigen::Index i, double force, double expected, double length) const {
   throw std::invalid_argument(
       fmt::format("exact_linear: the force of {} is not linear as modes() says, coordinate {} is off by "
                   "{:.2e} of {:.2e} at a state of size {}; take fine_steps or odeint_reference",
-                  system_, i + 1, its - expected, expected, length));
+                  system_, i + 1, force - expected, expected, length));
 }
 
 }  // namespace nysalt

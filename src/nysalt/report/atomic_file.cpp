@@ -16,10 +16,10 @@ namespace nysalt {
 
 void put_folder_on_disk(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  const int its = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (its < 0) return;
-  fsync(its);
-  close(its);
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
 }
 
 atomic_file::atomic_file(std::filesystem::path path)

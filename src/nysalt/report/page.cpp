@@ -25,18 +25,18 @@ void page::text(std::string paragraph) { blocks_.push_back(text_block{std::move(
 
 void page::list(std::vector<std::string> items) { blocks_.push_back(list_block{std::move(items)}); }
 
-void page::table(nysalt::table its) { blocks_.push_back(table_block{std::move(its)}); }
+void page::table(nysalt::table rows) { blocks_.push_back(table_block{std::move(rows)}); }
 
 void page::code(std::string text) { blocks_.push_back(code_block{std::move(text)}); }
 
-void page::picture(figure its, std::string caption) {
-  detail::require_plain(its.name);
-  if (std::ranges::find(figures_, its.name, &figure::name) != figures_.end()) {
+void page::picture(figure drawing, std::string caption) {
+  detail::require_plain(drawing.name);
+  if (std::ranges::find(figures_, drawing.name, &figure::name) != figures_.end()) {
     throw std::invalid_argument(
-        fmt::format("page: two pictures are named {}: give each a name of its own", its.name));
+        fmt::format("page: two pictures are named {}: give each a name of its own", drawing.name));
   }
-  blocks_.push_back(picture_block{its.name, std::move(caption)});
-  figures_.push_back(std::move(its));
+  blocks_.push_back(picture_block{drawing.name, std::move(caption)});
+  figures_.push_back(std::move(drawing));
 }
 
 std::string page::markdown(const std::string& pictures) const {

@@ -55,9 +55,9 @@ a{color:inherit}
 
 std::string html_sentence(std::string_view text) {
   std::string result;
-  for (const styled_words& its : plain_words(text)) {
-    const std::string inside = html_escaped(its.text);
-    switch (its.is) {
+  for (const styled_words& words : plain_words(text)) {
+    const std::string inside = html_escaped(words.text);
+    switch (words.is) {
       case styled_words::kind::plain:
         result += inside;
         break;
@@ -68,7 +68,7 @@ std::string html_sentence(std::string_view text) {
         result += "<strong>" + inside + "</strong>";
         break;
       case styled_words::kind::link:
-        result += fmt::format("<a href=\"{}\">{}</a>", html_escaped(its.address), inside);
+        result += fmt::format("<a href=\"{}\">{}</a>", html_escaped(words.address), inside);
     }
   }
   return result;
@@ -77,7 +77,7 @@ std::string html_sentence(std::string_view text) {
 /// A sentence without its marks, for attributes and for the title of the window.
 std::string html_plain(std::string_view text) {
   std::string result;
-  for (const styled_words& its : plain_words(text)) result += html_escaped(its.text);
+  for (const styled_words& words : plain_words(text)) result += html_escaped(words.text);
   return result;
 }
 
@@ -85,34 +85,35 @@ struct html_of_block {
   const std::filesystem::path& pictures;
   int headings = 0;  // so far
 
-  std::string operator()(const heading_block& its) {
-    return fmt::format("<h{0} id=\"section-{1}\">{2}</h{0}>\n", its.level, ++headings,
-                       html_sentence(its.text));
+  std::string operator()(const heading_block& heading) {
+    return fmt::format("<h{0} id=\"section-{1}\">{2}</h{0}>\n", heading.level, ++headings,
+                       html_sentence(heading.text));
   }
-  std::string operator()(const text_block& its) const {
-    return fmt::format("<p>{}</p>\n", html_sentence(its.text));
+  std::string operator()(const text_block& paragraph) const {
+    return fmt::format("<p>{}</p>\n", html_sentence(paragraph.text));
   }
-  std::string operator()(const list_block& its) const {
+  std::string operator()(const list_block& list) const {
     std::string result = "<ul>\n";
-    for (const auto& item : its.items) result += fmt::format("<li>{}</li>\n", html_sentence(item));
+    for (const auto& item : list.items) result += fmt::format("<li>{}</li>\n", html_sentence(item));
     return result + "</ul>\n";
   }
-  std::string operator()(const table_block& its) const {
-    return fmt::format("<div class=\"scroll\">\n{}</div>\n", its.its.html());
+  std::string operator()(const table_block& block) const {
+    return fmt::format("<div class=\"scroll\">\n{}</div>\n", block.rows.html());
   }
-  std::string operator()(const code_block& its) const {
-    return fmt::format("<pre><code>{}</code></pre>\n", html_escaped(its.text));
+  std::string operator()(const code_block& code) const {
+    return fmt::format("<pre><code>{}</code></pre>\n", html_escaped(code.text));
   }
-  std::string operator()(const picture_block& its) const {
-    std::string drawn = inline_svg(pictures / (its.name + ".svg"), its.name, html_plain(its.caption));
+  std::string operator()(const picture_block& picture) const {
+    std::string drawn =
+        inline_svg(pictures / (picture.name + ".svg"), picture.name, html_plain(picture.caption));
     if (drawn.empty()) {
       drawn = fmt::format(
           "<p class=\"missing\">The picture {0} is missing, as gnuplot is not there or failed: "
           "<code>{0}.gp</code> and <code>{0}.dat</code> draw it later.</p>",
-          its.name);
+          picture.name);
     }
     return fmt::format("<figure>\n{}\n<figcaption>{}</figcaption>\n</figure>\n", drawn,
-                       html_sentence(its.caption));
+                       html_sentence(picture.caption));
   }
 };
 
@@ -122,12 +123,12 @@ std::string html_contents(const std::vector<page_block>& blocks) {
   int headings = 0;
   int sections = 0;
   for (const auto& block : blocks) {
-    const auto* its = std::get_if<heading_block>(&block);
-    if (its == nullptr) continue;
+    const auto* heading = std::get_if<heading_block>(&block);
+    if (heading == nullptr) continue;
     ++headings;
-    if (its->level != 2) continue;
+    if (heading->level != 2) continue;
     ++sections;
-    items += fmt::format("<li><a href=\"#section-{}\">{}</a></li>\n", headings, html_plain(its->text));
+    items += fmt::format("<li><a href=\"#section-{}\">{}</a></li>\n", headings, html_plain(heading->text));
   }
   return sections > 3 ? fmt::format("<nav aria-label=\"Contents\">\n<ul>\n{}</ul>\n</nav>\n", items) : "";
 }

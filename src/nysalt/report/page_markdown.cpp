@@ -30,19 +30,19 @@ std::size_t longest_backquotes(std::string_view text) {
 
 std::string markdown_sentence(std::string_view text) {
   std::string result;
-  for (const styled_words& its : plain_words(text)) {
-    switch (its.is) {
+  for (const styled_words& words : plain_words(text)) {
+    switch (words.is) {
       case styled_words::kind::plain:
-        result += markdown_escaped(its.text);
+        result += markdown_escaped(words.text);
         break;
       case styled_words::kind::code:
-        result += "`" + its.text + "`";
+        result += "`" + words.text + "`";
         break;
       case styled_words::kind::bold:
-        result += "**" + markdown_escaped(its.text) + "**";
+        result += "**" + markdown_escaped(words.text) + "**";
         break;
       case styled_words::kind::link:
-        result += fmt::format("[{}]({})", markdown_escaped(its.text), its.address);
+        result += fmt::format("[{}]({})", markdown_escaped(words.text), words.address);
     }
   }
   return result;
@@ -51,24 +51,27 @@ std::string markdown_sentence(std::string_view text) {
 struct markdown_of_block {
   const std::string& pictures;
 
-  std::string operator()(const heading_block& its) const {
-    return std::string(static_cast<std::size_t>(its.level), '#') + " " + markdown_sentence(its.text) + "\n";
+  std::string operator()(const heading_block& heading) const {
+    return std::string(static_cast<std::size_t>(heading.level), '#') + " " + markdown_sentence(heading.text) +
+           "\n";
   }
-  std::string operator()(const text_block& its) const { return markdown_sentence(its.text) + "\n"; }
-  std::string operator()(const list_block& its) const {
+  std::string operator()(const text_block& paragraph) const {
+    return markdown_sentence(paragraph.text) + "\n";
+  }
+  std::string operator()(const list_block& list) const {
     std::string result;
-    for (const auto& item : its.items) result += fmt::format("- {}\n", markdown_sentence(item));
+    for (const auto& item : list.items) result += fmt::format("- {}\n", markdown_sentence(item));
     return result;
   }
-  std::string operator()(const table_block& its) const { return its.its.markdown(); }
-  std::string operator()(const code_block& its) const {
-    const std::string fence(std::max<std::size_t>(3, longest_backquotes(its.text) + 1), '`');
-    return fmt::format("{0}\n{1}{2}{0}\n", fence, its.text, its.text.ends_with('\n') ? "" : "\n");
+  std::string operator()(const table_block& block) const { return block.rows.markdown(); }
+  std::string operator()(const code_block& code) const {
+    const std::string fence(std::max<std::size_t>(3, longest_backquotes(code.text) + 1), '`');
+    return fmt::format("{0}\n{1}{2}{0}\n", fence, code.text, code.text.ends_with('\n') ? "" : "\n");
   }
-  std::string operator()(const picture_block& its) const {
-    const std::string caption = markdown_sentence(its.caption);
+  std::string operator()(const picture_block& picture) const {
+    const std::string caption = markdown_sentence(picture.caption);
     const std::string folder = pictures.empty() || pictures.ends_with('/') ? pictures : pictures + "/";
-    return fmt::format("![{0}]({1}{2}.svg)\n\n{0}\n", caption, folder, its.name);
+    return fmt::format("![{0}]({1}{2}.svg)\n\n{0}\n", caption, folder, picture.name);
   }
 };
 

@@ -11,9 +11,9 @@
 
 namespace nysalt::detail {
 
-log_range range_of_logarithms(const panel& its) {
+log_range range_of_logarithms(const panel& plot) {
   std::vector<double> values;
-  for (const auto& curve : its.curves) {
+  for (const auto& curve : plot.curves) {
     for (std::size_t i = 0; i < curve.y.size(); ++i) {
       if (std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) && curve.y[i] > 0.0) {
         values.push_back(std::log10(curve.y[i]));
@@ -21,7 +21,7 @@ log_range range_of_logarithms(const panel& its) {
     }
   }
   std::vector<double> levels;
-  for (const auto& level : its.levels) {
+  for (const auto& level : plot.levels) {
     if (std::isfinite(level.y) && level.y > 0.0) levels.push_back(std::log10(level.y));
   }
   std::vector<double> shown = levels;
@@ -45,10 +45,10 @@ log_range range_of_logarithms(const panel& its) {
   return {std::pow(10.0, *low - margin), std::pow(10.0, *high + margin), outside};
 }
 
-log_range range_of_costs(const panel& its) {
+log_range range_of_costs(const panel& plot) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
-  for (const auto& curve : its.curves) {
+  for (const auto& curve : plot.curves) {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i]) || !(curve.x[i] > 0.0)) continue;
       low = std::min(low, curve.x[i]);

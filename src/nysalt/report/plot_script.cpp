@@ -19,23 +19,23 @@ namespace nysalt::detail {
 namespace {
 
 /// Fronts first, so that they lie behind, and what is emphasised last.
-std::string plot_command(const panel& its, const std::string& name, std::size_t first_block) {
+std::string plot_command(const panel& plot, const std::string& name, std::size_t first_block) {
   std::vector<std::string> elements;
-  for (const auto& level : its.levels) {  // unseen: for the range; what is seen is an arrow, of full width
+  for (const auto& level : plot.levels) {  // unseen: for the range; what is seen is an arrow, of full width
     elements.push_back(fmt::format("{:.10g} with dots lc 'white' notitle", level.y));
   }
   const auto draw_if = [&](auto wanted) {
-    for (std::size_t j = 0; j < its.curves.size(); ++j) {
-      if (!wanted(its.curves[j])) continue;
-      const auto drawing = drawing_of(its, j, fmt::format("'{}.dat' index {}", name, first_block + j));
+    for (std::size_t j = 0; j < plot.curves.size(); ++j) {
+      if (!wanted(plot.curves[j])) continue;
+      const auto drawing = drawing_of(plot, j, fmt::format("'{}.dat' index {}", name, first_block + j));
       elements.insert(elements.end(), drawing.begin(), drawing.end());
     }
   };
   draw_if([](const curve& c) { return c.front; });
   draw_if([](const curve& c) { return !c.front && !c.emphasised; });
   draw_if([](const curve& c) { return !c.front && c.emphasised; });
-  for (std::size_t j = 0; j < its.curves.size(); ++j) elements.push_back(key_entry(its, j));
-  const auto labels = labels_of_stretches(its);
+  for (std::size_t j = 0; j < plot.curves.size(); ++j) elements.push_back(key_entry(plot, j));
+  const auto labels = labels_of_stretches(plot);
   for (std::size_t j = 0; j < labels.size(); ++j) {
     elements.push_back(
         fmt::format("keyentry with boxes {} title {}", look_of_stretches(j), quoted(labels[j])));
@@ -44,7 +44,7 @@ std::string plot_command(const panel& its, const std::string& name, std::size_t 
 }
 
 /// More than six entries would hide points: then the key stands beside the panel.
-bool has_key_beside(const panel& its) { return its.curves.size() > 6; }
+bool has_key_beside(const panel& plot) { return plot.curves.size() > 6; }
 
 /// What a key beside the panel takes, in pixels: a sample of 60, and some 7.5 a character.
 int key_width(const figure& f) {
@@ -59,11 +59,11 @@ int key_width(const figure& f) {
 }
 
 /// Behind all else; the later over the earlier.
-std::string stretches(const panel& its) {
-  const auto labels = labels_of_stretches(its);
+std::string stretches(const panel& plot) {
+  const auto labels = labels_of_stretches(plot);
   std::string text = "unset object\n";
-  for (std::size_t i = 0; i < its.stretches.size(); ++i) {
-    const auto& one = its.stretches[i];
+  for (std::size_t i = 0; i < plot.stretches.size(); ++i) {
+    const auto& one = plot.stretches[i];
     const auto label = std::find(labels.begin(), labels.end(), one.label) - labels.begin();
     text += fmt::format(
         "set object {} rectangle from first {:.10g}, graph 0 to first {:.10g}, graph 1 behind clip {}\n",

@@ -14,9 +14,9 @@ struct axis_range {
 
 /// At least from one to three times as much, about the middle: then it holds 1, 2 or 5 times a power of ten,
 /// as none of those is more than 2.5 times the next.
-axis_range at_least_threefold(axis_range its);
+axis_range at_least_threefold(axis_range range);
 
 /// For gnuplot: the numbers 1, 2 and 5 times powers of ten within, or those that it thinks best.
-std::string ticks_command(char axis, axis_range its);
+std::string ticks_command(char axis, axis_range range);
 
 }  // namespace nysalt::detail

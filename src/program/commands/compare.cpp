@@ -34,7 +34,7 @@ std::optional<json> answer(const std::filesystem::path& folder, const json& ques
 
 bool has_value(const json& report) {
   const json rows = report.value("rows", json::array());
-  return std::ranges::any_of(rows, [](const json& its) { return !its.contains("reason"); });
+  return std::ranges::any_of(rows, [](const json& row) { return !row.contains("reason"); });
 }
 
 /// Prints the report on the very question, if it is there: the exit code.
@@ -46,7 +46,7 @@ int print_answer(const std::filesystem::path& folder, const comparison& all) {
   return has_value(*there) ? done : no_result;
 }
 
-/// Where it cannot be, nothing stays but what was finished.
+/// If the comparison fails, only the journal of the finished parts stays.
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   std::vector<std::filesystem::path> made;
   on_first(world(), [&] { made = make_folder(folder); });
@@ -59,7 +59,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
     if (kept.is_empty()) {  // on rank 0 alone there is something to remove
       kept.remove();
       std::error_code ignored;
-      for (auto its = made.rbegin(); its != made.rend(); ++its) std::filesystem::remove(*its, ignored);
+      for (auto path = made.rbegin(); path != made.rend(); ++path) std::filesystem::remove(*path, ignored);
     }
     throw;
   }

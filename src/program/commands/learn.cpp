@@ -9,20 +9,20 @@
 namespace nysalt::program {
 
 int learn(const learn_command& command, const common_settings& common) {
-  lesson its(command, common);
+  lesson training(command, common);
   on_first(world(), [&] {
     if (!command.output.empty()) require_writable(command.output);
   });
-  its.learn();
+  training.learn();
 
-  const auto& learned = its.learned();
-  const learned_scheme* bad = its.unusable();
+  const auto& learned = training.learned();
+  const learned_scheme* bad = training.unusable();
   const bool keep = !command.output.empty() && (bad == nullptr || common.force);
   on_first(world(), [&] {
-    if (keep) write_result(command.output, its.scheme(), common);
+    if (keep) write_result(command.output, training.scheme(), common);
   });
   if (common.json) {
-    json result = its.document();
+    json result = training.document();
     result["output"] = keep ? json(command.output) : json(nullptr);
     print(text_of(result));
   } else {
@@ -30,8 +30,8 @@ int learn(const learn_command& command, const common_settings& common) {
       print(command.step ? one.fit.full() : one.fit.brief() + "\n");
       if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
     }
-    if (its.where())
-      print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*its.where()),
+    if (training.where())
+      print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*training.where()),
                         learned.front().method.letters().letters()));
     if (keep) print(fmt::format("Written: {}\n", command.output));
   }

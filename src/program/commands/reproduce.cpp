@@ -63,7 +63,7 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) require_folder(command.output);
   progress shown;
-  const paper::setting its(common, command.quick);
+  const paper::setting setup(common, command.quick);
   timetable plan(planned);
   std::vector<finished_part> finished;
   for (const auto& part : planned) {
@@ -71,7 +71,7 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
     for (const auto& one : part.exhibits) {
       shown.part(plan.next(one));
       const auto start = std::chrono::steady_clock::now();
-      finished.back().exhibits.push_back(one.make(its));
+      finished.back().exhibits.push_back(one.make(setup));
       const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
       finished.back().exhibits.back().seconds = passed.count();
     }

@@ -42,15 +42,15 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
 void draw_run(const run_command& command, const destination& output, std::int64_t steps,
               const common_settings& common) {
   const std::size_t columns = command.observables.size();
-  const auto its = output.read_first((steps / command.sample_every + 1) / 2000 + 1);
+  const auto trajectory = output.read_first((steps / command.sample_every + 1) / 2000 + 1);
   const std::string y_label = columns == 1 ? command.observables.front() : "";
   panel only{fmt::format("{}, step {:g}", command.method, command.step), "t", y_label, false, {}};
   for (std::size_t k = 0; k < columns; ++k) {
     curve& values = only.curves.emplace_back();
     values.label = command.observables[k];
     values.emphasised = k == 0;
-    values.x = its.t;
-    values.y = its.values[k];
+    values.x = trajectory.t;
+    values.y = trajectory.values[k];
   }
   write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
 }
@@ -75,9 +75,9 @@ void require_files(const run_command& command) {
     const std::string picture = std::filesystem::path(command.output).replace_extension(kind);
     others.insert(others.end(), {picture, picture + ".manifest.json"});
   }
-  for (const std::string& its : {command.checkpoint, command.checkpoint + ".next.part"}) {
+  for (const std::string& name : {command.checkpoint, command.checkpoint + ".next.part"}) {
     for (const std::string& other : others) {
-      if (is_same_file(its, other))
+      if (is_same_file(name, other))
         refuse("--checkpoint {} needs the name {}, which is taken: name another file", command.checkpoint,
                other);
     }
@@ -97,7 +97,7 @@ json document(const run_command& command, const bundled_system& system, const de
   return result;
 }
 
-/// A file of NumPy has no place for these; a table and HDF5 hold them themselves.
+/// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
 json more_of_manifest(const run_command& command, std::int64_t steps, const json& diverged) {
   if (std::filesystem::path(command.output).extension() != ".npy") return {};
   return {{"axes", {"trajectory", "sample", "observable"}},

@@ -66,17 +66,17 @@ json pairs(const auto& ranges) {
 
 std::string percent(double margin) { return fmt::format("{:.3g} %", 100.0 * margin); }
 
-answer about(const subject& its, const stability_chart& chart) {
-  const run_time_word& word = its.method.letters();
+answer about(const subject& target, const stability_chart& chart) {
+  const run_time_word& word = target.method.letters();
   const int evaluations = word.evaluations_per_step;
   answer result;
-  result.document = {{"method", its.name},
+  result.document = {{"method", target.name},
                      {"letters", word.letters()},
-                     {"coefficients", its.method.coefficients()},
-                     {"order", its.method.order},
+                     {"coefficients", target.method.coefficients()},
+                     {"order", target.method.order},
                      {"evaluations_per_step", evaluations}};
-  result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", its.name, word.letters(),
-                            its.method.order, evaluations);
+  result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", target.name, word.letters(),
+                            target.method.order, evaluations);
   const bool rotates = has_rotation(word);
   const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
   const double limit = from_zero ? chart.windows.front().high : 0.0;
@@ -152,7 +152,7 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
   result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(judged));
 }
 
-/// What a run makes of it. `stable` is both: the linear criterion, and a trial run.
+/// Adds what a trial run finds at the step. `stable` is both: the linear criterion, and a trial run.
 void add_trial(answer& result, const tabulated& method, const bundled_system& system, double step,
                const judged_step* judged, std::uint64_t seed, int threads) {
   json& document = result.document;
@@ -225,16 +225,16 @@ void add_rotation(answer& result, const tabulated& method, const bundled_system&
   }
 }
 
-void write_curve(const stability_command& command, const subject& its, const stability_chart& chart,
+void write_curve(const stability_command& command, const subject& target, const stability_chart& chart,
                  const std::optional<marked_step>& marked, const common_settings& common) {
   double highest_z = 0.0;
   if (marked) {
     for (const auto& band : marked->bands) highest_z = std::max(highest_z, marked->step * band.high);
   }
-  const auto curve = stability_curve_of(its.method, chart, highest_z);
+  const auto curve = stability_curve_of(target.method, chart, highest_z);
   write_result(command.output, table_of(curve), common);
   if (!command.plot) return;
-  const figure picture{picture_name(command.output), {stability_panel(its.name, curve, chart, marked)}};
+  const figure picture{picture_name(command.output), {stability_panel(target.name, curve, chart, marked)}};
   write_pictures(picture, folder_of(command.output), common);
 }
 
@@ -248,37 +248,38 @@ int stability(const stability_command& command, const common_settings& common) {
   require_table(command.output, command.plot, command.method.value_or(""));
   const auto system = command.system ? make_system(*command.system) : nullptr;
   std::vector<std::string> warnings;
-  const subject its = subject_of(command, system.get(), common.force, warnings);
-  const bool rotates = has_rotation(its.method.letters());
+  const subject target = subject_of(command, system.get(), common.force, warnings);
+  const bool rotates = has_rotation(target.method.letters());
   if (rotates && !command.output.empty()) {
-    refuse("{} rotates: its trace/2 is cos z, and there is nothing to draw; leave --output away", its.name);
+    refuse("{} rotates: its trace/2 is cos z, and there is nothing to draw; leave --output away",
+           target.name);
   }
-  const stability_chart chart = rotates ? stability_chart() : chart_of(its.method);
-  answer result = about(its, chart);
+  const stability_chart chart = rotates ? stability_chart() : chart_of(target.method);
+  answer result = about(target, chart);
   std::optional<marked_step> marked;
   if (system) {
     result.document["system"] = system->description();
     result.document["step"] = *command.step;
     progress shown;
-    prepare_starts(*system, common, shown);  // a bath drives them where its law is
+    prepare_starts(*system, common, shown);  // a bath drives the starts to where its law is
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);
     if (rotates) {
-      add_rotation(result, its.method, *system, *command.step);
-      add_trial(result, its.method, *system, *command.step, nullptr, seed, common.threads);
+      add_rotation(result, target.method, *system, *command.step);
+      add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
     } else {
       constexpr std::uint64_t starts = 64;
       const auto known = frequencies_along_starts(*system, seed, starts);
       add_frequencies(result, known, *command.step);
-      const judged_step judged = judge(its.method, chart, known, *command.step);
+      const judged_step judged = judge(target.method, chart, known, *command.step);
       add_windows_of(result, judged, *system, *command.step);
-      add_trial(result, its.method, *system, *command.step, &judged, seed, common.threads);
+      add_trial(result, target.method, *system, *command.step, &judged, seed, common.threads);
       marked = {system->description(), *command.step, known.bands};
     }
     result.document["warnings"] = warnings;
   }
   if (!command.output.empty()) {
-    write_curve(command, its, chart, marked, common);
+    write_curve(command, target, chart, marked, common);
     result.document["output"] = command.output;
     result.text += fmt::format("Written: {}\n", command.output);
   }

@@ -17,24 +17,25 @@ struct both_laws {
   std::vector<double> gaps;
 };
 
-both_laws sweeps(const setting& its, double horizon) {
-  const std::vector<double> gaps = its.pick<std::vector<double>>(
+both_laws sweeps(const setting& setup, double horizon) {
+  const std::vector<double> gaps = setup.pick<std::vector<double>>(
       {10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 150, 200, 250, 300, 350, 390}, {20, 50, 200, 300});
-  const judged how{.horizon = horizon, .trajectories = its.pick<std::int64_t>(400, 16)};
+  const judged how{.horizon = horizon, .trajectories = setup.pick<std::int64_t>(400, 16)};
   const auto on_starts_of = [&](double spread) {
     const auto system = chain(omega, spread);
     const auto fixed = [&](const char* name) {
       return [method = classical(name, *system)](double) { return method; };
     };
     const auto learned = [&](double gap) {
-      return learn_at(its, *system, gap * gap_step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
+      return learn_at(setup, *system, gap * gap_step, {.trajectories = setup.pick<std::int64_t>(100, 10)})
+          .method;
     };
     // At one step Verlet costs half of what the others do.
     const std::vector<rival> rivals{{"Verlet", fixed("verlet")},
                                     {"two half steps of Verlet", fixed("verlet_2x")},
                                     {"McLachlan", fixed("mclachlan2")},
                                     {"NySALT", learned}};
-    return errors_against_gap(its, *system, rivals, gaps, how);
+    return errors_against_gap(setup, *system, rivals, gaps, how);
   };
   return {on_starts_of(1.0), on_starts_of(std::sqrt(omega)), gaps};
 }
@@ -130,8 +131,8 @@ void add_sweep(exhibit& to, const both_laws& all, double horizon) {
 
 }  // namespace
 
-exhibit accuracy_on_short_times(const setting& its) {
-  const both_laws all = sweeps(its, 0.5);
+exhibit accuracy_on_short_times(const setting& setup) {
+  const both_laws all = sweeps(setup, 0.5);
   exhibit result{"Accuracy at T = 0.5",
                  "Figure 3 (top left), section 5.2",
                  {slope_of_two(all, "Verlet"), slope_of_two(all, "NySALT"), two_magnitudes(all),
@@ -141,9 +142,9 @@ exhibit accuracy_on_short_times(const setting& its) {
   return result;
 }
 
-exhibit accuracy_on_long_times(const setting& its) {
-  const double horizon = its.pick(100.0, 2.0);
-  const both_laws all = sweeps(its, horizon);
+exhibit accuracy_on_long_times(const setting& setup) {
+  const double horizon = setup.pick(100.0, 2.0);
+  const both_laws all = sweeps(setup, horizon);
   const auto up_to = [](const sweep& s) { return below_up_to(s.of("NySALT"), s.of("Verlet")); };
   const auto readings = in_both(all, [&](const sweep& s) { return up_to(s) >= 390.0; });
   const finding smaller{"T = 100: up to gap 390 NySALT errs less than Verlet",

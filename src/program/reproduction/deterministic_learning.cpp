@@ -24,12 +24,12 @@ struct against_omega {
 };
 
 /// The largest distance of b1 and beta1 from the linear optimum for omega >= 30.
-double farthest(const against_omega& its, const std::vector<double>& omegas) {
+double farthest(const against_omega& estimates, const std::vector<double>& omegas) {
   double worst = 0.0;
   for (std::size_t i = 0; i < omegas.size(); ++i) {
     if (omegas[i] < 30.0) continue;
-    worst = std::max(
-        {worst, std::abs(its.theta[i][0].mean - 0.5), std::abs(its.theta[i][1].mean - linear_beta1())});
+    worst = std::max({worst, std::abs(estimates.theta[i][0].mean - 0.5),
+                      std::abs(estimates.theta[i][1].mean - linear_beta1())});
   }
   return worst;
 }
@@ -57,15 +57,15 @@ figure picture_of(const std::vector<against_omega>& all, const std::vector<doubl
 
 }  // namespace
 
-exhibit parameters_against_omega(const setting& its) {
+exhibit parameters_against_omega(const setting& setup) {
   const std::vector<double> omegas =
-      its.pick<std::vector<double>>({2, 4, 8, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100}, {2, 50});
+      setup.pick<std::vector<double>>({2, 4, 8, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100}, {2, 50});
   std::vector<against_omega> all{{"qp", {}}, {"modes", {}}};
   for (const double one : omegas) {
     const auto system = chain(one);
     for (auto& column : all) {
-      const lesson how{.trajectories = its.pick<std::int64_t>(100, 10), .coordinates = column.coordinates};
-      column.theta.push_back(theta_with_errors(learn_at(its, *system, 1.0 / one, how)));
+      const lesson how{.trajectories = setup.pick<std::int64_t>(100, 10), .coordinates = column.coordinates};
+      column.theta.push_back(theta_with_errors(learn_at(setup, *system, 1.0 / one, how)));
     }
   }
   table rows({"omega", "b1, (q, p)", "beta1, (q, p)", "b1, modes", "beta1, modes"}, 0);
@@ -91,15 +91,15 @@ exhibit parameters_against_omega(const setting& its) {
             "norm)."}}};
 }
 
-exhibit convergence_in_trajectories(const setting& its) {
+exhibit convergence_in_trajectories(const setting& setup) {
   const auto system = chain();
   const estimator_study study{.system = *system,
                               .step = 1.0 / omega,
                               .how = {},
                               .least = 1,
-                              .most = its.pick(8, 3),
-                              .repetitions = its.pick(30, 2)};
-  const estimator_errors found = errors_of_estimators(its, study);
+                              .most = setup.pick(8, 3),
+                              .repetitions = setup.pick(30, 2)};
+  const estimator_errors found = errors_of_estimators(setup, study);
   exhibit result = exhibit_of(found, "-0.45", -0.45, "deterministic");
   result.title = "Convergence of the estimators in the number of trajectories";
   result.place = "Figure 2 (right), section 5.2";

@@ -11,7 +11,7 @@ namespace nysalt::program::paper {
 
 namespace {
 
-lesson usual(const setting& its) { return {.trajectories = its.pick<std::int64_t>(100, 10)}; }
+lesson usual(const setting& setup) { return {.trajectories = setup.pick<std::int64_t>(100, 10)}; }
 
 std::int64_t diverged(const std::vector<record>& runs) {
   return std::count_if(runs.begin(), runs.end(),
@@ -22,15 +22,15 @@ struct at_step {
   double step;
   std::vector<estimate> theta;
   bool usable;
-  double limit;  // of its first window of delta omega
+  double limit;  // end of the first window of delta omega
   std::int64_t lost_by_learned, lost_by_fixed;
 };
 
-at_step stability_at(const setting& its, const bundled_system& system, double step, double horizon,
+at_step stability_at(const setting& setup, const bundled_system& system, double step, double horizon,
                      std::int64_t count) {
-  const auto learned = learn_at(its, system, step, usual(its));
+  const auto learned = learn_at(setup, system, step, usual(setup));
   const auto lost = [&](const tabulated& method) {
-    return diverged(followed(its, system, method, step, horizon, horizon, count, {"stiff_energy"}));
+    return diverged(followed(setup, system, method, step, horizon, horizon, count, {"stiff_energy"}));
   };
   return {step,
           theta_with_errors(learned),
@@ -40,7 +40,7 @@ at_step stability_at(const setting& its, const bundled_system& system, double st
           lost(two_stages(0.5, 0.40))};
 }
 
-/// The last step up to which none is lost, at it and all smaller ones.
+/// The last step at which no trajectory is lost, nor at any smaller step.
 double largest(const std::vector<at_step>& all, std::int64_t at_step::*lost) {
   double last = 0.0;
   for (const auto& one : all) {
@@ -52,15 +52,15 @@ double largest(const std::vector<at_step>& all, std::int64_t at_step::*lost) {
 
 }  // namespace
 
-exhibit largest_stable_step(const setting& its) {
+exhibit largest_stable_step(const setting& setup) {
   const auto system = chain();
-  const auto count = its.pick<std::int64_t>(64, 16);
-  const double distance = its.pick(0.001, 0.006);
+  const auto count = setup.pick<std::int64_t>(64, 16);
+  const double distance = setup.pick(0.001, 0.006);
   std::vector<at_step> all;
   for (double step = 0.038; step < 0.0605; step += distance) {
     const double rounded = std::round(step * 1e4) * 1e-4;
-    const double horizon = rounded * std::ceil(its.pick(150.0, 5.0) / rounded);
-    all.push_back(stability_at(its, *system, rounded, horizon, count));
+    const double horizon = rounded * std::ceil(setup.pick(150.0, 5.0) / rounded);
+    all.push_back(stability_at(setup, *system, rounded, horizon, count));
   }
   table rows(
       {"delta", "b1", "beta1", "its linear limit/omega", "usable", "lost, learned", "lost, (0.5, 0.40)"}, 0);
@@ -101,17 +101,17 @@ struct crossed {
   double of_reference;
 };
 
-std::vector<crossed> cross(const setting& its, const std::vector<double>& steps) {
+std::vector<crossed> cross(const setting& setup, const std::vector<double>& steps) {
   const auto stiff = chain();
   const auto soft = soft_dominated_chain();
-  const judged how{.horizon = 0.5, .trajectories = its.pick<std::int64_t>(400, 16), .metric = "state"};
+  const judged how{.horizon = 0.5, .trajectories = setup.pick<std::int64_t>(400, 16), .metric = "state"};
   std::vector<crossed> all;
   for (const double step : steps) {
-    const auto from_stiff = learn_at(its, *stiff, step, usual(its)).method;
-    const auto from_soft = learn_at(its, *soft, step, usual(its)).method;
+    const auto from_stiff = learn_at(setup, *stiff, step, usual(setup)).method;
+    const auto from_soft = learn_at(setup, *soft, step, usual(setup)).method;
     const auto mclachlan = classical("mclachlan2", *stiff);
-    const auto on_stiff = errors_at(its, *stiff, {from_stiff, from_soft, mclachlan}, step, how);
-    const auto on_soft = errors_at(its, *soft, {from_soft, from_stiff, mclachlan}, step, how);
+    const auto on_stiff = errors_at(setup, *stiff, {from_stiff, from_soft, mclachlan}, step, how);
+    const auto on_soft = errors_at(setup, *soft, {from_soft, from_stiff, mclachlan}, step, how);
     for (const auto& [name, found] :
          {std::pair{"stiff-dominated", &on_stiff}, std::pair{"soft-dominated", &on_soft}}) {
       all.push_back({name, step, error_of(found->methods[0]), error_of(found->methods[1]),
@@ -123,8 +123,8 @@ std::vector<crossed> cross(const setting& its, const std::vector<double>& steps)
 
 }  // namespace
 
-exhibit other_starts(const setting& its) {
-  const auto all = cross(its, its.pick<std::vector<double>>({0.01, 0.02, 0.03}, {0.02}));
+exhibit other_starts(const setting& setup) {
+  const auto all = cross(setup, setup.pick<std::vector<double>>({0.01, 0.02, 0.03}, {0.02}));
   table rows({"tested on", "delta", "learned there", "learned on the others", "ratio", "McLachlan",
               "reference's own"});
   std::vector<reading> readings;
@@ -203,12 +203,12 @@ struct growth {
   estimate before, late;  // exponents up to there, and in the second half of the time
 };
 
-growth growth_at(const setting& its, const bundled_system& system, double step, double sample, double horizon,
-                 const std::vector<record>& reference) {
-  const auto learned = learn_at(its, system, step, usual(its)).method;
+growth growth_at(const setting& setup, const bundled_system& system, double step, double sample,
+                 double horizon, const std::vector<record>& reference) {
+  const auto learned = learn_at(setup, system, step, usual(setup)).method;
   const auto count = static_cast<std::int64_t>(reference.size());
   const auto e =
-      state_errors(followed(its, system, learned, step, horizon, sample, count, whole_state), reference);
+      state_errors(followed(setup, system, learned, step, horizon, sample, count, whole_state), reference);
   std::vector<double> t;
   for (std::size_t i = 0; i < e.size(); ++i) t.push_back(sample * static_cast<double>(i + 1));
   const auto quiet = static_cast<std::ptrdiff_t>(std::min(40.0, horizon) / sample + 0.5);
@@ -224,12 +224,12 @@ growth growth_at(const setting& its, const bundled_system& system, double step, 
 
 }  // namespace
 
-exhibit growth_of_error(const setting& its) {
+exhibit growth_of_error(const setting& setup) {
   const auto system = chain();
-  const double horizon = its.pick(100.0, 10.0);
+  const double horizon = setup.pick(100.0, 10.0);
   constexpr double sample = 0.2;
-  const auto reference = followed(its, *system, classical("srkn11b", *system), 0.5 * reference_step(sample),
-                                  horizon, sample, its.pick<std::int64_t>(64, 16), whole_state);
+  const auto reference = followed(setup, *system, classical("srkn11b", *system), 0.5 * reference_step(sample),
+                                  horizon, sample, setup.pick<std::int64_t>(64, 16), whole_state);
   panel picture{"", "time", "error of the state", false, {}};
   picture.log_log = true;
   table rows(
@@ -238,7 +238,7 @@ exhibit growth_of_error(const setting& its) {
   bool late = true;
   std::string ours;
   for (const double step : {0.005, 0.01, 0.02}) {
-    const growth one = growth_at(its, *system, step, sample, horizon, reference);
+    const growth one = growth_at(setup, *system, step, sample, horizon, reference);
     rows.add({fmt::format("{:g}", step), with_error(one.before), fmt::format("{:.3g}", one.saturated),
               with_error(one.late)});
     before = before && agrees(one.before, 1.0, 0.4);
@@ -288,13 +288,13 @@ std::vector<double> largest_change(const std::vector<record>& runs, std::size_t 
 
 }  // namespace
 
-exhibit conserved_action(const setting& its) {
+exhibit conserved_action(const setting& setup) {
   const auto system = chain();
-  const double horizon = its.pick(10'000.0, 20.0);
-  const auto count = its.pick<std::int64_t>(32, 16);
+  const double horizon = setup.pick(10'000.0, 20.0);
+  const auto count = setup.pick<std::int64_t>(32, 16);
   constexpr double sample = 0.12;  // a multiple of all steps
   const std::vector<std::string> watched{"stiff_energy", "energy"};
-  const auto by_reference = followed(its, *system, classical("srkn11b", *system), reference_step(sample),
+  const auto by_reference = followed(setup, *system, classical("srkn11b", *system), reference_step(sample),
                                      horizon, sample, count, watched);
   const estimate exact = mean_and_error(largest_change(by_reference, 0, 1.0));
   table rows({"delta", "I, whole time", "I, first tenth", "H, whole time", "H, first tenth"}, 0);
@@ -306,8 +306,8 @@ exhibit conserved_action(const setting& its) {
   std::vector<double> of_H;
   double drift = 0.0;
   for (const double step : steps) {
-    const auto learned = learn_at(its, *system, step, usual(its)).method;
-    const auto runs = followed(its, *system, learned, step, horizon, sample, count, watched);
+    const auto learned = learn_at(setup, *system, step, usual(setup)).method;
+    const auto runs = followed(setup, *system, learned, step, horizon, sample, count, watched);
     const auto H = mean_and_error(largest_change(runs, 1, 1.0));
     const auto early = mean_and_error(largest_change(runs, 1, 0.1));
     of_I.push_back(mean_and_error(largest_change(runs, 0, 1.0)).mean);

@@ -95,10 +95,10 @@ panel energies_panel(const record& run, double sample, const std::string& title)
 }
 
 /// The reference of long runs: the same starts, omega h = .05, and half of it to see its own error.
-std::vector<record> reference_runs(const setting& its, const bundled_system& system, double sample,
+std::vector<record> reference_runs(const setting& setup, const bundled_system& system, double sample,
                                    double horizon, std::int64_t count, int finer = 1) {
   const double step = reference_step(sample) / finer;
-  return followed(its, system, classical("srkn11b", system), step, horizon, sample, count, stiff);
+  return followed(setup, system, classical("srkn11b", system), step, horizon, sample, count, stiff);
 }
 
 /// The first sample at which a curve is above a level; its last one if it never is.
@@ -114,25 +114,25 @@ struct transitions {
   std::vector<record> reference;
   std::vector<beside> methods;  // NySALT, suboptimal
   std::vector<double> own;      // error of the reference against its finer self
-  std::size_t last;             // sample up to which that is below 1e-2
+  std::size_t last;             // sample up to which `own` is below 1e-2
 };
 
-transitions follow_transitions(const setting& its) {
+transitions follow_transitions(const setting& setup) {
   const auto system = chain();
   const double step = 1.0 / omega;
   const double sample = 25.0 * step;
-  const double horizon = its.pick(300.0, 5.0);
-  const auto count = its.pick<std::int64_t>(400, 16);
+  const double horizon = setup.pick(300.0, 5.0);
+  const auto count = setup.pick<std::int64_t>(400, 16);
   const tabulated learned =
-      learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
-  transitions all{step, sample, reference_runs(its, *system, sample, horizon, count), {}, {}, 0};
+      learn_at(setup, *system, step, {.trajectories = setup.pick<std::int64_t>(100, 10)}).method;
+  transitions all{step, sample, reference_runs(setup, *system, sample, horizon, count), {}, {}, 0};
   for (const auto& [name, method] : {std::pair<std::string, tabulated>{"NySALT", learned},
                                      {"suboptimal (0.45, 0.43)", two_stages(0.45, 0.43)},
                                      {"McLachlan", classical("mclachlan2", *system)},
                                      {"Verlet", classical("verlet", *system)}}) {
-    all.methods.push_back({name, followed(its, *system, method, step, horizon, sample, count, stiff)});
+    all.methods.push_back({name, followed(setup, *system, method, step, horizon, sample, count, stiff)});
   }
-  const auto finer = reference_runs(its, *system, sample, horizon, count, 2);
+  const auto finer = reference_runs(setup, *system, sample, horizon, count, 2);
   all.own = curve_against(finer, all.reference, energy_error);
   all.last = first_above(all.own, 1e-2);
   return all;
@@ -167,8 +167,8 @@ finding smaller_than_suboptimal(const transitions& all, const std::string& what,
 
 }  // namespace
 
-exhibit energy_transitions(const setting& its) {
-  const transitions all = follow_transitions(its);
+exhibit energy_transitions(const setting& setup) {
+  const transitions all = follow_transitions(setup);
   const auto curves = [&](distance error, const std::string& label) {
     panel result{label, "time", "mean L1 error / delta", false, {}};
     for (const auto& one : all.methods) {
@@ -236,19 +236,19 @@ std::vector<double> fluctuation(const std::vector<record>& runs) {
 
 }  // namespace
 
-exhibit energies_at_200(const setting& its) {
+exhibit energies_at_200(const setting& setup) {
   const auto system = chain();
-  const double horizon = its.pick(500.0, 5.0);
-  const auto count = its.pick<std::int64_t>(64, 16);
-  const double fine = its.pick(1e-4, 1e-3);
+  const double horizon = setup.pick(500.0, 5.0);
+  const auto count = setup.pick<std::int64_t>(64, 16);
+  const double fine = setup.pick(1e-4, 1e-3);
   constexpr double step = 0.02;
   constexpr double sample = 0.2;
   const tabulated learned =
-      learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)}).method;
+      learn_at(setup, *system, step, {.trajectories = setup.pick<std::int64_t>(100, 10)}).method;
   const tabulated verlet = classical("verlet", *system);
-  const auto by_fine = followed(its, *system, verlet, fine, horizon, sample, count, stiff);
-  const auto by_verlet = followed(its, *system, verlet, step, horizon, sample, count, stiff);
-  const auto by_learned = followed(its, *system, learned, step, horizon, sample, count, stiff);
+  const auto by_fine = followed(setup, *system, verlet, fine, horizon, sample, count, stiff);
+  const auto by_verlet = followed(setup, *system, verlet, step, horizon, sample, count, stiff);
+  const auto by_learned = followed(setup, *system, learned, step, horizon, sample, count, stiff);
   const auto of_fine = fluctuation(by_fine);
   const auto of_verlet = fluctuation(by_verlet);
   const auto of_learned = fluctuation(by_learned);
@@ -309,16 +309,17 @@ finding blow_up(const std::vector<record>& by_verlet, double step) {
 
 }  // namespace
 
-exhibit energies_at_400(const setting& its) {
+exhibit energies_at_400(const setting& setup) {
   const auto system = chain();
   constexpr double step = 0.04;
   constexpr double sample = 0.4;
-  const double horizon = its.pick(150.0, 4.0);
-  const auto count = its.pick<std::int64_t>(200, 16);
-  const auto learned = learn_at(its, *system, step, {.trajectories = its.pick<std::int64_t>(100, 10)});
-  const auto by_verlet = followed(its, *system, classical("verlet", *system), step, 4.0, step, count, stiff);
-  const auto by_learned = followed(its, *system, learned.method, step, horizon, sample, count, stiff);
-  const auto reference = reference_runs(its, *system, sample, horizon, count);
+  const double horizon = setup.pick(150.0, 4.0);
+  const auto count = setup.pick<std::int64_t>(200, 16);
+  const auto learned = learn_at(setup, *system, step, {.trajectories = setup.pick<std::int64_t>(100, 10)});
+  const auto by_verlet =
+      followed(setup, *system, classical("verlet", *system), step, 4.0, step, count, stiff);
+  const auto by_learned = followed(setup, *system, learned.method, step, horizon, sample, count, stiff);
+  const auto reference = reference_runs(setup, *system, sample, horizon, count);
   const auto lost =
       std::count_if(by_learned.begin(), by_learned.end(), [](const auto& r) { return r.diverged_at; });
   const std::size_t last = reference[0].values.size() / 3 - 1;
@@ -327,14 +328,14 @@ exhibit energies_at_400(const setting& its) {
   std::string ours;
   for (const double part : {0.1, 1.0 / 3.0, 1.0}) {
     const auto end = std::max<std::size_t>(1, static_cast<std::size_t>(part * static_cast<double>(last)));
-    const auto its_own = means_up_to(by_learned, reference, energy_error, end);
+    const auto learned_errors = means_up_to(by_learned, reference, energy_error, end);
     const auto frozen = means_up_to(reference, reference, energy_error, end, true);
     const std::string time = fmt::format("{:.3g}", sample * static_cast<double>(end));
-    rows.add({time, with_error(mean_and_error(its_own)), with_error(mean_and_error(frozen))});
-    const estimate gain = paired_difference(frozen, its_own);
+    rows.add({time, with_error(mean_and_error(learned_errors)), with_error(mean_and_error(frozen))});
+    const estimate gain = paired_difference(frozen, learned_errors);
     readings.push_back({"times up to " + time, gain.mean > 2.0 * gain.standard_error});
     ours += fmt::format("{}{} against {} up to {}", ours.empty() ? "" : "; ",
-                        with_error(mean_and_error(its_own)), with_error(mean_and_error(frozen)), time);
+                        with_error(mean_and_error(learned_errors)), with_error(mean_and_error(frozen)), time);
   }
   return {
       "Energies at delta = 2/omega",

@@ -37,12 +37,12 @@ std::vector<estimate> means_of(const std::vector<std::vector<double>>& errors) {
 
 }  // namespace
 
-estimator_errors errors_of_estimators(const setting& its, const estimator_study& study) {
+estimator_errors errors_of_estimators(const setting& setup, const estimator_study& study) {
   const auto learned = [&](int power, std::uint64_t repetition) {
     lesson how = study.how;
     how.trajectories = std::int64_t{1} << power;
     how.repetition = repetition;
-    return values(learn_at(its, study.system, study.step, how));
+    return values(learn_at(setup, study.system, study.step, how));
   };
   const auto sizes = static_cast<std::size_t>(study.most - study.least + 1);
   std::vector<std::vector<double>> from_others(sizes);

@@ -25,7 +25,7 @@ struct estimator_errors {
   estimate exponent_nested;
   estimate at_least;  // from_others at the smallest M
 };
-estimator_errors errors_of_estimators(const setting& its, const estimator_study& study);
+estimator_errors errors_of_estimators(const setting& setup, const estimator_study& study);
 
 /// Finding, table and picture; the printed exponent as text and number.
 exhibit exhibit_of(const estimator_errors& found, const std::string& printed, double exponent,

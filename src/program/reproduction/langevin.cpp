@@ -84,25 +84,25 @@ estimate price_of_the_end(const sweep& all) {
 
 }  // namespace
 
-exhibit errors_along_paths(const setting& its) {
-  const std::vector<double> gaps = its.pick<std::vector<double>>(
+exhibit errors_along_paths(const setting& setup) {
+  const std::vector<double> gaps = setup.pick<std::vector<double>>(
       {10, 30, 50, 70, 100, 130, 160, 190, 200, 250, 300, 330, 350, 390, 450}, {100, 200});
   const judged test{
-      .horizon = 1.0, .trajectories = its.pick<std::int64_t>(10'000, 32), .fine_step = gap_step};
+      .horizon = 1.0, .trajectories = setup.pick<std::int64_t>(10'000, 32), .fine_step = gap_step};
   const auto from = [&](const std::string& start) {
-    const bundled_system& system = its.in_bath(start);
+    const bundled_system& system = setup.in_bath(start);
     const auto fixed = [&](const char* name) {
       return [method = classical(name, system)](double) { return method; };
     };
     const auto learned = [&](placement where) {
-      return [&its, start, where](double gap) { return its.learned_in_bath(start, gap, where); };
+      return [&setup, start, where](double gap) { return setup.learned_in_bath(start, gap, where); };
     };
     const std::vector<rival> rivals{{"BAOAB", fixed("baoab")},
                                     {"BAOAB with half steps", fixed("baoab_2x")},
                                     {"McLachlan, O symmetric", fixed("mclachlan2@symmetric")},
                                     {"NySALT", learned(placement::end)},
                                     {"learned, O symmetric", learned(placement::symmetric)}};
-    return errors_against_gap(its, system, rivals, gaps, test);
+    return errors_against_gap(setup, system, rivals, gaps, test);
   };
   const both_starts all{from("trajectory"), from("gibbs"), gaps};
   exhibit result{

@@ -15,30 +15,31 @@ namespace {
 constexpr int ensembles = 4;  // of the reference: six pairs for the floor
 constexpr const char* observable = "stiff_energy";
 
-statistics_plan plan_of(const setting& its, double step, role whose, int ensemble = 0) {
-  const auto count = its.pick<std::int64_t>(10'000, 32);
-  const double horizon = its.pick(40.0, 4.0);
+statistics_plan plan_of(const setting& setup, double step, role whose, int ensemble = 0) {
+  const auto count = setup.pick<std::int64_t>(10'000, 32);
+  const double horizon = setup.pick(40.0, 4.0);
   return {.trajectories = {step, static_cast<std::int64_t>(horizon / step + 1e-9), count,
-                           seed_for(whose, its.seed()), its.common.threads},
+                           seed_for(whose, setup.seed()), setup.common.threads},
           .first = ensemble * count};
 }
 
 /// Ensembles of the reference, each with starts and noise of its own. `prepare` adds what is wanted.
-std::vector<gathered_statistics> references(const setting& its, const bundled_system& system, double step,
+std::vector<gathered_statistics> references(const setting& setup, const bundled_system& system, double step,
                                             const std::function<void(statistics_plan&)>& prepare) {
   std::vector<gathered_statistics> all;
   for (int k = 0; k < ensembles; ++k) {
-    statistics_plan plan = plan_of(its, step, role::reference, k);
+    statistics_plan plan = plan_of(setup, step, role::reference, k);
     prepare(plan);
     all.push_back(system.reference_statistics(plan, observable, 1e-3 / std::ceil(1e-3 / step), {}));
   }
   return all;
 }
 
-double total_variation_of(const gathered_statistics& its, const std::vector<gathered_statistics>& all) {
+double total_variation_of(const gathered_statistics& statistics,
+                          const std::vector<gathered_statistics>& all) {
   std::vector<histogram> histograms;
   for (const auto& one : all) histograms.push_back(*one.histogram);
-  return mean_total_variation(*its.histogram, histograms);
+  return mean_total_variation(*statistics.histogram, histograms);
 }
 double floor_of_laws(const std::vector<gathered_statistics>& all) {
   std::vector<histogram> histograms;
@@ -57,31 +58,31 @@ struct laws {
 std::vector<named_curve> empty_curves(const std::vector<double>& gaps) {
   return {{"BAOAB", {gaps, {}}}, {"BAOAB with half steps", {gaps, {}}}, {"NySALT", {gaps, {}}}};
 }
-std::vector<tabulated> methods_at(const setting& its, const std::string& start, double gap) {
-  const bundled_system& system = its.in_bath(start);
+std::vector<tabulated> methods_at(const setting& setup, const std::string& start, double gap) {
+  const bundled_system& system = setup.in_bath(start);
   return {classical("baoab", system), classical("baoab_2x", system),
-          its.learned_in_bath(start, gap, placement::end)};
+          setup.learned_in_bath(start, gap, placement::end)};
 }
 
-curve density_curve(const std::string& name, const histogram& its, bool emphasised) {
-  curve result{name, {}, its.density(), {}, emphasised};
-  for (int i = 0; i < its.bins().count; ++i)
-    result.x.push_back(its.bins().low + (i + 0.5) * its.bins().width());
+curve density_curve(const std::string& name, const histogram& distribution, bool emphasised) {
+  curve result{name, {}, distribution.density(), {}, emphasised};
+  for (int i = 0; i < distribution.bins().count; ++i)
+    result.x.push_back(distribution.bins().low + (i + 0.5) * distribution.bins().width());
   return result;
 }
 
-laws measure_laws(const setting& its, const std::string& start, const std::vector<double>& gaps,
+laws measure_laws(const setting& setup, const std::string& start, const std::vector<double>& gaps,
                   double shown_gap) {
-  const bundled_system& system = its.in_bath(start);
+  const bundled_system& system = setup.in_bath(start);
   const equal_bins bins{0.0, 1.0, 100};
-  const auto all = references(its, system, 0.02, [&](statistics_plan& plan) { plan.bins = bins; });
+  const auto all = references(setup, system, 0.02, [&](statistics_plan& plan) { plan.bins = bins; });
   laws result{start == "gibbs" ? "Gibbs starts" : "one long trajectory", floor_of_laws(all),
               empty_curves(gaps)};
   result.densities.push_back(density_curve("reference", *all[0].histogram, true));
   for (const double gap : gaps) {
-    const auto methods = methods_at(its, start, gap);
+    const auto methods = methods_at(setup, start, gap);
     for (std::size_t k = 0; k < methods.size(); ++k) {
-      statistics_plan plan = plan_of(its, gap * gap_step, role::test);
+      statistics_plan plan = plan_of(setup, gap * gap_step, role::test);
       plan.bins = bins;
       const auto found = system.statistics(methods[k], plan, observable, {});
       auto& errors = result.methods[k].curve.errors;
@@ -132,8 +133,8 @@ table table_of_laws(const std::vector<named_curve>& methods, double floor) {
 panel panel_of_laws(const std::vector<named_curve>& methods, const std::string& title,
                     const std::string& label, double floor) {
   panel result{title, "gap", label, true, {}};
-  for (const auto& [name, its] : methods) {
-    result.curves.push_back({name, its.at, its.means(), {}, name == "NySALT"});
+  for (const auto& [name, errors] : methods) {
+    result.curves.push_back({name, errors.at, errors.means(), {}, name == "NySALT"});
   }
   const auto& gaps = methods.front().curve.at;
   result.curves.push_back({"sampling floor", gaps, std::vector<double>(gaps.size(), floor)});
@@ -184,11 +185,11 @@ finding smaller_from_200(const std::vector<laws>& all) {
 
 }  // namespace
 
-exhibit law_of_energy(const setting& its) {
+exhibit law_of_energy(const setting& setup) {
   const std::vector<double> gaps =
-      its.pick<std::vector<double>>({30, 50, 70, 100, 150, 190, 250, 330, 390, 450}, {330, 450});
+      setup.pick<std::vector<double>>({30, 50, 70, 100, 150, 190, 250, 330, 390, 450}, {330, 450});
   std::vector<laws> all;
-  for (const char* start : {"trajectory", "gibbs"}) all.push_back(measure_laws(its, start, gaps, 330));
+  for (const char* start : {"trajectory", "gibbs"}) all.push_back(measure_laws(setup, start, gaps, 330));
   const auto rounds_to = [](double value, double power) { return std::round(std::log10(value)) == power; };
   exhibit result{"Distribution of the total stiff energy",
                  "Figure 6 (middle), section 5.3",
@@ -246,27 +247,27 @@ void add_lags(statistics_plan& plan) {
   plan.lags = static_cast<int>(longest / plan.every);
 }
 
-curve acf_curve(const std::string& name, const autocovariance& its, bool emphasised) {
-  curve result{name, {}, its.normalised(), {}, emphasised};
+curve acf_curve(const std::string& name, const autocovariance& covariances, bool emphasised) {
+  curve result{name, {}, covariances.normalised(), {}, emphasised};
   for (std::size_t k = 0; k < result.y.size(); ++k)
-    result.x.push_back(its.interval() * static_cast<double>(k));
+    result.x.push_back(covariances.interval() * static_cast<double>(k));
   return result;
 }
 
 /// One ensemble of fine steps serves a gap, as its lags are those of the gap.
-acfs measure_acfs(const setting& its, const std::string& start, const std::vector<double>& gaps) {
-  const bundled_system& system = its.in_bath(start);
+acfs measure_acfs(const setting& setup, const std::string& start, const std::vector<double>& gaps) {
+  const bundled_system& system = setup.in_bath(start);
   acfs result{start == "gibbs" ? "Gibbs starts" : "one long trajectory", 0.0, empty_curves(gaps)};
   for (const double gap : gaps) {
     const double step = gap * gap_step;
-    statistics_plan of_reference = plan_of(its, step, role::reference);
-    of_reference.trajectories.count = its.pick<std::int64_t>(2000, 32);
+    statistics_plan of_reference = plan_of(setup, step, role::reference);
+    of_reference.trajectories.count = setup.pick<std::int64_t>(2000, 32);
     add_lags(of_reference);
     const auto reference = system.reference_statistics(of_reference, observable, reference_step(step), {});
-    const auto methods = methods_at(its, start, gap);
+    const auto methods = methods_at(setup, start, gap);
     if (gap == 190.0) result.rho.push_back(acf_curve("reference", *reference.autocovariance, true));
     for (std::size_t k = 0; k < methods.size(); ++k) {
-      statistics_plan plan = plan_of(its, step, role::test);
+      statistics_plan plan = plan_of(setup, step, role::test);
       plan.trajectories.count = of_reference.trajectories.count;
       add_lags(plan);
       const auto found = system.statistics(methods[k], plan, observable, {});
@@ -306,11 +307,11 @@ finding acf_threshold(const std::vector<acfs>& all, const std::string& name, dou
 
 }  // namespace
 
-exhibit autocovariance_of_energy(const setting& its) {
-  const std::vector<double> gaps = its.pick<std::vector<double>>(
+exhibit autocovariance_of_energy(const setting& setup) {
+  const std::vector<double> gaps = setup.pick<std::vector<double>>(
       {30, 50, 70, 100, 130, 160, 190, 200, 250, 330, 390, 400, 450}, {190, 200});
   std::vector<acfs> all;
-  for (const char* start : {"trajectory", "gibbs"}) all.push_back(measure_acfs(its, start, gaps));
+  for (const char* start : {"trajectory", "gibbs"}) all.push_back(measure_acfs(setup, start, gaps));
   std::vector<reading> at_200;
   std::vector<reading> at_190;
   std::string of_200;
@@ -372,27 +373,27 @@ double seconds_of(const std::function<void()>& job) {
 
 }  // namespace
 
-exhibit run_times(const setting& its) {
-  const bundled_system& system = its.in_bath("gibbs");
+exhibit run_times(const setting& setup) {
+  const bundled_system& system = setup.in_bath("gibbs");
   constexpr double step = 190.0 * gap_step;
   std::optional<learned_scheme> learned;
   const double learning = seconds_of([&] {
-    learned = learn_at(its, system, step,
-                       {.trajectories = its.pick<std::int64_t>(512, 16),
+    learned = learn_at(setup, system, step,
+                       {.trajectories = setup.pick<std::int64_t>(512, 16),
                         .horizon = 1.0,
                         .where = placement::end,
                         .fine_step = gap_step});
   });
   // Of the steps alone; as many trajectories of fine steps as take a moment, the time is proportional.
-  const auto seconds = [&](const tabulated& method, double its_step, std::int64_t count) {
-    const auto job = system.timed_run(method, {its_step, static_cast<std::int64_t>(40.0 / its_step), count,
-                                               seed_for(role::test, its.seed()), 1});
+  const auto seconds = [&](const tabulated& method, double step_size, std::int64_t count) {
+    const auto job = system.timed_run(method, {step_size, static_cast<std::int64_t>(40.0 / step_size), count,
+                                               seed_for(role::test, setup.seed()), 1});
     return seconds_of(job) * 10'000.0 / static_cast<double>(count);
   };
-  const double fine = seconds(classical("baoab", system), gap_step, its.pick<std::int64_t>(320, 16));
-  const double coarse = seconds(learned->method, step, its.pick<std::int64_t>(10'000, 320));
+  const double fine = seconds(classical("baoab", system), gap_step, setup.pick<std::int64_t>(320, 16));
+  const double coarse = seconds(learned->method, step, setup.pick<std::int64_t>(10'000, 320));
   const double half_baoab =
-      seconds(classical("baoab", system), 0.5 * step, its.pick<std::int64_t>(10'000, 320));
+      seconds(classical("baoab", system), 0.5 * step, setup.pick<std::int64_t>(10'000, 320));
   const double factor = fine / coarse;
   table rows({"job", "paper, s", "ours, s"});
   rows.add({"BAOAB, h = 1e-4, 10^4 trajectories to T = 40", "2078", fmt::format("{:.3g}", fine)});
@@ -418,7 +419,7 @@ exhibit run_times(const setting& its) {
         "within a factor of two; faster by a factor of " + fmt::format("{:.0f}", 854.0 / learning),
         "nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement end --trajectories 512 --horizon "
         "1 --step 0.019"}},
-      {fmt::format("Fine steps are timed on {} trajectories and scaled.", its.pick(320, 16))},
+      {fmt::format("Fine steps are timed on {} trajectories and scaled.", setup.pick(320, 16))},
       {{"Seconds:", rows}},
       {}};
 }

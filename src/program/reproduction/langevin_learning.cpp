@@ -29,16 +29,16 @@ struct against_gap {
   std::vector<std::vector<std::vector<double>>> theta{};  // [parameter][gap][repetition]
 };
 
-void learn_all(const setting& its, against_gap& one, const std::vector<double>& gaps,
+void learn_all(const setting& setup, against_gap& one, const std::vector<double>& gaps,
                std::uint64_t repetitions) {
-  const bundled_system& system = its.in_bath(one.start);
+  const bundled_system& system = setup.in_bath(one.start);
   one.theta.assign(2, std::vector<std::vector<double>>(gaps.size()));
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     // Small gaps have many pairs: they take long, and scatter little.
     for (std::uint64_t r = 0; r < (gaps[i] < 50.0 ? std::min<std::uint64_t>(repetitions, 3) : repetitions);
          ++r) {
-      const auto learned = learn_at(its, system, gaps[i] * gap_step,
-                                    {.trajectories = its.pick<std::int64_t>(512, 16),
+      const auto learned = learn_at(setup, system, gaps[i] * gap_step,
+                                    {.trajectories = setup.pick<std::int64_t>(512, 16),
                                      .horizon = 1.0,
                                      .coordinates = one.coordinates,
                                      .where = placement::end,
@@ -80,12 +80,12 @@ figure picture_of(const std::vector<against_gap>& all, const std::vector<double>
                             {"beta1", "gap", "beta1", true, {}, "[*:*]", true}};
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     for (const auto& one : all) {
-      curve its{one.name, gaps, {}, {}, one.start == "trajectory"};
+      curve learned{one.name, gaps, {}, {}, one.start == "trajectory"};
       for (const auto& samples : one.theta[k]) {
-        its.y.push_back(with_scatter(samples).mean);
-        its.error.push_back(with_scatter(samples).standard_error);
+        learned.y.push_back(with_scatter(samples).mean);
+        learned.error.push_back(with_scatter(samples).standard_error);
       }
-      panels[k].curves.push_back(its);
+      panels[k].curves.push_back(learned);
     }
     curve linear{"linear system", gaps, {}};
     for (const double gap : gaps) linear.y.push_back(linear_optimum_at(gap)[k]);
@@ -96,14 +96,14 @@ figure picture_of(const std::vector<against_gap>& all, const std::vector<double>
 
 }  // namespace
 
-exhibit parameters_against_gap(const setting& its) {
+exhibit parameters_against_gap(const setting& setup) {
   const std::vector<double> gaps =
-      its.pick<std::vector<double>>({10, 30, 50, 70, 100, 150, 190, 250, 330, 390, 450}, {190});
-  const std::uint64_t repetitions = its.pick<std::uint64_t>(10, 2);
+      setup.pick<std::vector<double>>({10, 30, 50, 70, 100, 150, 190, 250, 330, 390, 450}, {190});
+  const std::uint64_t repetitions = setup.pick<std::uint64_t>(10, 2);
   std::vector<against_gap> all{{"(q, p), one long trajectory", "trajectory", "qp"},
                                {"(q, p), Gibbs starts", "gibbs", "qp"},
                                {"modes, Gibbs starts", "gibbs", "modes"}};
-  for (auto& one : all) learn_all(its, one, gaps, repetitions);
+  for (auto& one : all) learn_all(setup, one, gaps, repetitions);
   std::vector<std::string> columns{"gap", "linear b1, beta1"};
   for (const auto& one : all) {
     columns.push_back("b1, " + one.name);
@@ -146,22 +146,22 @@ exhibit parameters_against_gap(const setting& its) {
             told(narrow) + "; at most a hundredth", command}},
           {fmt::format("M = {} trajectories over Ttr = 1 by BAOAB with h = 1e-4, {} repetitions (3 below gap "
                        "50); O at the end.",
-                       its.pick(512, 16), repetitions)},
+                       setup.pick(512, 16), repetitions)},
           {{"Mean and standard deviation over the repetitions:", rows}},
           {{picture_of(all, gaps),
             "Learned parameters in the bath against the gap; bars are the standard deviation over "
             "repetitions."}}};
 }
 
-exhibit convergence_in_noisy_trajectories(const setting& its) {
-  const bundled_system& system = its.in_bath("trajectory");
+exhibit convergence_in_noisy_trajectories(const setting& setup) {
+  const bundled_system& system = setup.in_bath("trajectory");
   const estimator_study study{.system = system,
                               .step = 0.02,
                               .how = {.horizon = 1.0, .where = placement::end, .fine_step = gap_step},
                               .least = 2,
-                              .most = its.pick(9, 4),
-                              .repetitions = its.pick(10, 2)};
-  const estimator_errors found = errors_of_estimators(its, study);
+                              .most = setup.pick(9, 4),
+                              .repetitions = setup.pick(10, 2)};
+  const estimator_errors found = errors_of_estimators(setup, study);
   exhibit result = exhibit_of(found, "-0.44", -0.44, "langevin");
   result.title = "Convergence of the estimators in a bath";
   result.place = "Figure 5 (left), section 5.3";

@@ -23,17 +23,17 @@ double energy_loss(const two_parameters& at, double z) {
 }
 
 /// Tr(E^T Sigma^-1 E) with Sigma = diag(1, Omega^2), as printed.
-double printed_loss(const two_parameters& at, double z, double its_omega) {
-  const double Omega = its_omega * its_omega;
-  const matrix E = one_step(at, z / its_omega, Omega) - exact_step(z / its_omega, Omega, 0.0);
+double printed_loss(const two_parameters& at, double z, double frequency) {
+  const double Omega = frequency * frequency;
+  const matrix E = one_step(at, z / frequency, Omega) - exact_step(z / frequency, Omega, 0.0);
   return E.row(0).squaredNorm() + E.row(1).squaredNorm() / (Omega * Omega);
 }
 
 two_parameters energy_optimum(double z) {
   return minimum_near({0.5, 0.4}, [z](const two_parameters& at) { return energy_loss(at, z); });
 }
-two_parameters printed_optimum(double z, double its_omega) {
-  return minimum_near({0.5, 0.4}, [=](const two_parameters& at) { return printed_loss(at, z, its_omega); });
+two_parameters printed_optimum(double z, double frequency) {
+  return minimum_near({0.5, 0.4}, [=](const two_parameters& at) { return printed_loss(at, z, frequency); });
 }
 
 const std::vector<double> angles{0.1, 0.5, 1.0, 1.5, 2.0};

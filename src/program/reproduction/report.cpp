@@ -22,8 +22,9 @@ std::map<std::string, int> counted(const std::vector<finished_part>& parts) {
   std::map<std::string, int> count;
   for (const auto& part : parts) {
     for (const auto& one : part.exhibits) {
-      for (const auto& its : one.findings) {
-        ++count[its.verdict.starts_with("depends on") ? "depends on how the text is read" : its.verdict];
+      for (const auto& outcome : one.findings) {
+        ++count[outcome.verdict.starts_with("depends on") ? "depends on how the text is read"
+                                                          : outcome.verdict];
       }
     }
   }
@@ -33,30 +34,30 @@ std::map<std::string, int> counted(const std::vector<finished_part>& parts) {
 table summary_table(const finished_part& part) {
   table rows({"claim", "ours", "verdict"}, 3);
   for (const auto& one : part.exhibits) {
-    for (const auto& its : one.findings) rows.add({its.claim, its.ours, its.verdict});
+    for (const auto& outcome : one.findings) rows.add({outcome.claim, outcome.ours, outcome.verdict});
   }
   return rows;
 }
 
-void describe(page& report, const finding& its) {
-  const std::vector<std::string> facts{fmt::format("Measured: {}.", its.quantity),
-                                       fmt::format("Ours: {}.", its.ours),
-                                       fmt::format("**{}**: {}.", its.verdict, its.reason)};
-  report.text(fmt::format("**Claim:** {}.", its.claim));
+void describe(page& report, const finding& outcome) {
+  const std::vector<std::string> facts{fmt::format("Measured: {}.", outcome.quantity),
+                                       fmt::format("Ours: {}.", outcome.ours),
+                                       fmt::format("**{}**: {}.", outcome.verdict, outcome.reason)};
+  report.text(fmt::format("**Claim:** {}.", outcome.claim));
   report.list(facts);
-  if (!its.command.empty()) report.code(its.command);
+  if (!outcome.command.empty()) report.code(outcome.command);
 }
 
 void describe(page& report, const exhibit& one) {
   report.subheading(one.title);
   report.text(fmt::format("{}.", one.place));
-  for (const auto& its : one.findings) describe(report, its);
+  for (const auto& outcome : one.findings) describe(report, outcome);
   for (const auto& remark : one.remarks) report.text(remark);
   for (const auto& [sentence, rows] : one.tables) {
     report.text(sentence);
     report.table(rows);
   }
-  for (const auto& its : one.pictures) report.picture(its.picture, its.caption);
+  for (const auto& illustration : one.pictures) report.picture(illustration.picture, illustration.caption);
 }
 
 constexpr const char* of_quick_runs =
@@ -73,16 +74,16 @@ json reproduction_report::document() const {
   json items = json::array();
   for (const auto& part : parts_) {
     for (const auto& one : part.exhibits) {
-      for (const auto& its : one.findings) {
+      for (const auto& outcome : one.findings) {
         items.push_back({{"part", part.name},
                          {"exhibit", one.title},
                          {"place", one.place},
-                         {"claim", its.claim},
-                         {"quantity", its.quantity},
-                         {"ours", its.ours},
-                         {"verdict", its.verdict},
-                         {"reason", its.reason},
-                         {"command", its.command.empty() ? json(nullptr) : json(its.command)}});
+                         {"claim", outcome.claim},
+                         {"quantity", outcome.quantity},
+                         {"ours", outcome.ours},
+                         {"verdict", outcome.verdict},
+                         {"reason", outcome.reason},
+                         {"command", outcome.command.empty() ? json(nullptr) : json(outcome.command)}});
       }
     }
   }
@@ -95,8 +96,8 @@ std::string reproduction_report::summary() const {
   for (const auto& part : parts_) {
     text += fmt::format("{}\n\n", part.title);
     for (const auto& one : part.exhibits) {
-      for (const auto& its : one.findings) {
-        text += fmt::format("  {}\n    ours: {}\n    {}\n", its.claim, its.ours, its.verdict);
+      for (const auto& outcome : one.findings) {
+        text += fmt::format("  {}\n    ours: {}\n    {}\n", outcome.claim, outcome.ours, outcome.verdict);
       }
     }
     text += "\n";

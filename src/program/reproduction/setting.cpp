@@ -18,15 +18,15 @@ std::uint64_t setting::seed(std::uint64_t repetition) const {
 }
 
 namespace {
-trajectories_plan plan_of(const setting& its, double step, double horizon, std::int64_t count) {
-  return {step, steps_within("horizon", horizon, step), count, seed_for(role::test, its.seed()),
-          its.common.threads};
+trajectories_plan plan_of(const setting& setup, double step, double horizon, std::int64_t count) {
+  return {step, steps_within("horizon", horizon, step), count, seed_for(role::test, setup.seed()),
+          setup.common.threads};
 }
 }  // namespace
 
-std::unique_ptr<bundled_system> chain(double its_omega, double spread) {
+std::unique_ptr<bundled_system> chain(double frequency, double spread) {
   system_settings asked;
-  asked.omega = its_omega;
+  asked.omega = frequency;
   asked.spread = spread;
   return make_system(asked);
 }
@@ -53,7 +53,7 @@ const tabulated& setting::learned_in_bath(const std::string& start, double gap, 
 
 std::unique_ptr<bundled_system> soft_dominated_chain() { return make_soft_dominated_fpu(omega); }
 
-learned_scheme learn_at(const setting& its, const bundled_system& system, double step, const lesson& how) {
+learned_scheme learn_at(const setting& setup, const bundled_system& system, double step, const lesson& how) {
   const learn_plan plan{.family = "nystrom",
                         .where = how.where,
                         .step = step,
@@ -62,9 +62,9 @@ learned_scheme learn_at(const setting& its, const bundled_system& system, double
                                 .horizon = how.horizon,
                                 .coordinates = how.coordinates,
                                 .fix = {}},
-                        .seed = seed_for(role::training, its.seed(how.repetition)),
-                        .held_out_seed = seed_for(role::held_out, its.seed(how.repetition)),
-                        .threads = its.common.threads};
+                        .seed = seed_for(role::training, setup.seed(how.repetition)),
+                        .held_out_seed = seed_for(role::held_out, setup.seed(how.repetition)),
+                        .threads = setup.common.threads};
   return system.learn(plan, {});
 }
 
@@ -81,14 +81,14 @@ tabulated classical(const std::string& name, const bundled_system& system) {
 
 tabulated two_stages(double b1, double beta1) { return family_member("nystrom", {b1, beta1}); }
 
-double reference_step(double step, double its_omega) {
-  return step / std::ceil(step * its_omega / 0.05 - 1e-9);
+double reference_step(double step, double frequency) {
+  return step / std::ceil(step * frequency / 0.05 - 1e-9);
 }
 
-measured_errors errors_at(const setting& its, const bundled_system& system,
+measured_errors errors_at(const setting& setup, const bundled_system& system,
                           const std::vector<tabulated>& methods, double step, const judged& how) {
   const auto fine = how.fine_step ? how.fine_step : system.fine_step_for_ranking(step);
-  const errors_plan plan{.trajectories = plan_of(its, step, how.horizon, how.trajectories),
+  const errors_plan plan{.trajectories = plan_of(setup, step, how.horizon, how.trajectories),
                          .metrics = {{how.metric, how.observable}},
                          .fine_step = fine};
   const auto found = system.errors(methods, plan, {}).front();
@@ -101,12 +101,12 @@ estimate error_of(const method_error& method) {
   return method.error;
 }
 
-std::vector<record> followed(const setting& its, const bundled_system& system, const tabulated& method,
+std::vector<record> followed(const setting& setup, const bundled_system& system, const tabulated& method,
                              double step, double horizon, double sample, std::int64_t trajectories,
                              const std::vector<std::string>& observables) {
   std::vector<record> all;
   const auto keep = [&](std::int64_t, const record& one) { all.push_back(one); };
-  const trajectories_plan plan = plan_of(its, step, horizon, trajectories);
+  const trajectories_plan plan = plan_of(setup, step, horizon, trajectories);
   system.run(method, {plan, observables, std::llround(sample / step)}, keep, {});
   return all;
 }

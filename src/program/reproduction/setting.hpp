@@ -26,7 +26,7 @@ class setting {
   const common_settings& common;
   bool quick;
 
-  setting(const common_settings& its, bool is_quick) : common(its), quick(is_quick) {}
+  setting(const common_settings& settings, bool is_quick) : common(settings), quick(is_quick) {}
 
   template <class T>
   T pick(T whole, T part) const {
@@ -46,7 +46,7 @@ class setting {
 };
 
 /// The chain of the paper, alone. The spread multiplies the deviation 1/omega of its starts.
-std::unique_ptr<bundled_system> chain(double its_omega = omega, double spread = 1.0);
+std::unique_ptr<bundled_system> chain(double frequency = omega, double spread = 1.0);
 /// Starts of which the soft springs hold omega^2, half of it moving and half of it stretched.
 std::unique_ptr<bundled_system> soft_dominated_chain();
 
@@ -58,7 +58,7 @@ struct lesson {
   std::optional<double> fine_step{};
   std::uint64_t repetition = 0;
 };
-learned_scheme learn_at(const setting& its, const bundled_system& system, double step, const lesson& how);
+learned_scheme learn_at(const setting& setup, const bundled_system& system, double step, const lesson& how);
 
 /// (b1, beta1) with the standard errors that the fit tells.
 std::vector<estimate> theta_with_errors(const learned_scheme& learned);
@@ -78,19 +78,19 @@ struct judged {
   std::string observable = "stiff_energy";
   std::optional<double> fine_step{};  // empty: coarse enough to rank methods
 };
-measured_errors errors_at(const setting& its, const bundled_system& system,
+measured_errors errors_at(const setting& setup, const bundled_system& system,
                           const std::vector<tabulated>& methods, double step, const judged& how);
 
 /// Infinite if more than half of the trajectories diverged: the error of the others is that of a lucky few.
 estimate error_of(const method_error& method);
 
 /// Numbers along trajectories: rows[trajectory].values holds `observables` at the times 0, every, 2 every...
-std::vector<record> followed(const setting& its, const bundled_system& system, const tabulated& method,
+std::vector<record> followed(const setting& setup, const bundled_system& system, const tabulated& method,
                              double step, double horizon, double sample, std::int64_t trajectories,
                              const std::vector<std::string>& observables);
 
 /// The reference's step below omega h = .05 that divides `step`.
-double reference_step(double step, double its_omega = omega);
+double reference_step(double step, double frequency = omega);
 
 /// "--system fpu --friction 0.01 --sigma 0.05"
 inline constexpr const char* bath_options = "--friction 0.01 --sigma 0.05";

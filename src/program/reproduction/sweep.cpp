@@ -15,7 +15,7 @@ const error_curve& sweep::of(const std::string& name) const {
   return found->curve;
 }
 
-sweep errors_against_gap(const setting& its, const bundled_system& system, const std::vector<rival>& rivals,
+sweep errors_against_gap(const setting& setup, const bundled_system& system, const std::vector<rival>& rivals,
                          const std::vector<double>& gaps, const judged& how) {
   sweep all;
   for (const auto& one : rivals) all.methods.push_back({one.name, {gaps, {}}});
@@ -23,7 +23,7 @@ sweep errors_against_gap(const setting& its, const bundled_system& system, const
     const double step = gap * gap_step;
     std::vector<tabulated> methods;
     for (const auto& one : rivals) methods.push_back(one.at(gap));
-    const auto found = errors_at(its, system, methods, step, how);
+    const auto found = errors_at(setup, system, methods, step, how);
     all.of_reference.push_back(found.of_reference);
     for (std::size_t k = 0; k < rivals.size(); ++k) {
       all.methods[k].curve.errors.push_back(error_of(found.methods[k]));
@@ -53,8 +53,8 @@ table table_of(const sweep& all) {
 
 panel panel_of(const sweep& all, const std::string& title, const std::string& y_label) {
   panel result{title, "gap", y_label, true, {}};
-  for (const auto& [name, its] : all.methods) {
-    result.curves.push_back({name, its.at, its.means(), its.bars(), name == "NySALT"});
+  for (const auto& [name, errors] : all.methods) {
+    result.curves.push_back({name, errors.at, errors.means(), errors.bars(), name == "NySALT"});
   }
   return result;
 }

@@ -15,7 +15,7 @@ struct named_curve {
 
 struct sweep {
   std::vector<named_curve> methods;
-  std::vector<double> of_reference;  // its own error, by gap
+  std::vector<double> of_reference;  // error of the reference itself, by gap
 
   const error_curve& of(const std::string& name) const;
 };
@@ -25,7 +25,7 @@ struct rival {
   std::string name;
   std::function<tabulated(double gap)> at;
 };
-sweep errors_against_gap(const setting& its, const bundled_system& system, const std::vector<rival>& rivals,
+sweep errors_against_gap(const setting& setup, const bundled_system& system, const std::vector<rival>& rivals,
                          const std::vector<double>& gaps, const judged& how);
 
 /// A row for each gap, a column for each method, and the reference's own error.

@@ -51,19 +51,19 @@ std::vector<estimate> fitted(const fpu_chain<3>& system, const pairs& data, cons
   return result;
 }
 
-void learn_columns(const setting& its, std::vector<column>& columns) {
+void learn_columns(const setting& setup, std::vector<column>& columns) {
   const fpu_chain<3> system(omega);
   const fpu_law<3> law(system);
-  const double h = its.pick(1e-6, 1e-4);
+  const double h = setup.pick(1e-6, 1e-4);
   for (const auto& generator : generators) {
     const fine_steps reference(h, member<nystrom>(generator));
     const auto data_of = [&](role which) {
       return make_flow_map_data(system, law, reference,
                                 {.step = 1e-3,
                                  .horizon = 1.0,
-                                 .trajectories = its.pick<std::int64_t>(100, 10),
-                                 .seed = seed_for(which, its.seed()),
-                                 .threads = its.common.threads});
+                                 .trajectories = setup.pick<std::int64_t>(100, 10),
+                                 .seed = seed_for(which, setup.seed()),
+                                 .threads = setup.common.threads});
     };
     const pairs data = data_of(role::training);
     const pairs held_out = data_of(role::held_out);
@@ -71,7 +71,7 @@ void learn_columns(const setting& its, std::vector<column>& columns) {
       for (std::size_t r = 0; r < printed.size(); ++r) {
         const auto factor = printed[r].factor;
         const auto theta = fitted(system, thinned(data, factor, one.horizon),
-                                  thinned(held_out, factor, one.horizon), one.which, its.common.threads);
+                                  thinned(held_out, factor, one.horizon), one.which, setup.common.threads);
         if (r >= one.first.size()) one.first.push_back(theta);
         for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
           const double change = std::abs(theta[k].mean - one.first[r][k].mean);
@@ -102,12 +102,12 @@ std::string text_of_column(const column& one) {
 
 }  // namespace
 
-exhibit table_1(const setting& its) {
+exhibit table_1(const setting& setup) {
   std::vector<column> columns{{"(q, p), Ttr = 1/2", coordinates::qp, 0.5, {}},
                               {"(q, p), Ttr = 1", coordinates::qp, 1.0, {}},
                               {"modes, Ttr = 1/2", coordinates::modes, 0.5, {}},
                               {"modes, Ttr = 1", coordinates::modes, 1.0, {}}};
-  learn_columns(its, columns);
+  learn_columns(setup, columns);
   table all({"loss and training time", "gap", "b1, printed", "b1, ours", "beta1, printed", "beta1, ours"}, 1);
   std::vector<reading> readings;
   double between = 0.0;
@@ -135,7 +135,7 @@ exhibit table_1(const setting& its) {
             "largest difference between generators, all rows and readings", fmt::format("{:.1e}", between),
             verdict_of(between < 5e-4), "below half the last printed digit", ""}},
           {"The generators are the members (2/3, 1/3), (1/3, 1/3) and (1/2, 1/2); h = " +
-           fmt::format("{:g}.", its.pick(1e-6, 1e-4))},
+           fmt::format("{:g}.", setup.pick(1e-6, 1e-4))},
           {{"From the generator (2/3, 1/3); errors are those of the fit:", all}},
           {}};
 }

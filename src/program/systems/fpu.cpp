@@ -9,9 +9,9 @@ namespace nysalt::program {
 
 namespace {
 template <int Pairs>
-std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& its) {
+std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& conditions) {
   const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
-  return make_bundled(chain, its, fpu_law<Pairs>(chain, its.spread),
+  return make_bundled(chain, conditions, fpu_law<Pairs>(chain, conditions.spread),
                       {parameters, chain.omega(), "stiff_energy"});
 }
 }  // namespace
@@ -23,11 +23,12 @@ std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
                       fpu_law<3>::soft_dominated(chain), {parameters, omega, "stiff_energy"});
 }
 
-std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& its) {
+std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& conditions) {
   constexpr std::int64_t most = 1'000'000;  // a state of some tens of megabytes
   if (pairs > most) refuse("--pairs must be at most {}, got {}", most, pairs);
-  if (pairs == 3) return make(fpu_chain<3>(omega), its);  // the paper's, of a size known to the compiler
-  return make(fpu_chain<>(pairs, omega), its);
+  if (pairs == 3)
+    return make(fpu_chain<3>(omega), conditions);  // the paper's, of a size known to the compiler
+  return make(fpu_chain<>(pairs, omega), conditions);
 }
 
 }  // namespace nysalt::program

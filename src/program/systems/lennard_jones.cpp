@@ -21,16 +21,16 @@ double frequency_at_turning_point(double temperature) {
 }  // namespace
 
 std::unique_ptr<bundled_system> make_lennard_jones(std::int64_t space, std::int64_t atoms,
-                                                   const surroundings& its) {
-  constexpr std::int64_t most = 50;  // their minimum is found in a second
+                                                   const surroundings& conditions) {
+  constexpr std::int64_t most = 50;  // the minimum of so many atoms is found in a second
   if (space != 2 && space != 3) refuse("--space must be 2 or 3, got {}", space);
   if (atoms < 2 || atoms > most) refuse("--atoms must be at least 2 and at most {}, got {}", most, atoms);
   // The cluster shakes, and no atom leaves.
-  const double temperature = 0.1 * its.spread * its.spread;
+  const double temperature = 0.1 * conditions.spread * conditions.spread;
   const lennard_jones<> system(space, atoms);
   using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
   const json parameters{{"name", "lennard_jones"}, {"atoms", atoms}, {"space", space}};
-  return make_bundled(system, its, law(system, temperature),
+  return make_bundled(system, conditions, law(system, temperature),
                       {parameters, frequency_at_turning_point(temperature), "energy"});
 }
 

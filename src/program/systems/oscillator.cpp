@@ -6,13 +6,13 @@
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& its) {
+std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& conditions) {
   const harmonic_oscillator oscillator(omega);
   // Of energy kT = 1 in the mean.
   const vector<double, 1> rest(0.0);
-  const normal_around<1> law({rest, rest}, its.spread / omega, its.spread);
+  const normal_around<1> law({rest, rest}, conditions.spread / omega, conditions.spread);
   const json parameters{{"name", "oscillator"}, {"omega", omega}};
-  return make_bundled<true>(oscillator, its, law, {parameters, omega, "energy"});
+  return make_bundled<true>(oscillator, conditions, law, {parameters, omega, "energy"});
 }
 
 }  // namespace nysalt::program

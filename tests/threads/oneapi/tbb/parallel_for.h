@@ -49,7 +49,7 @@ void parallel_for(Index first, Index last, const Body& body) {
   std::vector<std::thread> others;
   for (int k = 1; k < task_arena::threads_here; ++k) others.emplace_back(work);
   work();
-  for (auto& its : others) its.join();
+  for (auto& worker : others) worker.join();
 }
 
 }  // namespace oneapi::tbb
