@@ -73,7 +73,7 @@ void require_force(const own_functions& functions) {
 
 std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
                                                   const program::surroundings& in) {
-  const program::json parameters{{"name", functions->name}};
+  const std::vector<program::named_value> parameters{{"name", functions->name}};
   constexpr double fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
   const program::model_facts facts{parameters, functions->frequency, "energy", fine_angle};
   return program::make_bundled(own_hamiltonian(functions), in, own_starts(functions), facts);

@@ -17,6 +17,7 @@
 
 #include "catalogue.hpp"
 #include "family_options.hpp"
+#include "json.hpp"
 #include "learnable.hpp"
 #include "model_reference.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
@@ -58,7 +59,7 @@ class bundled_model final : public bundled_system {
         start_(conditions.start),
         law_(parts.law),
         facts_(std::move(facts)) {
-    if (conditions.spread != 1.0) facts_.parameters["spread"] = conditions.spread;
+    if (conditions.spread != 1.0) facts_.parameters.push_back({"spread", conditions.spread});
     if (start_ != start::law && !has_frequency_bands(system_)) {
       refuse(
           "{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
@@ -78,7 +79,10 @@ class bundled_model final : public bundled_system {
     std::copy_n(forces.data(), forces.size(), f.begin());
   }
   nlohmann::ordered_json parameters() const override {
-    json all = facts_.parameters;
+    json all;
+    for (const auto& [name, value] : facts_.parameters) {
+      std::visit([&](const auto& known) { all[name] = known; }, value);
+    }
     if (!system_.bath().acts()) return all;
     all["friction"] = system_.bath().friction();
     all["sigma"] = system_.bath().sigma();

@@ -2,12 +2,14 @@
 // What any system with a law of starts can do for the commands.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "bundled_systems.hpp"
-#include "json.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/detail/any_reference.hpp"
 #include "nysalt/initial_states.hpp"
@@ -17,9 +19,14 @@
 
 namespace nysalt::program {
 
+struct named_value {
+  std::string name;
+  std::variant<std::int64_t, double, std::string> value;
+};
+
 struct model_facts {
-  json parameters;   // as scheme files hold them
-  double frequency;  // the highest, of rare starts
+  std::vector<named_value> parameters;  // as scheme files hold them
+  double frequency;                     // the highest, of rare starts
   std::string default_observable;
   double fine_angle = 5e-3;  // of a fine step, times the highest frequency: there srkn11b errs by rounding
 };

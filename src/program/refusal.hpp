@@ -26,11 +26,8 @@ struct fmt::formatter<nysalt::program::number_in_message> : fmt::formatter<doubl
     is_plain = context.begin() == context.end() || *context.begin() == '}';
     return fmt::formatter<double>::parse(context);
   }
-  template <class Context>
-  auto format(const nysalt::program::number_in_message& number, Context& context) const {
-    if (is_plain) return fmt::format_to(context.out(), "{:.12g}", number.value);
-    return fmt::formatter<double>::format(number.value, context);
-  }
+  fmt::format_context::iterator format(const nysalt::program::number_in_message& number,
+                                       fmt::format_context& context) const;
 
   bool is_plain = true;
 };

@@ -10,7 +10,8 @@ namespace nysalt::program {
 namespace {
 template <int Pairs>
 std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& conditions) {
-  const json parameters{{"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
+  const std::vector<named_value> parameters{
+      {"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
   return make_bundled(chain, conditions, fpu_law<Pairs>(chain, conditions.spread),
                       {parameters, chain.omega(), "stiff_energy"});
 }
@@ -18,7 +19,8 @@ std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surrou
 
 std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
   const fpu_chain<3> chain(omega);
-  const json parameters{{"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
+  const std::vector<named_value> parameters{
+      {"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
   return make_bundled(chain, surroundings{bath::of_sigma(0.0, 0.0), start::law},
                       fpu_law<3>::soft_dominated(chain), {parameters, omega, "stiff_energy"});
 }

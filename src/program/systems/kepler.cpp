@@ -14,7 +14,7 @@ std::unique_ptr<bundled_system> make_kepler(double eccentricity, const surroundi
   }
   // V'' = 2/r^3 at the pericentre, r = 1 - e.
   const double fastest = std::sqrt(2.0 / std::pow(1.0 - eccentricity, 3));
-  const json parameters{{"name", "kepler"}, {"eccentricity", eccentricity}};
+  const std::vector<named_value> parameters{{"name", "kepler"}, {"eccentricity", eccentricity}};
   return make_bundled(kepler(), conditions, kepler_law(eccentricity), {parameters, fastest, "energy"});
 }
 

@@ -29,7 +29,7 @@ std::unique_ptr<bundled_system> make_lennard_jones(std::int64_t space, std::int6
   const double temperature = 0.1 * conditions.spread * conditions.spread;
   const lennard_jones<> system(space, atoms);
   using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
-  const json parameters{{"name", "lennard_jones"}, {"atoms", atoms}, {"space", space}};
+  const std::vector<named_value> parameters{{"name", "lennard_jones"}, {"atoms", atoms}, {"space", space}};
   return make_bundled(system, conditions, law(system, temperature),
                       {parameters, frequency_at_turning_point(temperature), "energy"});
 }

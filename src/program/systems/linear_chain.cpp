@@ -16,7 +16,7 @@ std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double sp
   const double fastest = chain.frequency_bands().back().high;
   using law = normal_around<Eigen::Dynamic>;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
-  const json parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
+  const std::vector<named_value> parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
   return make_bundled<true>(chain, conditions,
                             law({rest, rest}, conditions.spread / fastest, conditions.spread),
                             {parameters, fastest, "energy"});

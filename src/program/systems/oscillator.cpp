@@ -11,7 +11,7 @@ std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings
   // Of energy kT = 1 in the mean.
   const vector<double, 1> rest(0.0);
   const normal_around<1> law({rest, rest}, conditions.spread / omega, conditions.spread);
-  const json parameters{{"name", "oscillator"}, {"omega", omega}};
+  const std::vector<named_value> parameters{{"name", "oscillator"}, {"omega", omega}};
   return make_bundled<true>(oscillator, conditions, law, {parameters, omega, "energy"});
 }
 

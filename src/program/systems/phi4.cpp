@@ -19,7 +19,7 @@ std::unique_ptr<bundled_system> make_phi4(std::int64_t masses, const surrounding
   // A well may hold what a mass has that starts at five deviations of both.
   const double well_energy = 12.5 * p * p + std::pow(5.0 * q, 4) / 4.0;
   const double fastest = chain.frequency_bands(well_energy).back().high;
-  const json parameters{{"name", "phi4"}, {"masses", masses}};
+  const std::vector<named_value> parameters{{"name", "phi4"}, {"masses", masses}};
   return make_bundled(chain, conditions, law({rest, rest}, q, p), {parameters, fastest, "energy"});
 }
 
