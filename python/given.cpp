@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../src/program/bundled_systems.hpp"
 #include "../src/program/checks.hpp"
 #include "../src/program/comparison.hpp"
 #include "../src/program/world.hpp"
@@ -82,6 +83,14 @@ void take_learning(const given& arguments, const std::string& prefix, program::l
 
 }  // namespace
 
+std::vector<std::string> given::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : arguments_) {
+    if (!value.is_none()) all.push_back(name.cast<std::string>());
+  }
+  return all;
+}
+
 void given::take(const char* name, double& to) const {
   if (has(name)) to = number_in(name, arguments_[name]);
 }
@@ -140,16 +149,35 @@ program::common_settings common_of(const given& arguments, bool calls_python) {
   return settings;
 }
 
+namespace {
+
+/// Those that the system declares, as its kinds of numbers; another is refused with the system's own list.
+void take_parameters(const given& arguments, program::system_settings& settings) {
+  for (const auto& name : arguments.names()) settings.parameters[name] = "";
+  for (const auto& parameter : program::declaration_of(settings.name).parameters) {
+    const char* name = parameter.name.c_str();
+    if (!arguments.has(name)) {
+      settings.parameters.erase(parameter.name);
+      continue;
+    }
+    if (parameter.is_whole()) {
+      std::int64_t value = 0;
+      arguments.take(name, value);
+      settings.parameters[parameter.name] = fmt::format("{}", value);
+    } else {
+      double value = 0.0;
+      arguments.take(name, value);
+      settings.parameters[parameter.name] = fmt::format("{}", value);
+    }
+  }
+}
+
+}  // namespace
+
 program::system_settings system_of(const given& arguments) {
   program::system_settings settings;
   arguments.take("name", settings.name);
-  arguments.take("pairs", settings.pairs);
-  arguments.take("omega", settings.omega);
-  arguments.take("masses", settings.masses);
-  arguments.take("spring", settings.spring);
-  arguments.take("atoms", settings.atoms);
-  arguments.take("space", settings.space);
-  arguments.take("eccentricity", settings.eccentricity);
+  if (arguments.has("parameters")) take_parameters(arguments.inner("parameters"), settings);
   arguments.take("spread", settings.spread);
   arguments.take("start", settings.start);
   arguments.take("friction", settings.bath.friction);

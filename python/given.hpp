@@ -22,6 +22,10 @@ class given {
 
   bool has(const char* name) const { return arguments_.contains(name) && !arguments_[name].is_none(); }
   pybind11::object operator[](const char* name) const { return arguments_[name]; }
+  /// A dict of further arguments.
+  given inner(const char* name) const { return given(arguments_[name].cast<pybind11::dict>()); }
+  /// Of those that are not None.
+  std::vector<std::string> names() const;
 
   // Each throws refusal, naming the argument, for what is of another kind. A list may be one thing alone.
   // True is no number.

@@ -73,10 +73,10 @@ void require_force(const own_functions& functions) {
 
 std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
                                                   const program::surroundings& in) {
-  const std::vector<program::named_value> parameters{{"name", functions->name}};
-  constexpr double fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
-  const program::model_facts facts{parameters, functions->frequency, "energy", fine_angle};
-  return program::make_bundled(own_hamiltonian(functions), in, own_starts(functions), facts);
+  made_system made =
+      detail::made_of(own_hamiltonian(functions), in.bath, own_starts(functions), functions->frequency);
+  made.fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
+  return program::make_bundled(made, {{"name", functions->name}}, in);
 }
 
 void examine(own_functions& functions) {

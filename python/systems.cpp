@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "../src/plugin/build.hpp"
 #include "../src/program/bundled_system.hpp"
 #include "../src/program/json.hpp"
 #include "../src/program/learning.hpp"
@@ -43,6 +44,17 @@ std::unique_ptr<held_system> own(const py::dict& arguments) {
   made->settings.start = "law";
   made->settings.own = [functions](const program::surroundings& in) { return make_own(functions, in); };
   made->model = make_system(made->settings);
+  return made;
+}
+
+std::string build(const py::dict& arguments) {
+  const given asked(arguments);
+  std::string source;
+  std::string output;
+  asked.take("source", source);
+  asked.take("output", output);
+  std::string made;
+  without_lock([&] { made = program::build_library(source, output); });
   return made;
 }
 
@@ -178,6 +190,7 @@ void add_systems(py::module_& module) {
       .def("force", &force)
       .def("starts", &starts);
   module.def("bundled", &bundled);
+  module.def("build", &build);
   module.def("own", &own);
 }
 

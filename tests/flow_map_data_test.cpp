@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
 // Of M trajectories of S steps: a stride of M S/16 would see starts alone where M = 16 k - 1 and S = 16.
 BOOST_AUTO_TEST_CASE(checks_are_spread_over_trajectories_and_along_them) {
   for (std::size_t trajectories = 1; trajectories <= 400; ++trajectories) {
-    for (const std::size_t steps : {1, 2, 3, 5, 8, 10, 16, 17, 20, 32, 50, 100, 128, 1000}) {
+    for (const std::size_t steps : {1U, 2U, 3U, 5U, 8U, 10U, 16U, 17U, 20U, 32U, 50U, 100U, 128U, 1000U}) {
       const std::size_t all = trajectories * steps;
       const auto pairs = detail::spread_pairs(all, 16);
       std::set<std::size_t> whose;

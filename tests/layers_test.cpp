@@ -37,6 +37,7 @@ const std::vector<std::vector<std::string>> layers{
     {"losses/"},
     {"learning/", "learn"},
     {"analysis/"},
+    {"version", "system_declaration", "plugin"},
     {"report/"},
     {"core"},
     {"odeint", "mpi", "nysalt"}};

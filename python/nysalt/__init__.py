@@ -25,7 +25,7 @@ import numpy as np
 from . import _nysalt
 
 __version__: str = _nysalt.version
-__all__ = ["Run", "Scheme", "System", "Table", "compare", "families", "hamiltonian", "integrate", "learn", "load",
+__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "families", "hamiltonian", "integrate", "learn", "load",
            "methods", "metrics", "recommend", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
@@ -112,17 +112,27 @@ def _held_by(system: Any) -> Any:
     return held
 
 
-def system(name: str = "fpu", *, pairs: Optional[int] = None, omega: Optional[float] = None,
-           masses: Optional[int] = None, spring: Optional[float] = None, atoms: Optional[int] = None,
-           space: Optional[int] = None, eccentricity: Optional[float] = None, spread: Optional[float] = None,
-           friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
-           start: Optional[str] = None) -> System:
-    """A bundled system; `systems()` names them, with the options that each takes.
+def system(name: str = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
+           sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
+           **parameters: Optional[float]) -> System:
+    """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
 
-    friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts it into a bath; `start` says where
-    trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the deviations of the law.
+    The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
+    runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
+    bath; `start` says where trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the
+    deviations of the law of starts.
     """
     return System(_nysalt.bundled(dict(locals())))
+
+
+def build(source: str, output: Optional[str] = None) -> str:
+    """Compiles the source (.hpp) of a system of your own, by the compiler that nysalt was built with.
+
+    It is made of a struct and a line NYSALT_SYSTEM; `nysalt new NAME` on the command line writes one to begin
+    with. Returns the path of the library, output or else ./SOURCE.so, for `system`. Cost: some five seconds,
+    nothing where nothing has changed.
+    """
+    return _nysalt.build(dict(locals()))
 
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],

@@ -51,15 +51,14 @@ class bundled_model final : public bundled_system {
   using states_in_double = std::vector<phase_point<double, dynamic>>;
 
  public:
-  bundled_model(const system_parts& parts, const surroundings& conditions, model_facts facts)
-      : system_(parts.in_bath),
-        springs_(parts.springs),
-        exact_(parts.exact),
-        has_linear_force_(parts.has_linear_force),
+  bundled_model(const made_system& made, const std::vector<named_value>& parameters,
+                const surroundings& conditions)
+      : system_(made.system),
+        made_(made),
+        parameters_(parameters),
         start_(conditions.start),
-        law_(parts.law),
-        facts_(std::move(facts)) {
-    if (conditions.spread != 1.0) facts_.parameters.push_back({"spread", conditions.spread});
+        law_(made.starts) {
+    if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
     if (start_ != start::law && !has_frequency_bands(system_)) {
       refuse(
           "{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
@@ -80,8 +79,9 @@ class bundled_model final : public bundled_system {
   }
   nlohmann::ordered_json parameters() const override {
     json all;
-    for (const auto& [name, value] : facts_.parameters) {
-      std::visit([&](const auto& known) { all[name] = known; }, value);
+    for (const auto& [name, value] : parameters_) {
+      json& entry = all[name];
+      std::visit([&](const auto& known) { entry = known; }, value);
     }
     if (!system_.bath().acts()) return all;
     all["friction"] = system_.bath().friction();
@@ -94,15 +94,15 @@ class bundled_model final : public bundled_system {
     if (!has_modes(system_) && !has_frequency_bands(system_)) return std::nullopt;
     return detail::frequency_to_fit(system_);
   }
-  std::vector<std::string> observables() const override { return observable_names(system_, springs_); }
-  void require_observable(const std::string& name) const override { observable(system_, springs_, name); }
-  std::string default_observable() const override { return facts_.default_observable; }
+  std::vector<std::string> observables() const override { return observable_names(made_); }
+  void require_observable(const std::string& name) const override { observable(made_, name); }
+  std::string default_observable() const override { return made_.default_observable; }
   std::string starts() const override { return starts_ ? starts_->description() : law_.description(); }
   void prepare_starts(std::uint64_t seed) override {
     if (starts_) return;
     const model alone = system_.alone();
     try {
-      if (start_ == start::gibbs && has_linear_force_) {
+      if (start_ == start::gibbs && made_.has_linear_force) {
         starts_.emplace(gibbs_of_modes<dynamic>(alone, system_.bath().temperature()));
       } else if (start_ == start::gibbs) {
         starts_.emplace(gibbs(system_, law_));
@@ -129,7 +129,7 @@ class bundled_model final : public bundled_system {
     }
   }
 
-  double frequency_of_law() const override { return facts_.frequency; }
+  double frequency_of_law() const override { return made_.frequency; }
   std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const override {
     constexpr Eigen::Index most = 1000;
     {
@@ -245,7 +245,7 @@ class bundled_model final : public bundled_system {
   void require_measure(const asked_metric& metric, const trajectories_plan& plan,
                        std::optional<double> fine_step, int noise_parts) const override {
     if (metric.is_of_law()) {
-      observable(system_, springs_, metric.observable);
+      observable(made_, metric.observable);
       reference().fine_step_for_statistics(plan.step, fine_step);
       return;
     }
@@ -281,7 +281,7 @@ class bundled_model final : public bundled_system {
 
   std::vector<double> values_at_starts(const trajectories_plan& plan,
                                        const std::string& name) const override {
-    const auto value = observable(system_, springs_, name);
+    const auto value = observable(made_, name);
     constexpr std::int64_t enough = 1000;
     std::vector<double> values;
     nysalt::detail::with_scalar_of(system_, [&]<class T>(T) {
@@ -312,8 +312,7 @@ class bundled_model final : public bundled_system {
                                    .moments = true,
                                    .kinetic_temperature = plan.bins.has_value(),
                                    .half_step_kinetic_temperature = plan.bins && leaps};
-    return ensemble_statistics(stepper, *starts_, options, over_lanes(observable(system_, springs_, name)),
-                               wanted);
+    return ensemble_statistics(stepper, *starts_, options, over_lanes(observable(made_, name)), wanted);
   }
 
   gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& name,
@@ -410,9 +409,9 @@ class bundled_model final : public bundled_system {
     // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
     const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(system_) <= 20'000;
     if (!fills_lanes || !system_.facts().in_lanes) {
-      run_in_waves<double>(system_, springs_, starts, method, plan, take, progress, world());
+      run_in_waves<double>(made_, starts, method, plan, take, progress, world());
     } else {
-      run_in_waves<nysalt::detail::lanes>(system_, springs_, starts, method, plan, take, progress, world());
+      run_in_waves<nysalt::detail::lanes>(made_, starts, method, plan, take, progress, world());
     }
   }
 
@@ -430,7 +429,7 @@ class bundled_model final : public bundled_system {
   }
 
   model_reference reference() const {
-    return {system_.bath(), facts_.frequency, facts_.fine_angle, has_linear_force_, exact_};
+    return {system_.bath(), made_.frequency, made_.fine_angle, made_.has_linear_force, made_.exact};
   }
   tabulated method_of_reference() const {
     return system_.bath().acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
@@ -443,10 +442,9 @@ class bundled_model final : public bundled_system {
   }
 
   error_measure measure_named(const asked_metric& metric) const {
-    if (metric.name == "path")
-      return path_measure(system_, over_lanes(observable(system_, springs_, metric.observable)));
+    if (metric.name == "path") return path_measure(system_, over_lanes(observable(made_, metric.observable)));
     if (metric.name == "relative")
-      return relative_measure(system_, over_lanes(observable(system_, springs_, metric.observable)));
+      return relative_measure(system_, over_lanes(observable(made_, metric.observable)));
     if (metric.name == "state") return state_measure(system_);
     if (metric.name == "energy") {
       if (system_.bath().acts())
@@ -459,8 +457,8 @@ class bundled_model final : public bundled_system {
           "distribution, acf",
           metric.name);
     }
-    if (springs_.pairs > 0) {
-      return exchange_measure(sprung_system{springs_});
+    if (made_.springs.pairs > 0) {
+      return exchange_measure(sprung_system{made_.springs});
     } else {
       refuse("the metric exchange is of stiff springs, which {} has not: take path, state or energy",
              description());
@@ -470,7 +468,7 @@ class bundled_model final : public bundled_system {
   /// What exchanges of energies ask of a system.
   struct sprung_system {
     static constexpr int dimension = dynamic;
-    stiff_springs springs;
+    nysalt::detail::stiff_springs springs;
 
     Eigen::Index size() const { return 0; }
     template <class U>
@@ -483,20 +481,19 @@ class bundled_model final : public bundled_system {
   };
 
   model system_;
-  stiff_springs springs_;
-  std::shared_ptr<const detail::any_reference> exact_;
-  bool has_linear_force_;
+  made_system made_;
+  std::vector<named_value> parameters_;
   start start_;
   initial_states law_;
   std::optional<initial_states> starts_;
-  model_facts facts_;
 };
 
 }  // namespace
 
-std::unique_ptr<bundled_system> make_bundled(const system_parts& parts, const surroundings& conditions,
-                                             const model_facts& facts) {
-  return std::make_unique<bundled_model>(parts, conditions, facts);
+std::unique_ptr<bundled_system> make_bundled(const made_system& made,
+                                             const std::vector<named_value>& parameters,
+                                             const surroundings& conditions) {
+  return std::make_unique<bundled_model>(made, parameters, conditions);
 }
 
 }  // namespace nysalt::program

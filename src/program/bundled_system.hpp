@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asked_metric.hpp"
@@ -27,7 +28,8 @@
 
 namespace nysalt {
 class stability_guard;
-}
+struct system_declaration;
+}  // namespace nysalt
 
 namespace nysalt::program {
 
@@ -230,16 +232,12 @@ std::optional<double> highest_frequency(const bundled_system& system);
 /// The system that the settings name. Throws refusal for what it does not have.
 std::unique_ptr<bundled_system> make_system(const system_settings& settings);
 
-/// Names of all systems with their options, for `list` and messages.
-struct system_entry {
-  std::string name;
-  std::string options;
-  std::string hamiltonian;
-  std::string described = {};  // as: with what its description begins
-  std::string source = {};     // in docs/bibliography.bib
-};
-const std::vector<system_entry>& system_entries();
-/// Throws refusal if no bundled system has that name.
-void require_known_system(const std::string& name);
+/// A bundled system, or one that a file declares, which is loaded. Throws refusal if there is none of that
+/// name, or what the file holds cannot be used.
+const system_declaration& declaration_of(const std::string& name);
+/// "--pairs 3 --omega 50 --spread 1"
+std::string options_of(const system_declaration& system);
+/// A name that is the path of a file.
+bool is_path_of_system(std::string_view name);
 
 }  // namespace nysalt::program

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "asked_metric.hpp"
-#include "bundled_system.hpp"
+#include "bundled_systems.hpp"
 #include "catalogue.hpp"
 #include "did_you_mean.hpp"
 #include "refusal.hpp"
@@ -30,8 +30,8 @@ class collected {
 };
 
 std::string_view source_of_system(const std::string& name) {
-  require_known_system(name);
-  return std::ranges::find(system_entries(), name, &system_entry::name)->source;
+  if (is_path_of_system(name)) return {};  // of one's own
+  return declaration_of(name).source;
 }
 
 std::string_view source_of_method(const std::string& name) {

@@ -11,9 +11,11 @@
 
 #include "as_typed.hpp"
 #include "build_info.hpp"
+#include "bundled_system.hpp"
 #include "checks.hpp"
 #include "commands.hpp"
 #include "did_you_mean.hpp"
+#include "nysalt/detail/together.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
@@ -90,6 +92,39 @@ std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// What follows a name on the command line, or the name and an =; the last if there are several.
+std::string typed_after(const std::string& name, int argc, char** argv) {
+  std::string value;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == name && i + 1 < argc) value = argv[i + 1];
+    if (word.starts_with(name + "=")) value = word.substr(name.size() + 1);
+  }
+  return value;
+}
+
+/// The options of a system of the user's own are known only when it is loaded: before the others are read.
+void load_named_system(int argc, char** argv) {
+  std::string name = typed_after("--system", argc, argv);
+  const std::string file = typed_after("--config", argc, argv);
+  if (name.empty() && !file.empty()) name = system_in_options_file(file);
+  if (!is_path_of_system(name)) return;
+  on_first(world(), [&] { declaration_of(name); });  // compiles, if it must, once
+  declaration_of(name);
+}
+
+/// In the order of the help.
+std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
+  try {
+    return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
+            offer_compare(app, common), offer_recommend(app, common), offer_stability(app, common),
+            offer_new(app, common),     offer_build(app, common),     offer_reproduce(app, common),
+            offer_cite(app, common)};
+  } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
+    refuse("a parameter of the system has the name of an option: {}; call it otherwise", problem.what());
+  }
+}
+
 /// Ranks may have different numbers of threads.
 std::string without_threads(const std::string& options) {
   std::istringstream lines(options);
@@ -103,6 +138,7 @@ std::string without_threads(const std::string& options) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  load_named_system(argc, argv);
   common_settings common;
   common.threads = usual_threads();
   common.command = as_typed(argc, argv);
@@ -114,11 +150,7 @@ int run_command_line(int argc, char** argv) {
   app.set_config("--config", "", "TOML file of options, as typed without the dashes");
   app.config_formatter(std::make_shared<options_file>(app));
   app.allow_config_extras(CLI::config_extras_mode::error);
-  // In the order of the help.
-  const std::vector<subcommand> all{offer_list(app, common),      offer_learn(app, common),
-                                    offer_run(app, common),       offer_compare(app, common),
-                                    offer_recommend(app, common), offer_stability(app, common),
-                                    offer_reproduce(app, common), offer_cite(app, common)};
+  const std::vector<subcommand> all = offer_all(app, common);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());

@@ -10,9 +10,11 @@ inline constexpr int done = 0;
 inline constexpr int bad_input = 2;
 inline constexpr int no_result = 3;  // every trajectory diverged, or the fit is not usable
 
+int build(const build_command& command, const common_settings& common);
 int cite(const cite_command& command, const common_settings& common);
-int list(const common_settings& common);
+int list(const list_command& command, const common_settings& common);
 int learn(const learn_command& command, const common_settings& common);
+int new_system(const new_command& command, const common_settings& common);
 int run(const run_command& command, const common_settings& common);
 int compare(const compare_command& command, const common_settings& common);
 int recommend(const recommend_command& command, const common_settings& common);

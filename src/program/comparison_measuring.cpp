@@ -46,8 +46,8 @@ void comparison::learn_and_measure(journal& kept) {
     for (finding& one : line.findings) one.reason = line.reason;
   }
   for (const auto& [step, all] : by_step) {
-    const auto has_samples = [&](const asked_metric& metric) {
-      return too_few_samples(metric, step).empty();
+    const auto has_samples = [this, at = step](const asked_metric& metric) {
+      return too_few_samples(metric, at).empty();
     };
     if (std::ranges::any_of(along_paths(), has_samples)) measure_paths(step, usable(all), kept);
     for (std::size_t m = 0; m < metrics_.size(); ++m) {

@@ -3,8 +3,9 @@
 
 #include <array>
 
-#include "bundled_system.hpp"
+#include "bundled_systems.hpp"
 #include "catalogue.hpp"
+#include "refusal.hpp"
 #include "stability.hpp"
 
 namespace nysalt::program {
@@ -21,19 +22,27 @@ constexpr std::array metrics{
     std::array{"distribution", "total variation of the observable's law from the reference's"},
     std::array{"acf", "RMS error of the observable's normalised autocovariance"}};
 
-json systems_json() {
+/// Of the system that is bundled under a name, or in a file.
+json system_json(const std::string& name) {
+  const system_declaration& declared = declaration_of(name);
+  system_settings settings;
+  settings.name = name;
+  const auto system = make_system(settings);
+  return {{"name", declared.name},
+          {"options", options_of(declared)},
+          {"hamiltonian", declared.title},
+          {"starts", system->starts()},
+          {"observables", system->observables()},
+          {"default_observable", system->default_observable()}};
+}
+
+json systems_json(const std::string& own_system) {
   json all = json::array();
-  for (const auto& entry : system_entries()) {
-    system_settings settings;
-    settings.name = entry.name;
-    const auto system = make_system(settings);
-    all.push_back({{"name", entry.name},
-                   {"options", entry.options},
-                   {"hamiltonian", entry.hamiltonian},
-                   {"starts", system->starts()},
-                   {"observables", system->observables()},
-                   {"default_observable", system->default_observable()}});
+  for (const auto& declared : bundled_declarations()) all.push_back(system_json(declared.name));
+  if (!own_system.empty() && !is_path_of_system(own_system)) {
+    refuse("--system must be the file of a system of your own, got {}", own_system);
   }
+  if (!own_system.empty()) all.push_back(system_json(own_system));
   return all;
 }
 
@@ -82,8 +91,8 @@ json families_json() {
 
 }  // namespace
 
-json listing() {
-  json all{{"systems", systems_json()}, {"methods", methods_json()}, {"families", families_json()}};
+json listing(const std::string& own_system) {
+  json all{{"systems", systems_json(own_system)}, {"methods", methods_json()}, {"families", families_json()}};
   for (const auto& [name, meaning] : metrics)
     all["metrics"].push_back({{"name", name}, {"meaning", meaning}});
   return all;

@@ -2,11 +2,14 @@
 // What there is by name: systems, methods, families and metrics.
 #pragma once
 
+#include <string>
+
 #include "json.hpp"
 
 namespace nysalt::program {
 
-/// As `list --json` prints it. Cost: the windows of stability of all methods, some milliseconds.
-json listing();
+/// As `list --json` prints it, with a system of the user's own if its file is named. Cost: the windows of
+/// stability of all methods, some milliseconds.
+json listing(const std::string& own_system = "");
 
 }  // namespace nysalt::program

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bundled_systems.hpp"
 #include "catalogue.hpp"
 #include "json.hpp"
 #include "method_source.hpp"
@@ -28,8 +29,10 @@ cited_setup setup_of(const scheme& learned) {
   cited_setup setup;
   setup.learned = {learned.family};
   const std::string name = learned.system.substr(0, learned.system.find('('));
-  for (const auto& entry : system_entries()) {
-    if (entry.described == name) setup.system = entry.name;
+  for (const auto& declared : bundled_declarations()) {
+    if (name == (declared.described.empty() ? declared.name : declared.described)) {
+      setup.system = declared.name;
+    }
   }
   setup.in_bath = learned.system.find(" in bath(") != std::string::npos;
   return setup;

@@ -16,7 +16,9 @@
 namespace nysalt::program {
 
 /// As people read them: families of names once.
-inline std::vector<std::string> observable_names(const model& system, const stiff_springs& springs) {
+inline std::vector<std::string> observable_names(const made_system& made) {
+  const model& system = made.system;
+  const auto& springs = made.springs;
   std::vector<std::string> names{"energy", "kinetic_energy", "potential_energy", "kinetic_temperature"};
   const auto range = [&](const char* stem, Eigen::Index last) {
     names.push_back(last == 1 ? fmt::format("{}1", stem) : fmt::format("{0}1..{0}{1}", stem, last));
@@ -27,6 +29,7 @@ inline std::vector<std::string> observable_names(const model& system, const stif
     names.insert(names.begin(), "stiff_energy");
     range("stiff_energy_", springs.pairs);
   }
+  for (const auto& own : made.observables) names.push_back(own.name);
   return names;
 }
 
@@ -40,11 +43,15 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
   return is_number && 1 <= index && index <= last ? index : 0;
 }
 
-/// A function of the state of one trajectory, or of those in the lanes of packs. Refers to the system and the
-/// springs. Throws refusal, listing the names, if there is none of that name.
-inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const model& system,
-                                                                         const stiff_springs& springs,
+/// A function of the state of one trajectory, or of those in the lanes of packs. Refers to what
+/// was made. Throws refusal, listing the names, if there is none of that name.
+inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const made_system& made,
                                                                          const std::string& name) {
+  const model& system = made.system;
+  const auto& springs = made.springs;
+  for (const auto& own : made.observables) {
+    if (own.name == name) return own.value;
+  }
   if (name == "energy") {
     return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) { return energy<T>(system, x); };
   }
@@ -74,7 +81,7 @@ inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const m
     if (name == "stiff_energy") return spring_energy(-1);
     if (const auto j = index_after(name, "stiff_energy_", springs.pairs)) return spring_energy(j - 1);
   }
-  const auto known = observable_names(system, springs);
+  const auto known = observable_names(made);
   // Of a numbered one the number may be wrong: "q1..q6" says which there are.
   const bool is_numbered = !name.empty() && name.back() >= '0' && name.back() <= '9';
   refuse("unknown observable '{}' of {}: {}", name, describe(system),

@@ -2,6 +2,7 @@
 #include "options_file.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -85,6 +86,16 @@ std::string plain_toml(std::istream& input) {
 }
 
 }  // namespace
+
+std::string system_in_options_file(const std::string& file) {
+  std::ifstream input(file);
+  if (!input) return {};  // told where options are read
+  std::istringstream text(plain_toml(input));
+  for (const auto& item : CLI::ConfigTOML().from_config(text)) {
+    if (item.name == "system" && !item.inputs.empty()) return item.inputs.front();
+  }
+  return {};
+}
 
 std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) const {
   std::istringstream text(plain_toml(input));

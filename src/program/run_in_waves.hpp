@@ -31,13 +31,13 @@ inline std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std:
 /// bundled_system::run, with as many trajectories side by side as P has lanes. Rank 0 takes, and its plan
 /// says where to begin; all ranks call the function.
 template <class P>
-void run_in_waves(const model& system, const stiff_springs& springs, const initial_states& starts,
-                  const tabulated& method, const sampled_plan& plan,
-                  const std::function<void(std::int64_t, const record&)>& take, const counter& progress,
-                  const communicator& ranks) {
+void run_in_waves(const made_system& made, const initial_states& starts, const tabulated& method,
+                  const sampled_plan& plan, const std::function<void(std::int64_t, const record&)>& take,
+                  const counter& progress, const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
+  const model& system = made.system;
   std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
-  for (const auto& name : plan.observables) watched.push_back(observable(system, springs, name));
+  for (const auto& name : plan.observables) watched.push_back(observable(made, name));
   const auto read = [&](const states& x, std::span<P> values) {
     for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
   };

@@ -28,6 +28,8 @@ int run_program(int argc, char** argv) {
         "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");
   } catch (const std::exception& problem) {
     return refused(problem.what());
+  } catch (...) {  // by a system of the user's own
+    return refused("something was thrown that is no std::exception: which it is cannot be told");
   }
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "../plugin/potential.hpp"
+
 namespace nysalt::program {
 
 class bundled_system;
@@ -36,13 +38,8 @@ struct system_settings {
   std::string name = "fpu";
   /// A system of the caller's own, under that name; empty: one of ours.
   std::function<std::unique_ptr<bundled_system>(const surroundings&)> own = {};
-  std::optional<std::int64_t> pairs;
-  std::optional<double> omega;
-  std::optional<std::int64_t> masses;
-  std::optional<double> spring;
-  std::optional<std::int64_t> atoms;
-  std::optional<std::int64_t> space;
-  std::optional<double> eccentricity;
+  std::map<std::string, std::string> parameters{};  // by name, as typed
+  typed_potential potential{};                      // instead of a name
   std::optional<double> spread;
   bath_settings bath;
   std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
@@ -149,6 +146,19 @@ struct reproduce_command {
   std::vector<std::string> parts;  // of the paper; empty: all
   std::string output;              // a folder
   bool quick = false;
+};
+
+struct list_command {
+  std::string system;  // the file of one, listed too; empty: none
+};
+
+struct build_command {
+  std::string source;
+  std::string output;  // empty: beside where the program runs
+};
+
+struct new_command {
+  std::string name;
 };
 
 struct cite_command {

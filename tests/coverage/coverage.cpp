@@ -96,7 +96,7 @@ std::vector<row> rows_at(const bundled_system& system, const std::string& name, 
 std::vector<std::string> names_of(const extent& what) {
   if (!what.systems.empty()) return what.systems;
   std::vector<std::string> all;
-  for (const auto& entry : system_entries()) all.push_back(entry.name);
+  for (const auto& declared : bundled_declarations()) all.push_back(declared.name);
   return all;
 }
 

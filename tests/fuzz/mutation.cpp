@@ -27,9 +27,9 @@ struct dice {
 std::vector<span> words_of(const std::string& text, auto&& belongs) {
   std::vector<span> found;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!belongs(text[i])) continue;
+    if (!belongs(static_cast<unsigned char>(text[i]))) continue;
     const std::size_t first = i;
-    while (i < text.size() && belongs(text[i])) ++i;
+    while (i < text.size() && belongs(static_cast<unsigned char>(text[i]))) ++i;
     found.push_back({first, i});
   }
   return found;

@@ -49,8 +49,8 @@ std::string readable(const json& all) {
 
 }  // namespace
 
-int list(const common_settings& common) {
-  const json all = listing();
+int list(const list_command& command, const common_settings& common) {
+  const json all = listing(command.system);
   print(common.json ? text_of(all) : readable(all));
   return done;
 }

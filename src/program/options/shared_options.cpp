@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "shared_options.hpp"
 
-#include "../bundled_system.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "../../plugin/plugin.hpp"
+#include "../bundled_systems.hpp"
+#include "../comma_list.hpp"
+#include "../number.hpp"
 #include "number_option.hpp"
 
 namespace nysalt::program {
@@ -18,27 +27,89 @@ void add_force(CLI::App& command, common_settings& common, const char* what) {
   command.add_flag("--force", common.force, what);
 }
 
-void add_system(CLI::App& command, system_settings& system, const char* start) {
+namespace {
+
+struct parameter_option {
+  std::string name;
+  std::string help;
+  const char* type;
+};
+
+void add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
+              const std::string& help) {
+  const auto take = [&list](const CLI::results_t& texts) {
+    list.clear();
+    for (const auto& text : texts) {
+      for (const auto& one : split_at_commas(text)) list.push_back(one);
+    }
+    return true;
+  };
+  command.add_option(name, take, help)->type_name("TEXT")->expected(1, 1000)->take_all();
+}
+
+/// Of all systems; several may have one of the same name: "linear_chain, phi4: of the chain [8], of the ring
+/// [16]".
+std::vector<parameter_option> parameters_of_systems() {
+  std::vector<parameter_option> all;
+  const auto add = [&](const system_declaration& system) {
+    for (const auto& parameter : system.parameters) {
+      const std::string help =
+          fmt::format("{}: {} [{}]", system.name, parameter.meaning,
+                      std::visit([](auto usual) { return fmt::format("{}", usual); }, parameter.usual));
+      const auto known = std::ranges::find(all, parameter.name, &parameter_option::name);
+      if (known == all.end()) {
+        all.push_back({parameter.name, help, parameter.is_whole() ? "INTEGER" : "NUMBER"});
+      } else {
+        known->help += "; " + help;
+      }
+    }
+  };
+  for (const auto& system : bundled_declarations()) add(system);
+  for (const system_declaration* system : loaded_plugins()) add(*system);
+  return all;
+}
+
+}  // namespace
+
+std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system, const char* start) {
+  const std::size_t before = command.get_options().size();
   // At once, before an option is missed that follows it: which options there are depends on the system.
   const auto is_known = [](const std::string& name) {
-    require_known_system(name);
+    declaration_of(name);
     return std::string();
   };
-  command.add_option("--system", system.name, "nysalt list shows all")
-      ->capture_default_str()
-      ->check(is_known);
-  add_number(command, "--pairs", system.pairs, "fpu: pairs of masses [3]");
-  add_number(command, "--omega", system.omega, "fpu, oscillator: stiff frequency [50]");
-  add_number(command, "--masses", system.masses, "linear_chain [8], phi4 [16]");
-  add_number(command, "--spring", system.spring, "linear_chain [1]");
-  add_number(command, "--atoms", system.atoms, "lennard_jones [7]");
-  add_number(command, "--space", system.space, "lennard_jones: 2 or 3 dimensions [2]");
+  CLI::Option* named =
+      command.add_option("--system", system.name, "a name that nysalt list shows, or the file of your own")
+          ->capture_default_str()
+          ->check(is_known);
+  command.add_option("--potential", system.potential.text, "instead: V as text, such as 0.5*k*(x^2 + y^2)")
+      ->excludes(named);
+  add_list(command, "--variables", system.potential.variables,
+           "of the potential: its coordinates, x,y or q[16]");
+  add_list(command, "--parameter", system.potential.parameters, "of the potential: k=400,l=2");
+  add_list(command, "--around", system.potential.around, "where its starts are: x=1 [0]");
+  const auto take_masses = [&masses = system.potential.masses](const CLI::results_t& texts) {
+    masses.clear();
+    for (const auto& one : split_at_commas(texts.back())) masses.push_back(number_of<double>("--mass", one));
+    return true;
+  };
+  command.add_option("--mass", take_masses, "of its coordinates: one, or one for each [1]")
+      ->type_name("NUMBERS");
+  for (const auto& [name, help, type] : parameters_of_systems()) {
+    const auto take = [name = name, &system](const CLI::results_t& texts) {
+      system.parameters[name] = texts.back();
+      return true;
+    };
+    command.add_option("--" + name, take, help)->type_name(type);
+  }
   add_number(command, "--friction", system.bath.friction, "of a bath: gamma; with --sigma or --temperature");
   add_number(command, "--sigma", system.bath.sigma, "of its noise");
   add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
-  add_number(command, "--eccentricity", system.eccentricity, "kepler: of the starts [0.6]");
   add_number(command, "--spread", system.spread, "of the law of starts: multiplies its deviations [1]");
   command.add_option("--start", system.start, start);
+  std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
+  added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));
+  return added;
 }
 
 void add_placement(CLI::App& command, std::string& placement) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "../settings.hpp"
 
@@ -13,9 +14,11 @@ namespace nysalt::program {
 void add_common(CLI::App& command, common_settings& common);
 void add_force(CLI::App& command, common_settings& common, const char* what);
 
-/// A system, what it is in, and where trajectories start in it; `start` says what --start is.
-void add_system(CLI::App& command, system_settings& system,
-                const char* start = "law, gibbs or trajectory [gibbs in a bath, else law]");
+/// A system, what it is in, and where trajectories start in it; `start` says what --start is. Returns the
+/// options.
+std::vector<CLI::Option*> add_system(
+    CLI::App& command, system_settings& system,
+    const char* start = "law, gibbs or trajectory [gibbs in a bath, else law]");
 
 /// How methods meet a bath.
 void add_placement(CLI::App& command, std::string& placement);

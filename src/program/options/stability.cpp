@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "subcommand.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +27,10 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   command.add_option("--method", asked.method, "a name, or the file of a scheme or table");
   command.add_option("--family", asked.family, "with --parameters");
   command.add_option("--parameters", typed->parameters, "of the family, joined by commas");
-  add_system(command, typed->system,
-             "law, gibbs or trajectory: as run takes it; frequencies are those of law");
-  add_number(command, "--step", asked.step, "with --system: is the system stable there?");
+  auto of_system = add_system(command, typed->system,
+                              "law, gibbs or trajectory: as run takes it; frequencies are those of law");
+  of_system.push_back(
+      add_number(command, "--step", asked.step, "with --system: is the system stable there?"));
   command.add_option("--output", asked.output, "write trace/2 over z as CSV");
   command.add_flag("--plot", asked.plot, "draw it beside the output: windows, and the system's z");
   add_common(command, common);
@@ -38,13 +40,10 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
       "  nysalt stability --family nystrom --parameters 0.5,0.4\n"
       "  nysalt stability --method bcss3 --system fpu --step 0.04\n"
       "  nysalt stability --method mclachlan2 --system kepler --step 0.1 --output trace.csv --plot");
-  const auto run_it = [typed, &asked, &command, &common] {
+  const auto run_it = [typed, of_system, &asked, &common] {
     asked.parameters = numbers_of(typed->parameters, "--parameters");
-    for (const char* option :
-         {"--system", "--pairs", "--omega", "--masses", "--spring", "--atoms", "--space", "--eccentricity",
-          "--spread", "--start", "--friction", "--sigma", "--temperature", "--step"}) {
-      if (command.count(option) > 0) asked.system = typed->system;
-    }
+    const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+    if (std::ranges::any_of(of_system, is_given)) asked.system = typed->system;
     int code = done;
     on_first(world(), [&] { code = stability(asked, common); });
     broadcast(world(), code);

@@ -16,10 +16,12 @@ struct subcommand {
 };
 
 // Each is added to the program; its common options are read into `common`, which must outlive it.
+subcommand offer_build(CLI::App& app, common_settings& common);
 subcommand offer_cite(CLI::App& app, common_settings& common);
 subcommand offer_compare(CLI::App& app, common_settings& common);
 subcommand offer_learn(CLI::App& app, common_settings& common);
 subcommand offer_list(CLI::App& app, common_settings& common);
+subcommand offer_new(CLI::App& app, common_settings& common);
 subcommand offer_recommend(CLI::App& app, common_settings& common);
 subcommand offer_reproduce(CLI::App& app, common_settings& common);
 subcommand offer_run(CLI::App& app, common_settings& common);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "setting.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +28,7 @@ trajectories_plan plan_of(const setting& setup, double step, double horizon, std
 
 std::unique_ptr<bundled_system> chain(double frequency, double spread) {
   system_settings asked;
-  asked.omega = frequency;
+  asked.parameters["omega"] = fmt::format("{}", frequency);
   asked.spread = spread;
   return make_system(asked);
 }

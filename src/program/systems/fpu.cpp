@@ -3,34 +3,49 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
-#include "../refusal.hpp"
 
 namespace nysalt::program {
 
 namespace {
 template <int Pairs>
-std::unique_ptr<bundled_system> make(const fpu_chain<Pairs>& chain, const surroundings& conditions) {
-  const std::vector<named_value> parameters{
-      {"name", "fpu"}, {"pairs", chain.pairs()}, {"omega", chain.omega()}};
-  return make_bundled(chain, conditions, fpu_law<Pairs>(chain, conditions.spread),
-                      {parameters, chain.omega(), "stiff_energy"});
+made_system made(const fpu_chain<Pairs>& chain, const bath& in, const fpu_law<Pairs>& law) {
+  auto result = detail::made_of(chain, in, law, chain.omega());
+  result.default_observable = "stiff_energy";
+  return result;
 }
 }  // namespace
 
 std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
   const fpu_chain<3> chain(omega);
+  const auto no_bath = bath::of_sigma(0.0, 0.0);
   const std::vector<named_value> parameters{
       {"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
-  return make_bundled(chain, surroundings{bath::of_sigma(0.0, 0.0), start::law},
-                      fpu_law<3>::soft_dominated(chain), {parameters, omega, "stiff_energy"});
+  return make_bundled(made(chain, no_bath, fpu_law<3>::soft_dominated(chain)), parameters,
+                      {no_bath, start::law});
 }
 
-std::unique_ptr<bundled_system> make_fpu(std::int64_t pairs, double omega, const surroundings& conditions) {
-  constexpr std::int64_t most = 1'000'000;  // a state of some tens of megabytes
-  if (pairs > most) refuse("--pairs must be at most {}, got {}", most, pairs);
-  if (pairs == 3)
-    return make(fpu_chain<3>(omega), conditions);  // the paper's, of a size known to the compiler
-  return make(fpu_chain<>(pairs, omega), conditions);
+system_declaration declare_fpu() {
+  system_declaration fpu{.name = "fpu",
+                         .title = "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"};
+  fpu.parameters = {{.name = "pairs",
+                     .usual = 3,
+                     .meaning = "pairs of masses",
+                     .least = 1,
+                     .most = 1'000'000},  // a state of some tens of megabytes
+                    {.name = "omega", .usual = 50.0, .meaning = "stiff frequency"}};
+  fpu.make = [](const parameter_values& values, const bath& in, double spread) {
+    const auto pairs = values.whole("pairs");
+    const double omega = values.real("omega");
+    if (pairs == 3) {  // the paper's, of a size known to the compiler
+      const fpu_chain<3> chain(omega);
+      return made(chain, in, fpu_law<3>(chain, spread));
+    }
+    const fpu_chain<> chain(pairs, omega);
+    return made(chain, in, fpu_law<Eigen::Dynamic>(chain, spread));
+  };
+  fpu.described = "fpu_chain";
+  fpu.source = "hairer_lubich_wanner_2006";
+  return fpu;
 }
 
 }  // namespace nysalt::program

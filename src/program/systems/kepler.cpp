@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/kepler.hpp"
 
-#include "../bundled_model.hpp"
+#include <cmath>
+
 #include "../bundled_systems.hpp"
-#include "../refusal.hpp"
 #include "nysalt/ensembles/kepler_law.hpp"
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_kepler(double eccentricity, const surroundings& conditions) {
-  if (!(eccentricity >= 0.0 && eccentricity < 1.0)) {
-    refuse("--eccentricity must be at least 0 and below 1, got {}", eccentricity);
-  }
-  // V'' = 2/r^3 at the pericentre, r = 1 - e.
-  const double fastest = std::sqrt(2.0 / std::pow(1.0 - eccentricity, 3));
-  const std::vector<named_value> parameters{{"name", "kepler"}, {"eccentricity", eccentricity}};
-  return make_bundled(kepler(), conditions, kepler_law(eccentricity), {parameters, fastest, "energy"});
+system_declaration declare_kepler() {
+  system_declaration result{.name = "kepler",
+                            .title = "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1"};
+  result.parameters = {
+      {.name = "eccentricity", .usual = 0.6, .meaning = "of the starts", .least = 0.0, .below = 1.0}};
+  result.make = [](const parameter_values& values, const bath& in, double) {
+    const double eccentricity = values.real("eccentricity");
+    // V'' = 2/r^3 at the pericentre, r = 1 - e.
+    const double fastest = std::sqrt(2.0 / std::pow(1.0 - eccentricity, 3));
+    return detail::made_of(kepler(), in, kepler_law(eccentricity), fastest);
+  };
+  result.has_spread = false;
+  result.source = "hairer_lubich_wanner_2006";
+  return result;
 }
 
 }  // namespace nysalt::program

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/lennard_jones.hpp"
 
-#include "../bundled_model.hpp"
+#include <cmath>
+
 #include "../bundled_systems.hpp"
-#include "../refusal.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 
 namespace nysalt::program {
@@ -20,18 +20,24 @@ double frequency_at_turning_point(double temperature) {
 
 }  // namespace
 
-std::unique_ptr<bundled_system> make_lennard_jones(std::int64_t space, std::int64_t atoms,
-                                                   const surroundings& conditions) {
-  constexpr std::int64_t most = 50;  // the minimum of so many atoms is found in a second
-  if (space != 2 && space != 3) refuse("--space must be 2 or 3, got {}", space);
-  if (atoms < 2 || atoms > most) refuse("--atoms must be at least 2 and at most {}, got {}", most, atoms);
-  // The cluster shakes, and no atom leaves.
-  const double temperature = 0.1 * conditions.spread * conditions.spread;
-  const lennard_jones<> system(space, atoms);
-  using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
-  const std::vector<named_value> parameters{{"name", "lennard_jones"}, {"atoms", atoms}, {"space", space}};
-  return make_bundled(system, conditions, law(system, temperature),
-                      {parameters, frequency_at_turning_point(temperature), "energy"});
+system_declaration declare_lennard_jones() {
+  system_declaration result{.name = "lennard_jones",
+                            .title = "a cluster of atoms, 4 (r^-12 - r^-6) each pair"};
+  result.parameters = {{.name = "atoms",
+                        .usual = 7,
+                        .meaning = "of the cluster",
+                        .least = 2,
+                        .most = 50},  // the minimum of so many is found in a second
+                       {.name = "space", .usual = 2, .meaning = "dimensions: 2 or 3", .least = 2, .most = 3}};
+  result.make = [](const parameter_values& values, const bath& in, double spread) {
+    // The cluster shakes, and no atom leaves.
+    const double temperature = 0.1 * spread * spread;
+    const lennard_jones<> system(values.whole("space"), values.whole("atoms"));
+    using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
+    return detail::made_of(system, in, law(system, temperature), frequency_at_turning_point(temperature));
+  };
+  result.source = "verlet_1967";
+  return result;
 }
 
 }  // namespace nysalt::program

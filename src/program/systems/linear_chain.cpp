@@ -3,23 +3,28 @@
 
 #include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
-#include "../refusal.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_linear_chain(std::int64_t masses, double spring,
-                                                  const surroundings& conditions) {
-  constexpr std::int64_t most = 1000;  // the modes of a chain are found from a full matrix: seconds
-  if (masses > most) refuse("--masses must be at most {}, got {}", most, masses);
-  const auto chain = linear_chain::between_walls(masses, spring);
-  const double fastest = chain.frequency_bands().back().high;
-  using law = normal_around<Eigen::Dynamic>;
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
-  const std::vector<named_value> parameters{{"name", "linear_chain"}, {"masses", masses}, {"spring", spring}};
-  return make_bundled<true>(chain, conditions,
-                            law({rest, rest}, conditions.spread / fastest, conditions.spread),
-                            {parameters, fastest, "energy"});
+system_declaration declare_linear_chain() {
+  system_declaration result{.name = "linear_chain",
+                            .title = "equal masses between walls, joined by linear springs"};
+  result.parameters = {{.name = "masses",
+                        .usual = 8,
+                        .meaning = "of the chain",
+                        .least = 1,
+                        .most = 1000},  // the modes of a chain are found from a full matrix: seconds
+                       {.name = "spring", .usual = 1.0, .meaning = "stiffness"}};
+  result.make = [](const parameter_values& values, const bath& in, double spread) {
+    const auto masses = values.whole("masses");
+    const auto chain = linear_chain::between_walls(masses, values.real("spring"));
+    const double fastest = chain.frequency_bands().back().high;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(masses);
+    const normal_around<Eigen::Dynamic> law({rest, rest}, spread / fastest, spread);
+    return with_exact_flow(chain, in, detail::made_of(chain, in, law, fastest));
+  };
+  return result;
 }
 
 }  // namespace nysalt::program

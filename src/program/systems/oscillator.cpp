@@ -6,13 +6,19 @@
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_oscillator(double omega, const surroundings& conditions) {
-  const harmonic_oscillator oscillator(omega);
-  // Of energy kT = 1 in the mean.
-  const vector<double, 1> rest(0.0);
-  const normal_around<1> law({rest, rest}, conditions.spread / omega, conditions.spread);
-  const std::vector<named_value> parameters{{"name", "oscillator"}, {"omega", omega}};
-  return make_bundled<true>(oscillator, conditions, law, {parameters, omega, "energy"});
+system_declaration declare_oscillator() {
+  system_declaration result{.name = "oscillator", .title = "p^2/2 + omega^2 q^2/2"};
+  result.parameters = {{.name = "omega", .usual = 50.0, .meaning = "frequency"}};
+  result.make = [](const parameter_values& values, const bath& in, double spread) {
+    const double omega = values.real("omega");
+    const harmonic_oscillator oscillator(omega);
+    // Of energy kT = 1 in the mean.
+    const vector<double, 1> rest(0.0);
+    const normal_around<1> law({rest, rest}, spread / omega, spread);
+    return with_exact_flow(oscillator, in, detail::made_of(oscillator, in, law, omega));
+  };
+  result.described = "harmonic_oscillator";
+  return result;
 }
 
 }  // namespace nysalt::program

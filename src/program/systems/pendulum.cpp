@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/pendulum.hpp"
 
-#include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 
 namespace nysalt::program {
 
-std::unique_ptr<bundled_system> make_pendulum(const surroundings& conditions) {
-  // Swings: the pendulum goes over the top from |p| = 2 at the bottom.
-  const vector<double, 1> rest(0.0);
-  const normal_around<1> law({rest, rest}, 0.5 * conditions.spread, 0.5 * conditions.spread);
-  return make_bundled(pendulum(), conditions, law, {{{"name", "pendulum"}}, 1.0, "energy"});
+system_declaration declare_pendulum() {
+  system_declaration result{.name = "pendulum", .title = "p^2/2 - cos q"};
+  result.make = [](const parameter_values&, const bath& in, double spread) {
+    // Swings: the pendulum goes over the top from |p| = 2 at the bottom.
+    const vector<double, 1> rest(0.0);
+    const normal_around<1> law({rest, rest}, 0.5 * spread, 0.5 * spread);
+    return detail::made_of(pendulum(), in, law, 1.0);
+  };
+  return result;
 }
 
 }  // namespace nysalt::program

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSL-1.0
+// A system as a value that the program can offer: its parameters, and how it is made of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/bath.hpp"
+#include "nysalt/detail/any_reference.hpp"
+#include "nysalt/detail/over_scalars.hpp"
+#include "nysalt/initial_states.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/systems/in_bath.hpp"
+
+namespace nysalt {
+
+/// A whole or a real number.
+using parameter_value = std::variant<std::int64_t, double>;
+
+/// A number that a system is made of, as options, help, files and Python name it.
+struct declared_parameter {
+  std::string name;       ///< lower-case letters, digits and _: the option is --name
+  parameter_value usual;  ///< where none is given; it says whether the number is whole
+  std::string meaning{};  ///< for the help
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  double below = std::numeric_limits<double>::infinity();  ///< this itself is not allowed
+  bool is_positive = false;  ///< 0 is not allowed, nor is anything below
+
+  bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
+  /// Throws std::invalid_argument, in a sentence that begins with the name of the option, for a value that is
+  /// not within the bounds, or not finite.
+  void require(const parameter_value& value) const;
+};
+
+/// Values of all parameters of a system, in the order of their declaration.
+class parameter_values {
+ public:
+  void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), value); }
+  const std::vector<std::pair<std::string, parameter_value>>& all() const { return all_; }
+  /// Throws std::invalid_argument if none has the name.
+  const parameter_value& operator[](std::string_view name) const;
+  std::int64_t whole(std::string_view name) const { return std::get<std::int64_t>((*this)[name]); }
+  double real(std::string_view name) const;  ///< a whole number too
+
+ private:
+  std::vector<std::pair<std::string, parameter_value>> all_;
+};
+
+/// A function of a state, by name.
+struct named_observable {
+  std::string name;
+  detail::over_scalars<detail::of_state> value;
+};
+
+namespace detail {
+
+template <class T>
+using energy_of_spring = T(const phase_point<T, Eigen::Dynamic>& x, Eigen::Index j);
+
+/// The energies of the stiff springs of a system that has some.
+struct stiff_springs {
+  Eigen::Index pairs = 0;                   ///< 0: there are none
+  over_scalars<energy_of_spring> energy{};  ///< of spring j, and of all if j < 0
+};
+
+template <class S>
+stiff_springs stiff_springs_of(const S& system) {
+  stiff_springs result;
+  if constexpr (HasStiffEnergies<S> && HasStiffEnergiesOver<S, lanes>) {
+    const auto energy = [system]<class T>(const phase_point<T, Eigen::Dynamic>& x, Eigen::Index j) -> T {
+      const auto& own = of_dimension<S::dimension>(x);
+      if (j >= 0) return system.stiff_energy(own, j);
+      T sum = system.stiff_energy(own, 0);
+      if constexpr (requires { system.stiff_energy(own); }) {
+        sum = system.stiff_energy(own);
+      } else {
+        for (Eigen::Index k = 1; k < system.pairs(); ++k) sum += system.stiff_energy(own, k);
+      }
+      return sum;
+    };
+    result = {system.pairs(), energy};
+  }
+  return result;
+}
+
+/// Throws std::invalid_argument: a bath acts on systems with K = p^2/2m alone.
+[[noreturn]] void refuse_bath(const std::string& system);
+
+/// The system as a model, in a bath that may not act.
+template <SeparableSystem S>
+model put_in(const S& system, const bath& in) {
+  if constexpr (NystromSystem<S> && !HasBath<S> && !std::is_final_v<S>) {
+    return in_bath<S>(system, in);
+  } else {
+    if (in.acts()) refuse_bath(describe(system));
+    return system;
+  }
+}
+
+}  // namespace detail
+
+/// A system that is made of its parameters.
+struct made_system {
+  nysalt::model system;    ///< in its bath
+  initial_states starts;   ///< its law of them
+  double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
+  std::vector<named_observable> observables{};  ///< beside those of every system
+  std::string default_observable = "energy";
+  double fine_angle = 5e-3;  ///< of a reference's step, times the frequency: there srkn11b errs by rounding
+  detail::stiff_springs springs{};
+  bool has_linear_force = false;
+  std::shared_ptr<const detail::any_reference> exact{};  ///< the exact flow of the system, if it is known
+};
+
+namespace detail {
+/// A system in a bath, with a law of starts and the highest frequency from them.
+template <SeparableSystem S>
+made_system made_of(const S& system, const bath& in, initial_states starts, double frequency) {
+  return {.system = put_in(system, in),
+          .starts = std::move(starts),
+          .frequency = frequency,
+          .springs = stiff_springs_of(system)};
+}
+}  // namespace detail
+
+/// All that there is to say of a system before its parameters are known.
+struct system_declaration {
+  std::string name;   ///< by which commands and files know it
+  std::string title;  ///< one line: its Hamiltonian, in words or as a formula
+  std::vector<declared_parameter> parameters{};
+  /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
+  /// std::invalid_argument for values that cannot be.
+  std::function<made_system(const parameter_values&, const bath&, double spread)> make{};
+  bool has_spread = true;   ///< its law of starts has deviations
+  std::string described{};  ///< with what its description begins, if not with its name
+  std::string source{};     ///< in docs/bibliography.bib
+  bool is_checked = false;  ///< its force is known to be that of its potential
+};
+
+}  // namespace nysalt

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+namespace nysalt {
+
+inline constexpr const char* version = "0.1.0";  ///< of the headers; the build reads it here
+
+}  // namespace nysalt

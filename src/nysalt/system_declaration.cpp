@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/system_declaration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "nysalt/detail/sentence.hpp"
+
+namespace nysalt {
+
+namespace {
+
+double as_real(const parameter_value& value) {
+  return std::visit([](auto number) { return static_cast<double>(number); }, value);
+}
+
+std::string text_of(const parameter_value& value) {
+  return std::visit([](auto number) { return sentence("{}", number); }, value);
+}
+
+std::string text_of_bound(const declared_parameter& parameter, double bound) {
+  return parameter.is_whole() ? sentence("{}", static_cast<std::int64_t>(bound)) : sentence("{}", bound);
+}
+
+}  // namespace
+
+void declared_parameter::require(const parameter_value& value) const {
+  const double x = as_real(value);
+  const auto refuse = [&](const std::string& condition) {
+    throw std::invalid_argument(sentence("--{} must be {}, got {}", name, condition, text_of(value)));
+  };
+  if (!std::isfinite(x)) refuse("finite");
+  if (is_positive && !(x > 0.0)) refuse("positive");
+  if (!(x < below)) refuse("below " + text_of_bound(*this, below));
+  if (x < least) refuse("at least " + text_of_bound(*this, least));
+  if (x > most) refuse("at most " + text_of_bound(*this, most));
+}
+
+const parameter_value& parameter_values::operator[](std::string_view name) const {
+  const auto found = std::ranges::find_if(all_, [&](const auto& one) { return one.first == name; });
+  if (found == all_.end()) throw std::invalid_argument(sentence("no parameter is called {}", name));
+  return found->second;
+}
+
+double parameter_values::real(std::string_view name) const { return as_real((*this)[name]); }
+
+void detail::refuse_bath(const std::string& system) {
+  throw std::invalid_argument(
+      sentence("{}: a bath acts on systems whose kinetic energy is a sum of p_i^2/(2 m_i)", system));
+}
+
+}  // namespace nysalt

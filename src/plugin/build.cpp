@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "build.hpp"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "../program/refusal.hpp"
+#include "nysalt/plugin.hpp"
+#include "nysalt/report/write_file.hpp"
+
+extern char** environ;
+
+namespace nysalt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> text_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// How plug-ins are compiled: the compiler, its arguments, and behind a line "--" what they are linked with.
+struct recipe {
+  std::vector<std::string> before;
+  std::vector<std::string> libraries;
+};
+
+/// The folder that this code was loaded from.
+fs::path own_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&is_source), &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code ignored;
+  fs::path file = info.dli_fname;
+  // Of a program that was found on the path the name is not where it lies.
+  if (!fs::exists(file, ignored) || !file.has_parent_path())
+    file = fs::read_symlink("/proc/self/exe", ignored);
+  return fs::weakly_canonical(file, ignored).parent_path();
+}
+
+/// Of the build folder or installed tree that this code belongs to.
+recipe recipe_of_library() {
+  for (fs::path folder = own_folder(); !folder.empty(); folder = folder.parent_path()) {
+    for (const fs::path& file : {folder / "plugin.flags", folder / "share" / "nysalt" / "plugin.flags"}) {
+      const auto text = text_of_file(file);
+      if (!text) continue;
+      recipe result;
+      auto* to = &result.before;
+      std::istringstream lines(*text);
+      for (std::string line; std::getline(lines, line);) {
+        const auto at = line.find("{prefix}");
+        if (at != std::string::npos) line.replace(at, std::strlen("{prefix}"), folder.string());
+        if (line == "--") {
+          to = &result.libraries;
+        } else if (!line.empty()) {
+          to->push_back(line);
+        }
+      }
+      if (!result.before.empty()) return result;
+    }
+    if (folder == folder.root_path()) break;
+  }
+  refuse(
+      "how plug-ins are compiled is not known: share/nysalt/plugin.flags is missing; install nysalt's "
+      "development files");
+}
+
+/// A source, and what it includes in quotes, one after the other.
+void append_sources(const fs::path& file, std::set<fs::path>& seen, std::string& to) {
+  std::error_code ignored;
+  if (!seen.insert(fs::weakly_canonical(file, ignored)).second) return;
+  const auto text = text_of_file(file);
+  if (!text) return;
+  to += fmt::format("{} {}\n", text->size(), *text);
+  static const std::regex quoted(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re");
+  for (std::sregex_iterator i(text->begin(), text->end(), quoted); i != std::sregex_iterator(); ++i) {
+    append_sources(file.parent_path() / (*i)[1].str(), seen, to);
+  }
+}
+
+/// 128 bits, by which different sources have different names: FNV-1a from two beginnings.
+std::string name_of(std::string_view text) {
+  const auto hash = [&](std::uint64_t h) {
+    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3U;  // the prime of 64-bit FNV-1a
+    return h;
+  };
+  return fmt::format("{:016x}{:016x}", hash(0xcbf29ce484222325U), hash(0x84222325cbf29ce4U));  // its offset
+}
+
+fs::path cache_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder = cache != nullptr && *cache == '/' ? fs::path(cache)
+                    : home != nullptr && *home == '/' ? fs::path(home) / ".cache"
+                                                      : fs::path();
+  if (folder.empty()) refuse("there is no folder for what is compiled: set HOME or XDG_CACHE_HOME");
+  folder = folder / "nysalt" / "plugins";
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem)
+    refuse("{}: the folder for what is compiled cannot be made: {}", folder.string(), problem.message());
+  return folder;
+}
+
+/// The exit code of a command whose messages go into a file; nothing if it cannot be started.
+std::optional<int> exit_code_of(const std::vector<std::string>& command, const fs::path& messages) {
+  std::vector<char*> arguments;
+  for (const auto& one : command) arguments.push_back(const_cast<char*>(one.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    posix_spawn_file_actions_addopen(&actions, stream, messages.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  }
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return std::nullopt;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// What a person reads first: a sentence of ours if there is one, else the first error.
+std::string first_error(const std::string& messages) {
+  std::istringstream lines(messages);
+  std::string first;
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::string_view of_ours = "static assertion failed: nysalt: ";
+    constexpr std::string_view by_clang = "static_assert failed";
+    if (const auto at = line.find(of_ours); at != std::string::npos) return line.substr(at + of_ours.size());
+    if (line.find(by_clang) != std::string::npos && line.find("nysalt: ") != std::string::npos) {
+      return line.substr(line.find("nysalt: ") + std::string_view("nysalt: ").size());
+    }
+    const bool is_error =
+        line.find("error:") != std::string::npos || line.find("undefined reference") != std::string::npos;
+    if (is_error && first.empty()) first = line;
+  }
+  return first.empty() ? "the compiler says no more" : first;
+}
+
+/// Files that are removed whatever happens.
+struct temporary {
+  fs::path path;
+  ~temporary() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+void compile(const fs::path& source, const fs::path& library, const recipe& how) {
+  const std::string unique = fmt::format("{}.{}", library.string(), ::getpid());
+  const temporary made{unique + ".part"};
+  const temporary messages{unique + ".log"};
+  std::vector<std::string> command = how.before;
+  for (const char* flag :
+       {"-shared", "-fPIC", "-fvisibility=hidden", "-fvisibility-inlines-hidden", "-x", "c++"}) {
+    command.emplace_back(flag);
+  }
+  command.push_back(fs::absolute(source).string());
+  for (const char* flag : {"-x", "none", "-Wl,--as-needed", "-Wl,-z,defs", "-Wl,--exclude-libs,ALL", "-o"}) {
+    command.emplace_back(flag);
+  }
+  command.push_back(made.path.string());
+  command.insert(command.end(), how.libraries.begin(), how.libraries.end());
+  if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "compiling {} ...\n", source.string());
+  const auto code = exit_code_of(command, messages.path);
+  if (!code || *code == 127)
+    refuse("{}: the compiler {} cannot be started", source.string(), command.front());
+  if (*code != 0) {
+    refuse("{} does not compile: {}", source.string(), first_error(text_of_file(messages.path).value_or("")));
+  }
+  std::error_code problem;
+  fs::rename(made.path, library, problem);
+  if (problem) refuse("{}: cannot be written: {}", library.string(), problem.message());
+}
+
+}  // namespace
+
+bool is_source(std::string_view path) { return path.ends_with(".hpp"); }
+
+fs::path compiled(const fs::path& source) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(source, ignored)) refuse("{}: there is no such file", source.string());
+  const recipe how = recipe_of_library();
+  std::string all = detail::plugin_stamp() + '\n';
+  for (const auto& flag : how.before) all += flag + '\n';
+  for (const auto& library : how.libraries) {  // another build of the library may be another library
+    const auto when = fs::last_write_time(library, ignored).time_since_epoch().count();
+    all += fmt::format("{} {}\n", library, when);
+  }
+  std::set<fs::path> seen;
+  append_sources(source, seen, all);
+  const fs::path library = cache_folder() / (name_of(all) + ".so");
+  if (!fs::is_regular_file(library, ignored)) compile(source, library, how);
+  return library;
+}
+
+fs::path kept_source(const std::string& text) {
+  const fs::path file = cache_folder() / (name_of(text) + ".hpp");
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) write_file(file, text);
+  return file;
+}
+
+std::string build_library(const std::string& source, const std::string& output) {
+  if (!is_source(source)) refuse("{}: a source must end in .hpp", source);
+  fs::path to = output.empty() ? fs::path(source).stem() += ".so" : fs::path(output);
+  if (to.extension() != ".so") refuse("--output must end in .so, got {}", to.string());
+  if (!to.has_parent_path()) to = "." / to;
+  const fs::path library = compiled(source);
+  const temporary copy{fmt::format("{}.{}.part", to.string(), ::getpid())};
+  std::error_code problem;
+  fs::copy_file(library, copy.path, fs::copy_options::overwrite_existing, problem);
+  if (!problem) fs::rename(copy.path, to, problem);
+  if (problem) refuse("{}: cannot be written: {}", to.string(), problem.message());
+  return to.string();
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+// A crash in a user's code says where to look.
+#pragma once
+
+#include <string>
+
+namespace nysalt::program {
+
+/// From now on a signal that ends the program (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes a line with
+/// its name and the plug-in's on standard error first.
+void name_signals(const std::string& plugin);
+
+}  // namespace nysalt::program

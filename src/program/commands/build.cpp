@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "../../plugin/build.hpp"
+
+#include <fmt/format.h>
+
+#include "../bundled_system.hpp"
+#include "../commands.hpp"
+#include "../json.hpp"
+#include "../output.hpp"
+#include "nysalt/system_declaration.hpp"
+
+namespace nysalt::program {
+
+int build(const build_command& command, const common_settings& common) {
+  const std::string path = build_library(command.source, command.output);
+  const auto& system = declaration_of(path);
+  if (common.json) {
+    print(text_of(
+        {{"output", path}, {"name", system.name}, {"title", system.title}, {"options", options_of(system)}}));
+  } else {
+    print(fmt::format(
+        "Built: {}\n{}: {}\noptions: {}\nTry: nysalt stability --system {} --method verlet --step 0.1\n",
+        path, system.name, system.title, options_of(system), path));
+  }
+  return done;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "../commands.hpp"
+#include "../json.hpp"
+#include "../output.hpp"
+#include "../refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+void require_name(const std::string& name) {
+  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
+  static const std::set<std::string> taken{
+      "auto",     "bool",   "case",  "catch",  "char",   "class",  "const",  "delete", "do",
+      "double",   "else",   "enum",  "float",  "for",    "if",     "int",    "long",   "model",
+      "new",      "nysalt", "short", "signed", "sizeof", "static", "struct", "switch", "system",
+      "template", "this",   "throw", "try",    "union",  "using",  "void",   "while"};
+  if (name.empty() || !std::ranges::all_of(name, may_stand) || name.front() < 'a' || taken.contains(name)) {
+    refuse(
+        "a system cannot be called '{}': take lower-case letters, digits and _, a letter first, and no word "
+        "of C++",
+        name);
+  }
+}
+
+/// A chain of Morse bonds between two walls, with all that can be declared.
+constexpr const char* beginning = R"(// A system of your own: change the struct and its declaration, then
+//
+//   nysalt build NAME.hpp
+//   nysalt learn --system ./NAME.so --step 0.4
+//   nysalt compare --system ./NAME.so --steps 0.2,0.4 --methods verlet_2x,pefrl,learned:nystrom --output report
+#include <nysalt/plugin.hpp>
+
+#include <cmath>
+
+/// H = sum p_i^2/2 + sum V(bond): masses between two walls, each bond V(r) = depth (1 - exp(-width r))^2.
+struct NAME {
+  static constexpr int dimension = Eigen::Dynamic;  // or a number, if it is known: then size() is not needed
+
+  long masses = 4;
+  double depth = 1.0;
+  double width = 1.0;
+
+  Eigen::Index size() const { return masses; }
+  // double inverse_mass(Eigen::Index i) const { return 1.0; }  // 1/m_i, if masses are not all 1
+
+  /// For any number T: one trajectory, many side by side, and their derivatives. The force comes from it; a
+  /// member force(q, f) with f = -grad V is faster, and is checked against the potential.
+  template <class T>
+  T potential(const nysalt::vector<T, dimension>& q) const {
+    using std::exp;
+    T sum(0.0);
+    for (Eigen::Index i = 0; i <= masses; ++i) {
+      T bond(0.0);
+      if (i < masses) bond = bond + q[i];
+      if (i > 0) bond = bond - q[i - 1];
+      const T rest = 1.0 - exp(-width * bond);
+      sum = sum + depth * (rest * rest);
+    }
+    return sum;
+  }
+};
+
+/// Normal around rest: the state of trajectory n is a function of the seed and n alone.
+inline auto starts_of(const NAME& system, double spread) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.masses);
+  return nysalt::normal_around<Eigen::Dynamic>({rest, rest}, 0.2 * spread, 0.3 * spread);
+}
+
+/// Of the first bond, at a state x with coordinates x.q and momenta x.p.
+inline auto first_bond(const NAME&, const auto& x) { return x.q[0]; }
+
+NYSALT_SYSTEM(NAME, "masses between walls, joined by Morse bonds",
+              parameter("masses", &NAME::masses, "in the chain").at_least(1).at_most(1000),
+              parameter("depth", &NAME::depth, "of each bond").positive(),
+              parameter("width", &NAME::width, "of each bond, an inverse length").positive(),
+              starts([](const NAME& system, double spread) { return starts_of(system, spread); }),
+              observable("first_bond", [](const NAME& system, const auto& x) { return first_bond(system, x); }));
+)";
+
+}  // namespace
+
+int new_system(const new_command& command, const common_settings& common) {
+  require_name(command.name);
+  const std::filesystem::path file = command.name + ".hpp";
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
+    refuse("{}: this file is there already: take another name, or move it", file.string());
+  }
+  std::string text = beginning;
+  for (auto at = text.find("NAME"); at != std::string::npos; at = text.find("NAME", at)) {
+    text.replace(at, 4, command.name);
+  }
+  write_file(file, text);
+  if (common.json) {
+    print(text_of({{"output", file.string()}}));
+  } else {
+    print(fmt::format("Written: {}\nTry: nysalt build {}\n", file.string(), file.string()));
+  }
+  return done;
+}
+
+}  // namespace nysalt::program

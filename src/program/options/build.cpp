@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "subcommand.hpp"
+
+#include <memory>
+
+#include "../commands.hpp"
+#include "shared_options.hpp"
+
+namespace nysalt::program {
+
+subcommand offer_build(CLI::App& app, common_settings& common) {
+  const auto asked = std::make_shared<build_command>();
+  auto& command = *app.add_subcommand("build", "compile a system of your own, for --system");
+  command.add_option("SOURCE", asked->source, "the .hpp that declares it by NYSALT_SYSTEM")->required();
+  command.add_option("--output", asked->output, "the library [./SOURCE.so]");
+  add_common(command, common);
+  command.footer(
+      "A source is code that runs as you: build what you trust. --system SOURCE.hpp builds it too.\n\n"
+      "Example, after nysalt new morse_chain:\n"
+      "  nysalt build morse_chain.hpp\n"
+      "  nysalt stability --system ./morse_chain.so --depth 20 --method verlet --step 0.1");
+  return {&command, [asked, &common] { return build(*asked, common); }};
+}
+
+subcommand offer_new(CLI::App& app, common_settings& common) {
+  const auto asked = std::make_shared<new_command>();
+  auto& command = *app.add_subcommand("new", "begin a system of your own: a commented source that builds");
+  command.add_option("NAME", asked->name, "of the system: NAME.hpp is written here")->required();
+  add_common(command, common);
+  command.footer("Example:\n  nysalt new morse_chain");
+  return {&command, [asked, &common] { return new_system(*asked, common); }};
+}
+
+}  // namespace nysalt::program

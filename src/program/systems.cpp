@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include "../plugin/build.hpp"
+#include "../plugin/plugin.hpp"
+#include "bundled_model.hpp"
+#include "bundled_systems.hpp"
+#include "did_you_mean.hpp"
+#include "number.hpp"
+#include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/ensemble.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+bath bath_of(const bath_settings& settings) {
+  if (settings.sigma && settings.temperature) {
+    refuse("--sigma and --temperature say the same twice: give one (kT = sigma^2/(2 friction))");
+  }
+  if (!settings.friction) {
+    if (settings.sigma) refuse("--sigma needs --friction, 0 for none");
+    if (settings.temperature) refuse("--temperature needs --friction");
+    return bath::of_sigma(0.0, 0.0);
+  }
+  if (!settings.sigma && !settings.temperature) {
+    refuse("--friction needs --sigma or --temperature, 0 for damping alone");
+  }
+  const auto require = [](const char* option, double value) {
+    if (value >= 0.0 && std::isfinite(value)) return;
+    refuse("{} must be finite and not negative, got {}", option, value);
+  };
+  require("--friction", *settings.friction);
+  if (settings.temperature) {
+    require("--temperature", *settings.temperature);
+    return bath::of_temperature(*settings.friction, *settings.temperature);
+  }
+  require("--sigma", *settings.sigma);
+  return bath::of_sigma(*settings.friction, *settings.sigma);
+}
+
+double spread_of(const std::optional<double>& asked, start where) {
+  if (!asked) return 1.0;
+  if (!(*asked > 0.0) || !std::isfinite(*asked)) {
+    refuse("--spread must be positive and finite, got {}", *asked);
+  }
+  if (where != start::law) refuse("--spread belongs to the law of starts: take --start law");
+  return *asked;
+}
+
+start start_of(const std::string& asked, const bath& heat_bath) {
+  const bool is_warm = heat_bath.acts() && heat_bath.has_temperature() && heat_bath.temperature() > 0.0;
+  if (asked.empty()) return is_warm ? start::gibbs : start::law;
+  if (asked == "law") return start::law;
+  if (asked != "gibbs" && asked != "trajectory") {
+    refuse("unknown --start '{}': it is one of law, gibbs, trajectory", asked);
+  }
+  if (!is_warm) {
+    refuse("--start {} needs a bath with a temperature above 0: give --friction and --temperature", asked);
+  }
+  return asked == "gibbs" ? start::gibbs : start::trajectory;
+}
+
+surroundings surroundings_of(const system_settings& settings) {
+  const bath heat_bath = bath_of(settings.bath);
+  const start where = start_of(settings.start, heat_bath);
+  return {heat_bath, where, spread_of(settings.spread, where)};
+}
+
+/// What was typed for a parameter, as its declaration has it.
+parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
+  const std::string option = "--" + parameter.name;
+  const parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
+                                                     : parameter_value(number_of<double>(option, text));
+  parameter.require(value);
+  return value;
+}
+
+const system_declaration& declared_by(const system_settings& settings) {
+  const auto& potential = settings.potential;
+  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string());
+  const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
+                        !potential.masses.empty() || !potential.around.empty();
+  if (has_more) refuse("--variables, --parameter, --mass and --around belong to --potential");
+  return declaration_of(settings.name);
+}
+
+/// Of parameters, by name.
+std::map<std::string, std::string> typed_values(const system_settings& settings) {
+  auto all = settings.parameters;
+  for (const auto& [name, text] : values_of(settings.potential.parameters, "--parameter")) {
+    if (!all.emplace(name, text).second) refuse("--parameter {} is given twice", name);
+  }
+  return all;
+}
+
+void require_options(const system_settings& settings, const std::map<std::string, std::string>& typed,
+                     const system_declaration& declared) {
+  std::vector<std::string> takes;
+  for (const auto& parameter : declared.parameters) takes.push_back("--" + parameter.name);
+  if (declared.has_spread) takes.push_back("--spread");
+  const auto require = [&](const std::string& name) {
+    const std::string option = "--" + name;
+    if (std::ranges::find(takes, option) != takes.end()) return;
+    refuse("the system {} has no {}: it takes {}",
+           settings.potential.text.empty() ? settings.name : declared.name, option,
+           takes.empty() ? "no options of its own" : listed(takes));
+  };
+  for (const auto& [name, text] : typed) require(name);
+  if (settings.spread) require("spread");
+}
+
+/// Looks for a force that is not -grad V, or not finite, at four starts, where nobody has done so before.
+void require_force(const made_system& made, const std::string& name) {
+  constexpr Eigen::Index most = 2000;  // some hundred forces a coordinate
+  std::vector<Eigen::VectorXd> points;
+  std::vector<Eigen::VectorXd> momenta;
+  for (std::uint64_t n = 0; n < 4; ++n) {
+    const auto start = sound_start(made.system, made.starts, 1, static_cast<std::int64_t>(n));
+    points.push_back(start.q);
+    momenta.push_back(start.p);
+    auto f = make_vector<double>(made.system);
+    force<double>(made.system, start.q, f);
+    if (!f.allFinite()) refuse("{}: the force is not finite at start {}", name, n);
+    if (has_energy(made.system) && !std::isfinite(energy<double>(made.system, start))) {
+      refuse("{}: the energy is not finite at start {}", name, n);
+    }
+  }
+  if (size(made.system) > most) return;
+  const force_check found = check_force(made.system, points, momenta);
+  if (!found.passed()) refuse("{}: {}", name, found.report());
+}
+
+/// Of a system that does not tell how fast its motion is: the highest frequency, or rate at which motions
+/// part, along 64 starts.
+double frequency_of(const made_system& made, const std::string& name) {
+  constexpr Eigen::Index most = 1000;  // coordinates
+  if (size(made.system) > most || !has_quadratic_kinetic(made.system)) {
+    refuse("{}: its highest frequency is not known: declare it by frequency(...)", name);
+  }
+  std::vector<phase_point<double, Eigen::Dynamic>> starts;
+  for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
+  const auto stiffness = stiffness_along(made.system, starts);
+  const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
+  if (found > 0.0 && std::isfinite(found)) return found;
+  refuse("{}: the force is the same at all starts, which tells no frequency: declare it by frequency(...)",
+         name);
+}
+
+}  // namespace
+
+const system_declaration& declaration_of(const std::string& name) {
+  if (is_path_of_system(name)) return plugin_at(name);
+  std::vector<std::string> names;
+  for (const auto& declared : bundled_declarations()) {
+    if (declared.name == name) return declared;
+    names.push_back(declared.name);
+  }
+  refuse("unknown system '{}': {}", name, did_you_mean(name, names));
+}
+
+bool is_path_of_system(std::string_view name) {
+  return name.find('/') != std::string_view::npos || name.ends_with(".so") || name.ends_with(".hpp");
+}
+
+std::string options_of(const system_declaration& system) {
+  std::string text;
+  for (const auto& parameter : system.parameters) {
+    if (!text.empty()) text += ' ';
+    text += fmt::format("--{} ", parameter.name);
+    text += std::visit([](auto usual) { return fmt::format("{}", usual); }, parameter.usual);
+  }
+  if (system.has_spread) text += text.empty() ? "--spread 1" : " --spread 1";
+  return text;
+}
+
+std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
+  const surroundings conditions = surroundings_of(settings);
+  if (settings.own) return settings.own(conditions);
+  const system_declaration& declared = declared_by(settings);
+  const auto typed = typed_values(settings);
+  require_options(settings, typed, declared);
+  parameter_values values;
+  std::vector<named_value> named{{"name", declared.name}};
+  for (const auto& parameter : declared.parameters) {
+    const auto given = typed.find(parameter.name);
+    const auto value = given == typed.end() ? parameter.usual : value_of(parameter, given->second);
+    values.add(parameter.name, value);
+    std::visit([&](auto number) { named.push_back({parameter.name, number}); }, value);
+  }
+  if (declared.is_checked) {
+    return make_bundled(declared.make(values, conditions.bath, conditions.spread), named, conditions);
+  }
+  try {
+    made_system made = declared.make(values, conditions.bath, conditions.spread);
+    require_force(made, declared.name);
+    if (!(made.frequency > 0.0)) made.frequency = frequency_of(made, declared.name);
+    return make_bundled(made, named, conditions);
+  } catch (const refusal&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {  // of the user's code
+    refuse("{}: {}", declared.name, problem.what());
+  }
+}
+
+std::optional<double> highest_frequency(const bundled_system& system) {
+  std::optional<double> highest;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
+  return highest;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+// Systems of users: sources that are compiled and loaded, and what a user may get wrong.
+#include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "../support/document.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+void write(const scratch& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder / name) << text;
+}
+
+/// The chain of the program, as a user would declare it.
+constexpr const char* fpu_source = R"(#include <nysalt/plugin.hpp>
+#include <nysalt/systems/fpu_chain.hpp>
+#include <nysalt/ensembles/fpu_law.hpp>
+struct fpu : nysalt::fpu_chain<3> {
+  fpu() : nysalt::fpu_chain<3>(50.0) {}
+};
+NYSALT_SYSTEM(fpu, "stiff and soft springs in turn",
+              starts([](const fpu& s, double spread) { return fpu_law<3>(s, spread); }),
+              frequency([](const fpu& s) { return s.omega(); }));
+)";
+
+/// An oscillator with these members, and these pieces of its declaration.
+std::string oscillator_source(const std::string& members, const std::string& pieces = "",
+                              const std::string& kind = "") {
+  return "#include <nysalt/plugin.hpp>\n#include <cmath>\n#include <cstdlib>\n#include <stdexcept>\n"
+         "using one = nysalt::vector<double, 1>;\nstruct tried" +
+         kind + " {\n  static constexpr int dimension = 1;\n  double k = 1.0;\n  " + members +
+         "\n};\nNYSALT_SYSTEM(tried, \"p^2/2 + k q^2/2\", parameter(\"k\", &tried::k, \"stiffness\")" +
+         pieces +
+         ",\n  starts([](const tried&) { return normal_around<1>({one(1.0), one(0.0)}, 0.1, 0.1); }));\n";
+}
+std::string potential_that(const std::string& does) {
+  return "template <class T> T potential(const nysalt::vector<T, 1>& q) const { " + does +
+         " return 0.5 * k * q[0] * q[0]; }";
+}
+
+/// Without what is measured in seconds, and what depends on them.
+std::string comparable(const std::string& text) { return without_times(text); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
+  const scratch folder("plugin_new");
+  BOOST_TEST(run(folder, "new morse_chain").code == 0);
+  BOOST_TEST(run(folder, "new morse_chain").code == 2);  // it is there
+  const auto built = run(folder, "build morse_chain.hpp");
+  BOOST_TEST(built.code == 0, built.err);
+  BOOST_TEST(built.out.find("--masses 4 --depth 1 --width 1 --spread 1") != std::string::npos, built.out);
+  const auto learned =
+      document("learn --system ./morse_chain.so --step 0.4 --trajectories 16 --depth 1.5", folder);
+  BOOST_TEST(learned["system"] == "morse_chain(masses=4, depth=1.5, width=1)");
+  BOOST_TEST(learned["usable"] == true);
+  const auto seen = run(folder,
+                        "run --system ./morse_chain.so --method verlet --step 0.1 --horizon 0.2 "
+                        "--observables first_bond,energy");
+  BOOST_TEST(seen.out.starts_with("trajectory,step,t,first_bond,energy\n"), seen.out);
+  for (const char* command : {"run --help", "learn --help", "stability --help"}) {
+    BOOST_TEST(run(folder, fmt::format("{} --system ./morse_chain.so", command)).out.find("--depth") !=
+               std::string::npos);
+    BOOST_TEST(run(folder, command).out.find("--depth") == std::string::npos);
+  }
+  const auto listed = document("list --system ./morse_chain.so", folder)["systems"].back();
+  BOOST_TEST(listed["name"] == "morse_chain");
+  BOOST_TEST(listed["observables"].back() == "first_bond");
+  // By its source, from a file of options, and in a bath.
+  write(folder, "options.toml",
+        "system = \"morse_chain.hpp\"\nmasses = 3\nmethod = \"baoab\"\nfriction = 1\n"
+        "temperature = 0.1\nstep = 0.1\nhorizon = 0.2\nstart = \"law\"\n");
+  const auto warm = run(folder, "run --config options.toml --observables q3");
+  BOOST_TEST(warm.code == 0, warm.err);
+  // What it has not.
+  for (const auto& [options, said] : std::vector<std::pair<std::string, std::string>>{
+           {"--depth 0", "--depth must be positive, got 0"},
+           {"--masses 2.5", "'2.5' is not a whole number"},
+           {"--masses 1001", "--masses must be at most 1000, got 1001"},
+           {"--omega 3",
+            "the system ./morse_chain.so has no --omega: it takes --masses, --depth, --width, --spread"},
+           {"--bond 3", "unknown option '--bond'"},
+           {"--observables last_bond", "did you mean first_bond?"}}) {
+    const auto refused =
+        run(folder, "run --system ./morse_chain.so --method verlet --step 0.1 --horizon 1 " + options);
+    BOOST_TEST(refused.code == 2);
+    BOOST_TEST(refused.err.find(said) != std::string::npos, options << ": " << refused.err);
+    BOOST_TEST(std::ranges::count(refused.err, '\n') == 1);
+  }
+}
+
+// The bundled chain and the same one as a plug-in, by every command.
+BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
+  const scratch folder("plugin_fpu");
+  write(folder, "own.hpp", fpu_source);
+  for (const std::string command :
+       {"learn --step 0.03 --trajectories 16 --threads 2",
+        "learn --step 0.03 --trajectories 16 --family r_aba4",
+        "learn --step 0.03 --trajectories 16 --family nystrom --friction 0.1 --temperature 1 --placement "
+        "middle",
+        "compare --steps 0.02,0.04 --methods verlet,learned:nystrom --metric state,exchange,path "
+        "--trajectories 32 --learn-trajectories 8 --threads 3",
+        "stability --method bcss3 --step 0.04"}) {
+    const auto bundled = document(command + " --system fpu", folder);
+    const auto own = document(command + " --system ./own.hpp", folder);
+    BOOST_TEST(comparable(own.dump(1)) == comparable(bundled.dump(1)), command);
+  }
+  const std::string sampled =
+      "run --method srkn6b --step 0.02 --horizon 20 --trajectories 33 "
+      "--observables energy,q1,stiff_energy_2 ";
+  BOOST_TEST(run(folder, sampled + "--system ./own.hpp").out == run(folder, sampled + "--system fpu").out);
+  BOOST_TEST(run(folder, sampled + "--system ./own.hpp").out !=
+             run(folder, sampled + "--system fpu --omega 49").out);
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
+  const scratch folder("plugin_mistakes");
+  const auto must_say = [&](const std::string& source, const std::string& said) {
+    write(folder, "tried.hpp", source);
+    const auto done = run(folder, "learn --system ./tried.hpp --step 0.5 --family nystrom --trajectories 4");
+    BOOST_TEST(done.code == 2, said);
+    BOOST_TEST(done.err.find(said) != std::string::npos, said << ", but: " << done.err);
+    BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
+    BOOST_TEST(done.out == "");
+  };
+  const std::string sound = potential_that("");
+  must_say(oscillator_source(sound + " double x("), "does not compile: ");
+  must_say(oscillator_source("double nothing() const { return 0.0; }"), "a separable system offers");
+  must_say(oscillator_source(sound + " template <class T> void force(const nysalt::vector<T, 1>& q, "
+                                     "nysalt::vector<T, 1>& f) const { f[0] = k * q[0]; }"),
+           "check its sign");
+  must_say(oscillator_source(potential_that("if (k > 0.0) throw std::runtime_error(\"I will not\");")),
+           "tried: I will not");
+  must_say(oscillator_source(potential_that("return 0.5 * k * q[0] * q[0] * std::nan(\"\");")),
+           "is not finite");
+  must_say(oscillator_source(sound, ", parameter(\"step\", &tried::k, \"\")"), "name of an option");
+  // What is no plug-in, or one of another version.
+  must_say("int x;\n", "NYSALT_SYSTEM(...) is missing");
+  must_say(
+      "extern \"C\" __attribute__((visibility(\"default\"))) const char* nysalt_plugin_stamp() "
+      "{ return \"nysalt 0.0.1\"; }\n",
+      "it was built for 'nysalt 0.0.1'");
+  write(folder, "text.so", "no library\n");
+  const auto no_library = run(folder, "run --system ./text.so --method verlet --step 0.1 --horizon 1");
+  BOOST_TEST(no_library.code == 2);
+  BOOST_TEST(no_library.err.find("no library that can be loaded") != std::string::npos, no_library.err);
+  // A crash is named.
+  write(folder, "crash.hpp", oscillator_source(potential_that("std::abort();")));
+  const auto crashed =
+      run(folder, "run --system ./crash.hpp --method verlet --step 0.1 --horizon 1 --output out");
+  BOOST_TEST(crashed.code != 0);
+  BOOST_TEST(crashed.err.find("SIGABRT while the plug-in ./crash.hpp was in use") != std::string::npos,
+             crashed.err);
+  BOOST_TEST(!folder.files().contains("out"));
+}
