@@ -151,6 +151,26 @@ program::common_settings common_of(const given& arguments, bool calls_python) {
 
 namespace {
 
+/// Numbers by name, as name=value.
+std::vector<std::string> named_numbers(const given& arguments) {
+  std::vector<std::string> all;
+  for (const auto& name : arguments.names()) {
+    double value = 0.0;
+    arguments.take(name.c_str(), value);
+    all.push_back(fmt::format("{}={}", name, value));
+  }
+  return all;
+}
+
+void take_potential(const given& arguments, program::typed_potential& potential) {
+  arguments.take("formula", potential.text);
+  if (potential.text.empty()) refuse("potential must be a text, got an empty one");
+  arguments.take("variables", potential.variables);
+  arguments.take("mass", potential.masses);
+  if (arguments.has("around")) potential.around = named_numbers(arguments.inner("around"));
+  potential.parameters = named_numbers(arguments.inner("parameters"));
+}
+
 /// Those that the system declares, as its kinds of numbers; another is refused with the system's own list.
 void take_parameters(const given& arguments, program::system_settings& settings) {
   for (const auto& name : arguments.names()) settings.parameters[name] = "";
@@ -177,7 +197,11 @@ void take_parameters(const given& arguments, program::system_settings& settings)
 program::system_settings system_of(const given& arguments) {
   program::system_settings settings;
   arguments.take("name", settings.name);
-  if (arguments.has("parameters")) take_parameters(arguments.inner("parameters"), settings);
+  if (arguments.has("formula")) {
+    take_potential(arguments, settings.potential);
+  } else if (arguments.has("parameters")) {
+    take_parameters(arguments.inner("parameters"), settings);
+  }
   arguments.take("spread", settings.spread);
   arguments.take("start", settings.start);
   arguments.take("friction", settings.bath.friction);

@@ -26,7 +26,7 @@ from . import _nysalt
 
 __version__: str = _nysalt.version
 __all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "families", "hamiltonian", "integrate", "learn", "load",
-           "methods", "metrics", "recommend", "run", "system", "systems"]
+           "methods", "metrics", "potential", "recommend", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
 Numbers = Union[float, Sequence[float]]
@@ -133,6 +133,23 @@ def build(source: str, output: Optional[str] = None) -> str:
     nothing where nothing has changed.
     """
     return _nysalt.build(dict(locals()))
+
+
+def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
+              around: Optional[Mapping[str, float]] = None, spread: Optional[float] = None,
+              friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
+              start: Optional[str] = None, **parameters: float) -> System:
+    """H = sum_i p_i^2/(2 m_i) + V(q) of a potential as text, compiled: at full speed.
+
+        nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400)
+
+    The text has numbers, the variables, the parameters, + - * / ^, parentheses, sqrt, exp, log and their like,
+    pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
+    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1].
+    """
+    return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
+                                       parameters=parameters, spread=spread, friction=friction, sigma=sigma,
+                                       temperature=temperature, start=start)))
 
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "../../src/program/bundled_system.hpp"
+#include "../../src/program/bundled_systems.hpp"
 #include "../../src/program/catalogue.hpp"
 #include "../../src/program/checks.hpp"
 #include "../../src/program/seeds.hpp"
