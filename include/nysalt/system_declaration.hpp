@@ -31,11 +31,12 @@ struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _: the option is --name
   parameter_value usual;  ///< where none is given; it says whether the number is whole
   std::string meaning{};  ///< for the help
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  double below = std::numeric_limits<double>::infinity();  ///< this itself is not allowed
-  bool is_positive = false;  ///< 0 is not allowed, nor is anything below
+  double least = -std::numeric_limits<double>::infinity();  ///< the smallest that is allowed
+  double most = std::numeric_limits<double>::infinity();    ///< the largest that is allowed
+  double below = std::numeric_limits<double>::infinity();   ///< this itself is not allowed
+  bool is_positive = false;                                 ///< 0 is not allowed, nor is anything below
 
+  /// Whether its values are whole numbers.
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
   /// Throws std::invalid_argument, in a sentence that begins with the name of the option, for a value that is
   /// not within the bounds, or not finite.
@@ -45,10 +46,13 @@ struct declared_parameter {
 /// Values of all parameters of a system, in the order of their declaration.
 class parameter_values {
  public:
+  /// One more, behind the others.
   void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), value); }
+  /// Names and values.
   const std::vector<std::pair<std::string, parameter_value>>& all() const { return all_; }
   /// Throws std::invalid_argument if none has the name.
   const parameter_value& operator[](std::string_view name) const;
+  /// The value of a whole number.
   std::int64_t whole(std::string_view name) const { return std::get<std::int64_t>((*this)[name]); }
   double real(std::string_view name) const;  ///< a whole number too
 
@@ -58,8 +62,8 @@ class parameter_values {
 
 /// A function of a state, by name.
 struct named_observable {
-  std::string name;
-  detail::over_scalars<detail::of_state> value;
+  std::string name;                              ///< by which --observables knows it
+  detail::over_scalars<detail::of_state> value;  ///< of one state, or of those in the lanes of packs
 };
 
 namespace detail {
@@ -115,10 +119,10 @@ struct made_system {
   initial_states starts;   ///< its law of them
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
   std::vector<named_observable> observables{};  ///< beside those of every system
-  std::string default_observable = "energy";
+  std::string default_observable = "energy";    ///< where none is named
   double fine_angle = 5e-3;  ///< of a reference's step, times the frequency: there srkn11b errs by rounding
-  detail::stiff_springs springs{};
-  bool has_linear_force = false;
+  detail::stiff_springs springs{};                       ///< of a system with stiff_energy(x, j)
+  bool has_exact_flow = false;                         ///< small steps then have a fixed angle
   std::shared_ptr<const detail::any_reference> exact{};  ///< the exact flow of the system, if it is known
 };
 
@@ -135,9 +139,9 @@ made_system made_of(const S& system, const bath& in, initial_states starts, doub
 
 /// All that there is to say of a system before its parameters are known.
 struct system_declaration {
-  std::string name;   ///< by which commands and files know it
-  std::string title;  ///< one line: its Hamiltonian, in words or as a formula
-  std::vector<declared_parameter> parameters{};
+  std::string name;                              ///< by which commands and files know it
+  std::string title;                             ///< one line: its Hamiltonian, in words or as a formula
+  std::vector<declared_parameter> parameters{};  ///< in the order of help and files
   /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
   /// std::invalid_argument for values that cannot be.
   std::function<made_system(const parameter_values&, const bath&, double spread)> make{};

@@ -33,8 +33,12 @@ void declared_parameter::require(const parameter_value& value) const {
   if (!std::isfinite(x)) refuse("finite");
   if (is_positive && !(x > 0.0)) refuse("positive");
   if (!(x < below)) refuse("below " + text_of_bound(*this, below));
-  if (x < least) refuse("at least " + text_of_bound(*this, least));
-  if (x > most) refuse("at most " + text_of_bound(*this, most));
+  if (x >= least && x <= most) return;
+  std::string condition;
+  if (std::isfinite(least)) condition = "at least " + text_of_bound(*this, least);
+  if (std::isfinite(least) && std::isfinite(most)) condition += " and ";
+  if (std::isfinite(most)) condition += "at most " + text_of_bound(*this, most);
+  refuse(condition);
 }
 
 const parameter_value& parameter_values::operator[](std::string_view name) const {

@@ -102,7 +102,7 @@ class bundled_model final : public bundled_system {
     if (starts_) return;
     const model alone = system_.alone();
     try {
-      if (start_ == start::gibbs && made_.has_linear_force) {
+      if (start_ == start::gibbs && made_.has_exact_flow) {
         starts_.emplace(gibbs_of_modes<dynamic>(alone, system_.bath().temperature()));
       } else if (start_ == start::gibbs) {
         starts_.emplace(gibbs(system_, law_));
@@ -429,7 +429,7 @@ class bundled_model final : public bundled_system {
   }
 
   model_reference reference() const {
-    return {system_.bath(), made_.frequency, made_.fine_angle, made_.has_linear_force, made_.exact};
+    return {system_.bath(), made_.frequency, made_.fine_angle, made_.has_exact_flow, made_.exact};
   }
   tabulated method_of_reference() const {
     return system_.bath().acts() ? tabulated(baoab{}) : tabulated(srkn11b{});

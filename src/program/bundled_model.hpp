@@ -28,7 +28,7 @@ std::unique_ptr<bundled_system> make_bundled(const made_system& made,
 template <class S>
 made_system with_exact_flow(const S& system, const bath& in, made_system made) {
   const in_bath<S> put(system, in);
-  made.has_linear_force = true;
+  made.has_exact_flow = true;
   if (!in.acts()) made.exact = nysalt::detail::reference_of(put, exact_linear(put));
   return made;
 }

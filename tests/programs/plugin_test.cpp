@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
   for (const auto& [options, said] : std::vector<std::pair<std::string, std::string>>{
            {"--depth 0", "--depth must be positive, got 0"},
            {"--masses 2.5", "'2.5' is not a whole number"},
-           {"--masses 1001", "--masses must be at most 1000, got 1001"},
+           {"--masses 1001", "at most 1000, got 1001"},
            {"--omega 3",
             "the system ./morse_chain.so has no --omega: it takes --masses, --depth, --width, --spread"},
            {"--bond 3", "unknown option '--bond'"},

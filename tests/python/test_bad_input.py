@@ -163,4 +163,9 @@ def test_two_methods_of_one_name_are_told_apart():
 
 def test_unknown_arguments_are_type_errors():
     with pytest.raises(TypeError):
+        nysalt.learn(CHAIN, "nystrom", stpe=0.1)
+
+
+def test_unknown_parameters_are_refused_with_the_known_ones():
+    with pytest.raises(ValueError, match="the system fpu has no omgea: it takes pairs, omega, spread"):
         nysalt.system("fpu", omgea=3)

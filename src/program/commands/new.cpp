@@ -35,7 +35,7 @@ constexpr const char* beginning = R"(// A system of your own: change the struct 
 //
 //   nysalt build NAME.hpp
 //   nysalt learn --system ./NAME.so --step 0.4
-//   nysalt compare --system ./NAME.so --steps 0.2,0.4 --methods verlet_2x,pefrl,learned:nystrom --output report
+//   nysalt compare --system ./NAME.so --steps 0.4 --equal-cost --methods pefrl,srkn6b,learned:bab6 --output report
 #include <nysalt/plugin.hpp>
 
 #include <cmath>
@@ -71,7 +71,7 @@ struct NAME {
 /// Normal around rest: the state of trajectory n is a function of the seed and n alone.
 inline auto starts_of(const NAME& system, double spread) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.masses);
-  return nysalt::normal_around<Eigen::Dynamic>({rest, rest}, 0.2 * spread, 0.3 * spread);
+  return nysalt::normal_around<Eigen::Dynamic>({rest, rest}, 0.1 * spread, 0.15 * spread);
 }
 
 /// Of the first bond, at a state x with coordinates x.q and momenta x.p.
