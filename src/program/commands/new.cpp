@@ -35,7 +35,7 @@ constexpr const char* beginning = R"(// A system of your own: change the struct 
 //
 //   nysalt build NAME.hpp
 //   nysalt learn --system ./NAME.so --step 0.4
-//   nysalt compare --system ./NAME.so --steps 0.4 --equal-cost --methods pefrl,srkn6b,learned:bab6 --output report
+//   nysalt compare --system ./NAME.so --steps 0.06,0.1 --equal-cost --methods pefrl,srkn6b,learned:bab6 --output report
 #include <nysalt/plugin.hpp>
 
 #include <cmath>
