@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -115,11 +116,16 @@ template <class S, class Number>
                                                                               Number S::*member,
                                                                               std::string meaning) {
     using value = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
-    return {
-        {.name = std::move(name), .usual = static_cast<value>(S().*member), .meaning = std::move(meaning)},
-        [member](S& system, const parameter_value& given) {
-          system.*member = static_cast<Number>(std::get<value>(given));
-        }};
+    using limits = std::numeric_limits<Number>;
+    declared_parameter declared{
+        .name = std::move(name), .usual = static_cast<value>(S().*member), .meaning = std::move(meaning)};
+    if constexpr (sizeof(Number) < sizeof(value) || std::is_unsigned_v<Number>) {  // what the member can hold
+      declared.least = static_cast<double>(limits::lowest());
+      if constexpr (sizeof(Number) < sizeof(value)) declared.most = static_cast<double>(limits::max());
+    }
+    return {std::move(declared), [member](S& system, const parameter_value& given) {
+              system.*member = static_cast<Number>(std::get<value>(given));
+            }};
   }
 
 /// The law of starts: an ensemble, such as normal_around, from law(system), or from law(system, spread),
@@ -203,16 +209,22 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 
 }  // namespace nysalt
 
+#ifndef NYSALT_PLUGIN_SOURCE
+#define NYSALT_PLUGIN_SOURCE "unknown"  // by what nysalt build knows the source
+#endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,
 /// starts(...), observable(...)...). The system's name is that of its type.
-#define NYSALT_SYSTEM(SYSTEM, ...)                                                      \
-  extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_stamp() { \
-    static const std::string stamp = nysalt::detail::plugin_stamp();                    \
-    return stamp.c_str();                                                               \
-  }                                                                                     \
-  extern "C" __attribute__((visibility("default"))) void nysalt_plugin_declare(         \
-      nysalt::system_declaration& result) {                                             \
-    using namespace nysalt;                                                             \
-    result = declare_system<SYSTEM>(#SYSTEM, __VA_ARGS__);                              \
-  }                                                                                     \
+#define NYSALT_SYSTEM(SYSTEM, ...)                                                       \
+  extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_stamp() {  \
+    static const std::string stamp = nysalt::detail::plugin_stamp();                     \
+    return stamp.c_str();                                                                \
+  }                                                                                      \
+  extern "C" __attribute__((visibility("default"))) void nysalt_plugin_declare(          \
+      nysalt::system_declaration& result) {                                              \
+    using namespace nysalt;                                                              \
+    result = declare_system<SYSTEM>(#SYSTEM, __VA_ARGS__);                               \
+  }                                                                                      \
+  extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_source() { \
+    return NYSALT_PLUGIN_SOURCE;                                                         \
+  }                                                                                      \
   static_assert(true)

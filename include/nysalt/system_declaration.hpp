@@ -122,7 +122,7 @@ struct made_system {
   std::string default_observable = "energy";    ///< where none is named
   double fine_angle = 5e-3;  ///< of a reference's step, times the frequency: there srkn11b errs by rounding
   detail::stiff_springs springs{};                       ///< of a system with stiff_energy(x, j)
-  bool has_exact_flow = false;                         ///< small steps then have a fixed angle
+  bool has_exact_flow = false;                           ///< small steps then have a fixed angle
   std::shared_ptr<const detail::any_reference> exact{};  ///< the exact flow of the system, if it is known
 };
 
@@ -148,6 +148,7 @@ struct system_declaration {
   bool has_spread = true;   ///< its law of starts has deviations
   std::string described{};  ///< with what its description begins, if not with its name
   std::string source{};     ///< in docs/bibliography.bib
+  std::string identity{};   ///< of the source that declares it; files refuse another. Empty: a bundled one
   bool is_checked = false;  ///< its force is known to be that of its potential
 };
 

@@ -112,7 +112,7 @@ def _held_by(system: Any) -> Any:
     return held
 
 
-def system(name: str = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
+def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
            sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
            **parameters: Optional[float]) -> System:
     """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
@@ -122,17 +122,21 @@ def system(name: str = "fpu", *, spread: Optional[float] = None, friction: Optio
     bath; `start` says where trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the
     deviations of the law of starts.
     """
-    return System(_nysalt.bundled(dict(locals())))
+    return System(_nysalt.bundled({**locals(), "name": _path(name)}))
 
 
-def build(source: str, output: Optional[str] = None) -> str:
+def _path(text: Any) -> Any:
+    return _os.fspath(text) if isinstance(text, _os.PathLike) else text
+
+
+def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, None] = None) -> str:
     """Compiles the source (.hpp) of a system of your own, by the compiler that nysalt was built with.
 
     It is made of a struct and a line NYSALT_SYSTEM; `nysalt new NAME` on the command line writes one to begin
     with. Returns the path of the library, output or else ./SOURCE.so, for `system`. Cost: some five seconds,
     nothing where nothing has changed.
     """
-    return _nysalt.build(dict(locals()))
+    return _nysalt.build(dict(source=_path(source), output=_path(output)))
 
 
 def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
@@ -147,6 +151,10 @@ def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
     pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
     around a point, with the deviations deviation_q and deviation_p, parameters too [0.1].
     """
+    if not isinstance(text, str):
+        raise ValueError(f"text must be a text, got {text!r}")
+    if around is not None and not isinstance(around, dict):
+        raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
     return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
                                        parameters=parameters, spread=spread, friction=friction, sigma=sigma,
                                        temperature=temperature, start=start)))

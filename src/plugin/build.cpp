@@ -8,13 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -22,6 +22,7 @@
 #include "../program/refusal.hpp"
 #include "nysalt/plugin.hpp"
 #include "nysalt/report/write_file.hpp"
+#include "plugin.hpp"
 
 extern char** environ;
 
@@ -91,9 +92,17 @@ void append_sources(const fs::path& file, std::set<fs::path>& seen, std::string&
   const auto text = text_of_file(file);
   if (!text) return;
   to += fmt::format("{} {}\n", text->size(), *text);
-  static const std::regex quoted(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re");
-  for (std::sregex_iterator i(text->begin(), text->end(), quoted); i != std::sregex_iterator(); ++i) {
-    append_sources(file.parent_path() / (*i)[1].str(), seen, to);
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view rest = line;
+    const auto skip = [&](std::string_view expected) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+      if (!rest.starts_with(expected)) return false;
+      rest.remove_prefix(expected.size());
+      return true;
+    };
+    if (!skip("#") || !skip("include") || !skip("\"")) continue;
+    append_sources(file.parent_path() / rest.substr(0, rest.find('"')), seen, to);
   }
 }
 
@@ -167,7 +176,8 @@ struct temporary {
   }
 };
 
-void compile(const fs::path& source, const fs::path& library, const recipe& how) {
+void compile(const fs::path& source, const std::string& identity, const fs::path& library,
+             const recipe& how) {
   const std::string unique = fmt::format("{}.{}", library.string(), ::getpid());
   const temporary made{unique + ".part"};
   const temporary messages{unique + ".log"};
@@ -176,6 +186,7 @@ void compile(const fs::path& source, const fs::path& library, const recipe& how)
        {"-shared", "-fPIC", "-fvisibility=hidden", "-fvisibility-inlines-hidden", "-x", "c++"}) {
     command.emplace_back(flag);
   }
+  command.push_back(fmt::format("-DNYSALT_PLUGIN_SOURCE=\"{}\"", identity));
   command.push_back(fs::absolute(source).string());
   for (const char* flag : {"-x", "none", "-Wl,--as-needed", "-Wl,-z,defs", "-Wl,--exclude-libs,ALL", "-o"}) {
     command.emplace_back(flag);
@@ -209,9 +220,10 @@ fs::path compiled(const fs::path& source) {
     all += fmt::format("{} {}\n", library, when);
   }
   std::set<fs::path> seen;
-  append_sources(source, seen, all);
-  const fs::path library = cache_folder() / (name_of(all) + ".so");
-  if (!fs::is_regular_file(library, ignored)) compile(source, library, how);
+  std::string sources;
+  append_sources(source, seen, sources);
+  const fs::path library = cache_folder() / (name_of(all + sources) + ".so");
+  if (!fs::is_regular_file(library, ignored)) compile(source, name_of(sources), library, how);
   return library;
 }
 
@@ -228,6 +240,7 @@ std::string build_library(const std::string& source, const std::string& output) 
   if (to.extension() != ".so") refuse("--output must end in .so, got {}", to.string());
   if (!to.has_parent_path()) to = "." / to;
   const fs::path library = compiled(source);
+  require_plugin(library.string(), source);
   const temporary copy{fmt::format("{}.{}.part", to.string(), ::getpid())};
   std::error_code problem;
   fs::copy_file(library, copy.path, fs::copy_options::overwrite_existing, problem);

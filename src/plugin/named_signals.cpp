@@ -18,6 +18,7 @@ constexpr std::array<std::pair<int, std::string_view>, 5> fatal{
 
 std::array<char, 512> end_of_line{};  // a handler may not allocate
 volatile std::size_t length = 0;
+bool is_allowed = false;
 
 void put(std::string_view text) {
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
@@ -35,9 +36,13 @@ extern "C" void tell_signal(int number) {
 
 }  // namespace
 
+void allow_named_signals() { is_allowed = true; }
+
 void name_signals(const std::string& plugin) {
-  const std::string text = " while the plug-in " + plugin + " was in use: look for the mistake there first\n";
-  const std::size_t most = end_of_line.size();
+  if (!is_allowed) return;
+  constexpr std::size_t most = end_of_line.size();
+  std::string text = " while the plug-in " + plugin.substr(0, most / 2);
+  text += " was in use: look for the mistake there first\n";
   length = 0;
   std::memcpy(end_of_line.data(), text.data(), std::min(most, text.size()));
   length = std::min(most, text.size());

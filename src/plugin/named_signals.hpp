@@ -6,6 +6,9 @@
 
 namespace nysalt::program {
 
+/// In a program that owns its signals: to be called at its start. Without it name_signals() does nothing.
+void allow_named_signals();
+
 /// From now on a signal that ends the program (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes a line with
 /// its name and the plug-in's on standard error first.
 void name_signals(const std::string& plugin);

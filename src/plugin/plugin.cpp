@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -51,49 +52,83 @@ void require_sound(const system_declaration& declared, const std::string& path) 
   std::vector<std::string> names;
   for (const auto& parameter : declared.parameters) {
     const std::string& name = parameter.name;
-    const auto may_stand = [](char c) {
-      return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_';
-    };
-    if (name.empty() || !std::ranges::all_of(name, may_stand) || name.front() < 'a') {
+    if (!is_plain_name(name)) {
       refuse("{}: a parameter is called '{}': take lower-case letters, digits and _, a letter first", path,
              name);
     }
+    if (is_reserved_name(name)) refuse("{}: the parameter name '{}' is taken: choose another", path, name);
     if (std::ranges::count(names, name) > 0) refuse("{}: two parameters are called '{}'", path, name);
     names.push_back(name);
+    try {
+      parameter.require(parameter.usual);
+    } catch (const std::invalid_argument& problem) {
+      refuse("{}: the default is out of bounds: {}", path, problem.what());
+    }
   }
 }
 
-system_declaration load(const std::string& path) {
-  const fs::path file = fs::absolute(is_source(path) ? compiled(path) : fs::path(path));
+system_declaration declared_in(const fs::path& library_file, const std::string& shown) {
+  const fs::path file = fs::absolute(library_file);
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) refuse("{}: there is no such file", path);
-  name_signals(path);
+  if (!fs::exists(file, ignored)) refuse("{}: there is no such file", shown);
+  if (!fs::is_regular_file(file, ignored)) refuse("{}: this is no file", shown);
+  name_signals(shown);
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) refuse("{}: this is no library that can be loaded: {}", path, why_not_loaded(file));
-  auto* const stamp_of = function_in<const char*()>(library, "nysalt_plugin_stamp", path);
+  if (library == nullptr)
+    refuse("{}: this is no library that can be loaded: {}", shown, why_not_loaded(file));
+  auto* const stamp_of = function_in<const char*()>(library, "nysalt_plugin_stamp", shown);
   const std::string stamp = stamp_of();
   if (stamp != detail::plugin_stamp()) {
-    refuse("{}: it was built for '{}', and this is '{}': build it again, by nysalt build", path, stamp,
+    refuse("{}: it was built for '{}', and this is '{}': build it again, by nysalt build", shown, stamp,
            detail::plugin_stamp());
   }
   system_declaration declared;
-  auto* const declare = function_in<void(system_declaration&)>(library, "nysalt_plugin_declare", path);
+  auto* const declare = function_in<void(system_declaration&)>(library, "nysalt_plugin_declare", shown);
   try {
     declare(declared);
   } catch (const std::exception& problem) {  // of the user's code
-    refuse("{}: {}", path, problem.what());
+    refuse("{}: {}", shown, problem.what());
   }
-  require_sound(declared, path);
+  require_sound(declared, shown);
+  declared.identity = function_in<const char*()>(library, "nysalt_plugin_source", shown)();
   return declared;
+}
+
+/// A library in the cache that cannot be loaded is compiled anew, once.
+system_declaration load(const std::string& path, const std::string& shown) {
+  if (!is_source(path)) return declared_in(path, shown);
+  const fs::path kept = compiled(path);
+  try {
+    return declared_in(kept, shown);
+  } catch (const refusal&) {
+    std::error_code ignored;
+    fs::remove(kept, ignored);
+  }
+  return declared_in(compiled(path), shown);
 }
 
 }  // namespace
 
-const system_declaration& plugin_at(const std::string& path) {
+bool is_plain_name(std::string_view name) {
+  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
+  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
+}
+
+bool is_reserved_name(std::string_view name) {
+  constexpr std::array taken{"around",     "description", "friction",    "mass",   "name",     "parameter",
+                             "parameters", "potential",   "sigma",       "source", "spread",   "start",
+                             "starts",     "system",      "temperature", "text",   "variables"};
+  return std::ranges::find(taken, name) != taken.end();
+}
+
+void require_plugin(const std::string& path, const std::string& shown) { declared_in(path, shown); }
+
+const system_declaration& plugin_at(const std::string& path, const std::string& shown) {
   auto& all = all_loaded();
   const auto known = std::ranges::find_if(all, [&](const auto& one) { return one->path == path; });
   if (known != all.end()) return (*known)->declared;
-  return all.emplace_back(std::make_unique<loaded>(loaded{path, load(path)}))->declared;
+  return all.emplace_back(std::make_unique<loaded>(loaded{path, load(path, shown.empty() ? path : shown)}))
+      ->declared;
 }
 
 std::vector<const system_declaration*> loaded_plugins() {

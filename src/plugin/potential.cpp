@@ -13,6 +13,7 @@
 
 #include "../program/number.hpp"
 #include "../program/refusal.hpp"
+#include "plugin.hpp"
 
 namespace nysalt::program {
 
@@ -42,7 +43,10 @@ constexpr std::int64_t most_coordinates = 100'000;
 std::vector<variable> variables_of(const std::vector<std::string>& typed) {
   std::vector<variable> all;
   std::int64_t first = 0;
-  for (const auto& text : typed) {
+  for (const auto& with_blanks : typed) {
+    const auto first_letter = std::min(with_blanks.find_first_not_of(' '), with_blanks.size());
+    const std::string text =
+        with_blanks.substr(first_letter, with_blanks.find_last_not_of(' ') + 1 - first_letter);
     const auto bracket = text.find('[');
     variable next{text.substr(0, bracket), first, 1, bracket != std::string::npos};
     if (next.is_list) {
@@ -170,7 +174,7 @@ class translation {
     if (digits.ends_with(".0")) digits.resize(digits.size() - 2);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     const bool is_whole = error == std::errc{} && end == digits.data() + digits.size();
-    if (is_whole && std::abs(n) <= 64) return fmt::format("power<{}>({})", n, base);
+    if (is_whole && -64 <= n && n <= 64) return fmt::format("power<{}>({})", n, base);
     return fmt::format("real_power({}, {})", base, exponent);
   }
   std::string primary() {
@@ -271,8 +275,10 @@ class translation {
         counter, first.code, last.code, term);
   }
   index index_sum() {
+    constexpr std::int64_t far = 1'000'000'000;  // beyond it ranges could overflow
     index total = index_factor();
     for (;;) {
+      if (total.least < -far || total.most > far) fail("this index goes too far");
       if (takes('+')) {
         const index more = index_factor();
         total = {fmt::format("({} + {})", total.code, more.code), total.least + more.least,
@@ -383,6 +389,7 @@ std::string source_of(const typed_potential& typed) {
     if (!is_name(name) || name.front() == '_' || !std::ranges::all_of(name, is_lower)) {
       refuse("--parameter: '{}' is not a name of lower-case letters, digits and _", name);
     }
+    if (is_reserved_name(name)) refuse("--parameter: the name '{}' is taken: choose another", name);
     parameters.push_back(name);
   }
   std::vector<std::string> names = parameters;
@@ -437,11 +444,12 @@ std::string source_of(const typed_potential& typed) {
     shown += fmt::format(", {}={{}}", name);
     values += fmt::format(", p_{}", name);
   }
+  const std::string of_variables = fmt::format("; {}", fmt::join(typed.variables, ","));
   const std::string of_masses = has_masses ? fmt::format(", masses {}", listed_numbers(masses)) : "";
   source += fmt::format(
       "  std::string description() const {{\n    return nysalt::sentence(\"given_potential({}{}{})\"{});\n  "
       "}}\n}};\n\n",
-      typed.text, of_masses, shown, values);
+      typed.text, of_variables + of_masses, shown, values);
   source += fmt::format("NYSALT_SYSTEM(given_potential, \"V = {}\"", typed.text);
   for (const auto& name : parameters)
     source += fmt::format(",\n  parameter(\"{0}\", &given_potential::p_{0}, \"of V\")", name);

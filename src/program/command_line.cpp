@@ -107,13 +107,18 @@ std::string typed_after(const std::string& name, int argc, char** argv) {
 void load_named_system(int argc, char** argv) {
   std::string name = typed_after("--system", argc, argv);
   const std::string file = typed_after("--config", argc, argv);
-  if (name.empty() && !file.empty()) name = system_in_options_file(file);
+  if (name.empty() && !file.empty()) {
+    const auto is_word = [](const char* word) { return word[0] != '-'; };
+    const auto command = std::find_if(argv + 1, argv + argc, is_word);
+    name = system_in_options_file(file, command == argv + argc ? "" : *command);
+  }
   if (!is_path_of_system(name)) return;
   on_first(world(), [&] { declaration_of(name); });  // compiles, if it must, once
   declaration_of(name);
 }
 
-/// In the order of the help.
+}  // namespace
+
 std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
   try {
     return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
@@ -121,9 +126,14 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
             offer_new(app, common),     offer_build(app, common),     offer_reproduce(app, common),
             offer_cite(app, common)};
   } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
-    refuse("a parameter of the system has the name of an option: {}; call it otherwise", problem.what());
+    std::string name = problem.what();                // "...: NAME is already added"
+    name = name.substr(name.rfind(": ") == std::string::npos ? 0 : name.rfind(": ") + 2);
+    refuse("a parameter of the system is called '{}', as an option is: choose another name",
+           name.substr(0, name.find(' ')));
   }
 }
+
+namespace {
 
 /// Ranks may have different numbers of threads.
 std::string without_threads(const std::string& options) {

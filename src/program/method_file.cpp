@@ -182,6 +182,7 @@ scheme scheme_in(const json& document, const reader& read) {
                   where,
                   theta_curve(steps, thetas),
                   of_system.text("description"),
+                  source_of_system(document.at("system")),
                   read.flag("usable"),
                   read.text("reason"),
                   energies,
@@ -268,6 +269,13 @@ std::string scheme::steps() const {
   const auto& all = curve.steps();
   return all.size() == 1 ? message("the step {}", all.front())
                          : message("steps from {} to {}", all.front(), all.back());
+}
+
+std::string source_of_system(const json& parameters) {
+  if (!parameters.contains("source")) return {};
+  json known = parameters;
+  for (const char* other : {"description", "spread", "friction", "sigma"}) known.erase(other);
+  return known.dump();
 }
 
 std::string scheme_text(const std::vector<learned_scheme>& learned, const bundled_system& system,

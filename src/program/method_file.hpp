@@ -20,6 +20,7 @@ struct scheme {
   std::optional<placement> where;  // of its letters O
   theta_curve curve;
   std::string system;  // its description
+  std::string source;  // of a system of the user's own: its source and parameters; empty: a bundled one
   bool usable;
   std::string reason;
   std::optional<energy_range> energies;  // that it was learned on
@@ -33,6 +34,10 @@ struct scheme {
   /// "the step 0.03", or "steps from 0.02 to 0.03".
   std::string steps() const;
 };
+
+/// By what a scheme knows a system of the user's own beside its description: the source and all parameters.
+/// Empty of a bundled one.
+std::string source_of_system(const nlohmann::ordered_json& parameters);
 
 /// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
 /// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.

@@ -98,6 +98,9 @@ std::string out_of_place(const scheme& learned, const bundled_system& system, do
   if (learned.system != system.description()) {
     reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
   }
+  if (learned.system == system.description() && learned.source != source_of_system(system.parameters())) {
+    reasons.push_back("it was learned for another source, or other parameters, of " + learned.system);
+  }
   if (!learned.usable) reasons.push_back("its fit was not usable: " + learned.reason);
   return listed(reasons);
 }

@@ -43,6 +43,16 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
   return is_number && 1 <= index && index <= last ? index : 0;
 }
 
+/// Whether a system has an observable of that name.
+inline bool is_observable(const made_system& made, const std::string& name) {
+  for (const auto& known : {"energy", "kinetic_energy", "kinetic_temperature", "potential_energy"}) {
+    if (name == known) return true;
+  }
+  const Eigen::Index pairs = made.springs.pairs;
+  return index_after(name, "q", size(made.system)) > 0 || index_after(name, "p", size(made.system)) > 0 ||
+         (pairs > 0 && (name == "stiff_energy" || index_after(name, "stiff_energy_", pairs) > 0));
+}
+
 /// A function of the state of one trajectory, or of those in the lanes of packs. Refers to what
 /// was made. Throws refusal, listing the names, if there is none of that name.
 inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const made_system& made,

@@ -87,14 +87,17 @@ std::string plain_toml(std::istream& input) {
 
 }  // namespace
 
-std::string system_in_options_file(const std::string& file) {
+std::string system_in_options_file(const std::string& file, const std::string& command) {
   std::ifstream input(file);
   if (!input) return {};  // told where options are read
   std::istringstream text(plain_toml(input));
+  std::string of_all;
   for (const auto& item : CLI::ConfigTOML().from_config(text)) {
-    if (item.name == "system" && !item.inputs.empty()) return item.inputs.front();
+    if (item.name != "system" || item.inputs.empty()) continue;
+    if (item.parents.empty()) of_all = item.inputs.front();
+    if (item.parents == std::vector{command}) return item.inputs.front();
   }
-  return {};
+  return of_all;
 }
 
 std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) const {

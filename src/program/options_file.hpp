@@ -14,8 +14,8 @@ std::vector<std::string> option_names(const CLI::App& command);
 /// "nysalt learn --help tells what it takes"
 std::string help_of(const CLI::App& command);
 
-/// The value of `system` in a file of options, of whichever command; empty if there is none.
-std::string system_in_options_file(const std::string& file);
+/// The value of `system` in a file of options, for a command; empty if there is none.
+std::string system_in_options_file(const std::string& file, const std::string& command);
 
 /// TOML. Options that stand in no [section] belong to the command that runs, whose section says more.
 class options_file : public CLI::ConfigTOML {

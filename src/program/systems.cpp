@@ -15,6 +15,7 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
 #include "nysalt/ensemble.hpp"
+#include "observables.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -85,7 +86,7 @@ parameter_value value_of(const declared_parameter& parameter, const std::string&
 
 const system_declaration& declared_by(const system_settings& settings) {
   const auto& potential = settings.potential;
-  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string());
+  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
   const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
                         !potential.masses.empty() || !potential.around.empty();
   if (has_more) refuse("--variables, --parameter, --mass and --around belong to --potential");
@@ -115,6 +116,23 @@ void require_options(const system_settings& settings, const std::map<std::string
   };
   for (const auto& [name, text] : typed) require(name);
   if (settings.spread) require("spread");
+}
+
+/// Names that no other observable has.
+void require_observables(const made_system& made, const std::string& name) {
+  made_system without = made;
+  without.observables.clear();
+  std::vector<std::string> names;
+  for (const auto& own : made.observables) {
+    if (!is_plain_name(own.name)) {
+      refuse("{}: an observable is called '{}': take lower-case letters, digits and _, a letter first", name,
+             own.name);
+    }
+    if (std::ranges::count(names, own.name) > 0 || is_observable(without, own.name)) {
+      refuse("{}: there is an observable '{}' already: choose another name", name, own.name);
+    }
+    names.push_back(own.name);
+  }
 }
 
 /// Looks for a force that is not -grad V, or not finite, at four starts, where nobody has done so before.
@@ -195,11 +213,16 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
     values.add(parameter.name, value);
     std::visit([&](auto number) { named.push_back({parameter.name, number}); }, value);
   }
+  if (!declared.identity.empty()) named.push_back({"source", declared.identity});
   if (declared.is_checked) {
     return make_bundled(declared.make(values, conditions.bath, conditions.spread), named, conditions);
   }
   try {
     made_system made = declared.make(values, conditions.bath, conditions.spread);
+    require_observables(made, declared.name);
+    if (!(made.frequency >= 0.0) || !std::isfinite(made.frequency)) {
+      refuse("{}: frequency(...) must be positive and finite, got {}", declared.name, made.frequency);
+    }
     require_force(made, declared.name);
     if (!(made.frequency > 0.0)) made.frequency = frequency_of(made, declared.name);
     return make_bundled(made, named, conditions);

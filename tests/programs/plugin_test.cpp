@@ -106,8 +106,11 @@ BOOST_AUTO_TEST_CASE(the_documented_system_runs) {
   const auto built = run(folder, "build " NYSALT_SOURCE_DIR "/examples/plugins/toda.hpp");
   BOOST_TEST(built.code == 0, built.err);
   BOOST_TEST(folder.files() == std::set<std::string>{"toda.so"});
-  const auto compared = document("compare --steps 0.1 --methods verlet,srkn6b --metric state --trajectories 16 "
-                                 "--particles 8" + system, folder);
+  const auto compared = document(
+      "compare --steps 0.1 --methods verlet,srkn6b --metric state --trajectories 16 "
+      "--particles 8" +
+          system,
+      folder);
   BOOST_TEST(compared["system"] == "toda(particles=8)");
   const double verlet = compared["rows"][0]["error"];
   const double fine = compared["rows"][1]["error"];
@@ -138,6 +141,27 @@ BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
              run(folder, sampled + "--system fpu --omega 49").out);
 }
 
+// What was begun or learned with one source is not gone on with by another of the same description.
+BOOST_AUTO_TEST_CASE(another_source_is_another_system) {
+  const scratch folder("plugin_sources");
+  write(folder, "tried.hpp",
+        oscillator_source("#include \"factor.hpp\"\n" + potential_that("return FACTOR * k * q[0] * q[0];")));
+  write(folder, "factor.hpp", "#define FACTOR 0.5\n");
+  const std::string learn =
+      "learn --system ./tried.hpp --step 0.5 --family nystrom --trajectories 4 --force ";
+  run(folder, learn + "--output scheme.json");
+  const std::string use = "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 1";
+  const auto same = run(folder, use);
+  BOOST_TEST(same.err.find("another source") == std::string::npos, same.err);
+  const auto other_k =
+      run(folder, "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 2");
+  BOOST_TEST(other_k.code == 2);
+  write(folder, "factor.hpp", "#define FACTOR 5.0\n");
+  const auto other = run(folder, use);
+  BOOST_TEST(other.code == 2);
+  BOOST_TEST(other.err.find("another source") != std::string::npos, other.err);
+}
+
 BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const scratch folder("plugin_mistakes");
   const auto must_say = [&](const std::string& source, const std::string& options, const std::string& said) {
@@ -152,7 +176,11 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const std::string sound = potential_that("");
   must_say(oscillator_source(sound + " double x("), "", "does not compile: ");
   must_say(oscillator_source("double nothing() const { return 0.0; }"), "", "a separable system offers");
-  must_say(oscillator_source(sound, ", parameter(\"step\", &tried::k, \"\")"), "", "name of an option");
+  must_say(oscillator_source(sound, ", parameter(\"step\", &tried::k, \"\")"), "",
+           "is called 'step', as an option is");
+  must_say(oscillator_source(sound,
+                             ", observable(\"energy\", [](const tried&, const auto& x) { return x.q[0]; })"),
+           "", "there is an observable 'energy' already");
   // What it does is chosen while it runs, as each source takes seconds to compile.
   const std::string by_k = oscillator_source(
       potential_that(

@@ -20,7 +20,7 @@ def test_a_source_is_built_and_loaded(tmp_path):
     assert path == str(tmp_path / "toda.so")
     ring = nysalt.system(path, particles=6)
     assert ring.description == "toda(particles=6)" and ring.dimension == 6 and not ring.calls_python
-    assert ring.parameters == {"name": "toda", "particles": 6}
+    assert ring.parameters == {"name": "toda", "particles": 6, "source": ring.parameters["source"]}
     q = np.linspace(-0.3, 0.4, 6)
     bonds = np.roll(q, -1) - q
     assert np.allclose(ring.energy(q, 0 * q), np.sum(np.exp(bonds) - 1 - bonds), rtol=1e-14)
@@ -33,7 +33,7 @@ def test_a_source_is_built_and_loaded(tmp_path):
         nysalt.system(path, omega=3.0)
     with pytest.raises(ValueError, match="particles must be a whole number, got 2.5"):
         nysalt.system(path, particles=2.5)
-    with pytest.raises(ValueError, match="particles must be at least 2, got 1"):
+    with pytest.raises(ValueError, match="particles must be at least 2 and at most 1000, got 1"):
         nysalt.system(path, particles=1)
 
 

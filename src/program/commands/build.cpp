@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "../bundled_system.hpp"
 #include "../commands.hpp"
 #include "../json.hpp"
+#include "../options/subcommand.hpp"
 #include "../output.hpp"
 #include "nysalt/system_declaration.hpp"
 
@@ -14,6 +17,9 @@ namespace nysalt::program {
 int build(const build_command& command, const common_settings& common) {
   const std::string path = build_library(command.source, command.output);
   const auto& system = declaration_of(path);
+  CLI::App all;
+  common_settings unused;
+  offer_all(all, unused);  // its parameters may not have the names of options
   if (common.json) {
     print(text_of(
         {{"output", path}, {"name", system.name}, {"title", system.title}, {"options", options_of(system)}}));

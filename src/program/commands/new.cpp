@@ -18,10 +18,23 @@ namespace {
 void require_name(const std::string& name) {
   const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
   static const std::set<std::string> taken{
-      "auto",     "bool",   "case",  "catch",  "char",   "class",  "const",  "delete", "do",
-      "double",   "else",   "enum",  "float",  "for",    "if",     "int",    "long",   "model",
-      "new",      "nysalt", "short", "signed", "sizeof", "static", "struct", "switch", "system",
-      "template", "this",   "throw", "try",    "union",  "using",  "void",   "while"};
+      "alignas",   "alignof",   "and",       "asm",       "auto",       "bool",      "break",
+      "case",      "catch",     "char",      "class",     "concept",    "const",     "consteval",
+      "constexpr", "constinit", "continue",  "decltype",  "default",    "delete",    "do",
+      "double",    "else",      "enum",      "explicit",  "export",     "extern",    "false",
+      "float",     "for",       "friend",    "goto",      "if",         "inline",    "int",
+      "long",      "mutable",   "namespace", "new",       "noexcept",   "not",       "nullptr",
+      "operator",  "or",        "private",   "protected", "public",     "register",  "requires",
+      "return",    "short",     "signed",    "sizeof",    "static",     "struct",    "switch",
+      "template",  "this",      "throw",     "true",      "try",        "typedef",   "typename",
+      "union",     "unsigned",  "using",     "virtual",   "void",       "volatile",  "while",
+      "xor",       "nysalt",    "model",     "system",    "name",       "source",    "description",
+      "spread",    "potential", "parameter", "starts",    "observable", "frequency", "first_bond",
+      "starts_of", "masses",    "depth",     "width",     "exp",        "log",       "sin",
+      "cos",       "tan",       "sqrt",      "pow",       "abs",        "fabs",      "floor",
+      "ceil",      "gamma",     "j0",        "j1",        "jn",         "y0",        "y1",
+      "yn",        "div",       "time",      "clock",     "index",      "signal",    "read",
+      "write",     "open",      "close",     "link",      "main",       "std"};
   if (name.empty() || !std::ranges::all_of(name, may_stand) || name.front() < 'a' || taken.contains(name)) {
     refuse(
         "a system cannot be called '{}': take lower-case letters, digits and _, a letter first, and no word "

@@ -16,9 +16,9 @@ subcommand offer_build(CLI::App& app, common_settings& common) {
   add_common(command, common);
   command.footer(
       "A source is code that runs as you: build what you trust. --system SOURCE.hpp builds it too.\n\n"
-      "Example, after nysalt new morse_chain:\n"
+      "Examples:\n"
       "  nysalt build morse_chain.hpp\n"
-      "  nysalt stability --system ./morse_chain.so --depth 20 --method verlet --step 0.1");
+      "  nysalt build morse_chain.hpp --output systems/morse_chain.so");
   return {&command, [asked, &common] { return build(*asked, common); }};
 }
 
@@ -27,7 +27,7 @@ subcommand offer_new(CLI::App& app, common_settings& common) {
   auto& command = *app.add_subcommand("new", "begin a system of your own: a commented source that builds");
   command.add_option("NAME", asked->name, "of the system: NAME.hpp is written here")->required();
   add_common(command, common);
-  command.footer("Example:\n  nysalt new morse_chain");
+  command.footer("Examples:\n  nysalt new morse_chain");
   return {&command, [asked, &common] { return new_system(*asked, common); }};
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "../settings.hpp"
 
@@ -14,6 +15,10 @@ struct subcommand {
   /// Once they are read. Returns the exit code; throws refusal, also for options that do not go together.
   std::function<int()> run;
 };
+
+/// All of them, in the order of the help. Throws refusal if a parameter of a system that was loaded has the
+/// name of an option.
+std::vector<subcommand> offer_all(CLI::App& app, common_settings& common);
 
 // Each is added to the program; its common options are read into `common`, which must outlive it.
 subcommand offer_build(CLI::App& app, common_settings& common);
