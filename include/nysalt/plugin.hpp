@@ -210,7 +210,8 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 }  // namespace nysalt
 
 #ifndef NYSALT_PLUGIN_SOURCE
-#define NYSALT_PLUGIN_SOURCE "unknown"  // by what nysalt build knows the source
+/// By what files know the source; nysalt build defines it.
+#define NYSALT_PLUGIN_SOURCE "unknown"
 #endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,
 /// starts(...), observable(...)...). The system's name is that of its type.

@@ -97,9 +97,11 @@ BOOST_AUTO_TEST_CASE(texts_that_are_no_potential_are_refused) {
            {"--potential 'x^2' --variables x,x", "'x' is taken"},
            {"--potential 'x^2' --variables 'x y'", "is not a name"},
            {"--potential 'name*x^2' --variables x --parameter name=1", "'name' is taken"},
-           {"--potential "
-            "'sum(i,1,9999,sum(j,i+i+i+i,i+i+i+i,sum(k,j+j+j+j+j+j+j+j,j,sum(l,k+k+k+k+k+k+k+k,k,sum(m,"
-            "l+l+l+l+l+l+l+l,l,sum(n,m+m+m+m+m+m+m+m,m,q[n-n+1]))))))' --variables 'q[3]'",
+           {"--potential '"
+            "sum(j,1,9999,sum(k,1,j+j+j+j+j+j+j+j,sum(l,1,k+k+k+k+k+k+k+k,sum(m,1,l+l+l+l+l+l"
+            "+l+l,sum(n,1,m+m+m+m+m+m+m+m,sum(o,1,n+n+n+n+n+n+n+n,sum(p,1,o+o+o+o+o+o+o+o,q[p"
+            "])))))))"
+            "' --variables 'q[3]'",
             "goes too far"},
            {"--potential 'q[3]^2' --variables 'q[2]'", "q[1] to q[2]"},
            {"--potential 'q[1]^2' --variables 'q[0]'", "at least 1"},
