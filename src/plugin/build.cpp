@@ -109,7 +109,8 @@ void append_sources(const fs::path& file, std::set<fs::path>& seen, std::string&
 /// 128 bits, by which different sources have different names: FNV-1a from two beginnings.
 std::string name_of(std::string_view text) {
   const auto hash = [&](std::uint64_t h) {
-    for (const unsigned char c : text) h = (h ^ c) * 0x100000001b3U;  // the prime of 64-bit FNV-1a
+    for (const char c : text)
+      h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;  // the prime of 64-bit FNV-1a
     return h;
   };
   return fmt::format("{:016x}{:016x}", hash(0xcbf29ce484222325U), hash(0x84222325cbf29ce4U));  // its offset
