@@ -180,15 +180,11 @@ void take_parameters(const given& arguments, program::system_settings& settings)
       settings.parameters.erase(parameter.name);
       continue;
     }
-    if (parameter.is_whole()) {
-      std::int64_t value = 0;
+    const auto take = [&](auto value) {
       arguments.take(name, value);
       settings.parameters[parameter.name] = fmt::format("{}", value);
-    } else {
-      double value = 0.0;
-      arguments.take(name, value);
-      settings.parameters[parameter.name] = fmt::format("{}", value);
-    }
+    };
+    parameter.is_whole() ? take(std::int64_t{}) : take(double{});
   }
 }
 

@@ -28,8 +28,12 @@ struct member_parameter {
   declared_parameter declared;
   std::function<void(S&, const parameter_value&)> set;
 
-  member_parameter at_least(double bound) && { return declared.least = bound, std::move(*this); }
-  member_parameter at_most(double bound) && { return declared.most = bound, std::move(*this); }
+  member_parameter at_least(double bound) && {
+    return declared.least = std::max(declared.least, bound), std::move(*this);
+  }
+  member_parameter at_most(double bound) && {
+    return declared.most = std::min(declared.most, bound), std::move(*this);
+  }
   member_parameter positive() && { return declared.is_positive = true, std::move(*this); }
 };
 
@@ -193,7 +197,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       }
     }
     made_system made = [&] {
-      if constexpr (detail::TellsDescription<S> || std::is_final_v<S>) {
+      if constexpr (detail::TellsDescription<S>) {
         return detail::made_of(system, in, law.front(), highest);
       } else {
         const std::string text = name + "(" + listed + ")";

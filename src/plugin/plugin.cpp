@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "../program/refusal.hpp"
 #include "build.hpp"
 #include "named_signals.hpp"
+#include "names.hpp"
 #include "nysalt/plugin.hpp"
 
 namespace nysalt::program {
@@ -48,6 +48,12 @@ std::string why_not_loaded(const fs::path& file) {
   return text;
 }
 
+/// What the loader of the system cannot take for a library.
+class unloadable : public refusal {
+ public:
+  using refusal::refusal;
+};
+
 void require_sound(const system_declaration& declared, const std::string& path) {
   std::vector<std::string> names;
   for (const auto& parameter : declared.parameters) {
@@ -74,8 +80,9 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   if (!fs::is_regular_file(file, ignored)) refuse("{}: this is no file", shown);
   name_signals(shown);
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr)
-    refuse("{}: this is no library that can be loaded: {}", shown, why_not_loaded(file));
+  if (library == nullptr) {
+    throw unloadable(message("{}: this is no library that can be loaded: {}", shown, why_not_loaded(file)));
+  }
   auto* const stamp_of = function_in<const char*()>(library, "nysalt_plugin_stamp", shown);
   const std::string stamp = stamp_of();
   if (stamp != detail::plugin_stamp()) {
@@ -94,13 +101,13 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   return declared;
 }
 
-/// A library in the cache that cannot be loaded is compiled anew, once.
+/// A damaged library in the cache is compiled again, once.
 system_declaration load(const std::string& path, const std::string& shown) {
   if (!is_source(path)) return declared_in(path, shown);
   const fs::path kept = compiled(path);
   try {
     return declared_in(kept, shown);
-  } catch (const refusal&) {
+  } catch (const unloadable&) {
     std::error_code ignored;
     fs::remove(kept, ignored);
   }
@@ -108,18 +115,6 @@ system_declaration load(const std::string& path, const std::string& shown) {
 }
 
 }  // namespace
-
-bool is_plain_name(std::string_view name) {
-  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
-  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
-}
-
-bool is_reserved_name(std::string_view name) {
-  constexpr std::array taken{"around",     "description", "friction",    "mass",   "name",     "parameter",
-                             "parameters", "potential",   "sigma",       "source", "spread",   "start",
-                             "starts",     "system",      "temperature", "text",   "variables"};
-  return std::ranges::find(taken, name) != taken.end();
-}
 
 void require_plugin(const std::string& path, const std::string& shown) { declared_in(path, shown); }
 

@@ -13,7 +13,7 @@
 
 #include "../program/number.hpp"
 #include "../program/refusal.hpp"
-#include "plugin.hpp"
+#include "names.hpp"
 
 namespace nysalt::program {
 
@@ -385,8 +385,7 @@ std::string source_of(const typed_potential& typed) {
   std::vector<std::string> parameters;
   for (const auto& [name, value] : values_of(typed.parameters, "--parameter")) {
     if (name == "deviation_q" || name == "deviation_p") continue;
-    const auto is_lower = [](char c) { return std::isupper(static_cast<unsigned char>(c)) == 0; };
-    if (!is_name(name) || name.front() == '_' || !std::ranges::all_of(name, is_lower)) {
+    if (!is_plain_name(name)) {
       refuse("--parameter: '{}' is not a name of lower-case letters, digits and _", name);
     }
     if (is_reserved_name(name)) refuse("--parameter: the name '{}' is taken: choose another", name);

@@ -8,7 +8,7 @@
 
 namespace nysalt::program {
 
-/// V as a person types it, and what stands in it.
+/// A system of unit or given masses whose potential energy V(q) is a formula, as typed.
 struct typed_potential {
   std::string text;                     // empty: there is none
   std::vector<std::string> variables;   // the coordinates, in their order: x, or q[16] for sixteen

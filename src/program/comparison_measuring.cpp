@@ -63,7 +63,7 @@ void comparison::learn_and_measure(journal& kept) {
   for (const auto& text : warnings_of_reference(*this)) warnings_.push_back(text);
 }
 
-/// The work in force evaluations, roughly: what is left of the time is told by it.
+/// An estimate of the work in force evaluations, by which progress shows the time that is left.
 void comparison::expect_work() {
   double work = 0.0;
   std::map<double, group> by_step;

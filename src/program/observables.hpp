@@ -43,8 +43,8 @@ inline Eigen::Index index_after(std::string_view name, std::string_view stem, Ei
   return is_number && 1 <= index && index <= last ? index : 0;
 }
 
-/// Whether a system has an observable of that name.
-inline bool is_observable(const made_system& made, const std::string& name) {
+/// Whether a system has an observable of that name that its user has not declared.
+inline bool is_built_in_observable(const made_system& made, const std::string& name) {
   for (const auto& known : {"energy", "kinetic_energy", "kinetic_temperature", "potential_energy"}) {
     if (name == known) return true;
   }

@@ -12,11 +12,8 @@
 #include "bundled_systems.hpp"
 #include "did_you_mean.hpp"
 #include "number.hpp"
-#include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
-#include "nysalt/ensemble.hpp"
-#include "observables.hpp"
 #include "refusal.hpp"
+#include "user_system_checks.hpp"
 
 namespace nysalt::program {
 
@@ -118,60 +115,6 @@ void require_options(const system_settings& settings, const std::map<std::string
   if (settings.spread) require("spread");
 }
 
-/// Names that no other observable has.
-void require_observables(const made_system& made, const std::string& name) {
-  made_system without = made;
-  without.observables.clear();
-  std::vector<std::string> names;
-  for (const auto& own : made.observables) {
-    if (!is_plain_name(own.name)) {
-      refuse("{}: an observable is called '{}': take lower-case letters, digits and _, a letter first", name,
-             own.name);
-    }
-    if (std::ranges::count(names, own.name) > 0 || is_observable(without, own.name)) {
-      refuse("{}: there is an observable '{}' already: choose another name", name, own.name);
-    }
-    names.push_back(own.name);
-  }
-}
-
-/// Looks for a force that is not -grad V, or not finite, at four starts, where nobody has done so before.
-void require_force(const made_system& made, const std::string& name) {
-  constexpr Eigen::Index most = 2000;  // some hundred forces a coordinate
-  std::vector<Eigen::VectorXd> points;
-  std::vector<Eigen::VectorXd> momenta;
-  for (std::uint64_t n = 0; n < 4; ++n) {
-    const auto start = sound_start(made.system, made.starts, 1, static_cast<std::int64_t>(n));
-    points.push_back(start.q);
-    momenta.push_back(start.p);
-    auto f = make_vector<double>(made.system);
-    force<double>(made.system, start.q, f);
-    if (!f.allFinite()) refuse("{}: the force is not finite at start {}", name, n);
-    if (has_energy(made.system) && !std::isfinite(energy<double>(made.system, start))) {
-      refuse("{}: the energy is not finite at start {}", name, n);
-    }
-  }
-  if (size(made.system) > most) return;
-  const force_check found = check_force(made.system, points, momenta);
-  if (!found.passed()) refuse("{}: {}", name, found.report());
-}
-
-/// Of a system that does not tell how fast its motion is: the highest frequency, or rate at which motions
-/// part, along 64 starts.
-double frequency_of(const made_system& made, const std::string& name) {
-  constexpr Eigen::Index most = 1000;  // coordinates
-  if (size(made.system) > most || !has_quadratic_kinetic(made.system)) {
-    refuse("{}: its highest frequency is not known: declare it by frequency(...)", name);
-  }
-  std::vector<phase_point<double, Eigen::Dynamic>> starts;
-  for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
-  const auto stiffness = stiffness_along(made.system, starts);
-  const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
-  if (found > 0.0 && std::isfinite(found)) return found;
-  refuse("{}: the force is the same at all starts, which tells no frequency: declare it by frequency(...)",
-         name);
-}
-
 }  // namespace
 
 const system_declaration& declaration_of(const std::string& name) {
@@ -219,12 +162,7 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
   }
   try {
     made_system made = declared.make(values, conditions.bath, conditions.spread);
-    require_observables(made, declared.name);
-    if (!(made.frequency >= 0.0) || !std::isfinite(made.frequency)) {
-      refuse("{}: frequency(...) must be positive and finite, got {}", declared.name, made.frequency);
-    }
-    require_force(made, declared.name);
-    if (!(made.frequency > 0.0)) made.frequency = frequency_of(made, declared.name);
+    examine(made, declared.name);
     return make_bundled(made, named, conditions);
   } catch (const refusal&) {
     throw;

@@ -153,8 +153,7 @@ BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
       };
       BOOST_TEST(same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane)));
       BOOST_TEST(!same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane + 1)));
-      auto one_of_several =
-          along.open(lane(all, k), trajectory_of_lane);  // as where a lane is gone through again
+      auto one_of_several = along.open(lane(all, k), trajectory_of_lane);  // each lane is stepped by itself
       along.advance(one_of_several, 10);
       BOOST_TEST(same_bits(along.synchronous(one_of_several), alone(trajectory_of_lane)));
     }

@@ -162,6 +162,29 @@ BOOST_AUTO_TEST_CASE(another_source_is_another_system) {
   BOOST_TEST(other.err.find("another source") != std::string::npos, other.err);
 }
 
+// As a full disk leaves a library behind: the source is compiled again. A damaged file that was named itself
+// is not.
+BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
+  const scratch folder("plugin_damaged");
+  write(folder, "well.hpp", oscillator_source(potential_that("")));
+  const std::string use =
+      "XDG_CACHE_HOME=$PWD/cache $nysalt run --method verlet --step 0.1 --horizon 0.1 --system ";
+  const auto first = shell(folder, use + "well.hpp");
+  BOOST_REQUIRE_MESSAGE(first.code == 0, first.err);
+  const auto damage = [&](const std::string& files) {
+    return shell(folder, "for f in " + files + "; do head -c 100 $f > cut && mv cut $f; done").code;
+  };
+  BOOST_TEST(damage("cache/nysalt/plugins/*.so") == 0);
+  const auto again = shell(folder, use + "well.hpp");
+  BOOST_TEST(again.code == 0, again.err);
+  BOOST_TEST(again.out == first.out);
+  BOOST_TEST(shell(folder, "cp cache/nysalt/plugins/*.so own.so").code == 0);
+  BOOST_TEST(damage("own.so") == 0);
+  const auto refused = shell(folder, use + "./own.so");
+  BOOST_TEST(refused.code == 2);
+  BOOST_TEST(refused.err.find("no library that can be loaded") != std::string::npos, refused.err);
+}
+
 BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const scratch folder("plugin_mistakes");
   const auto must_say = [&](const std::string& source, const std::string& options, const std::string& said) {
@@ -186,12 +209,17 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
       potential_that(
           "if (k == 2.0) throw std::runtime_error(\"I will not\"); if (k == 3.0) throw 42; "
           "if (k == 4.0) return 0.5 * k * q[0] * q[0] * std::nan(\"\"); if (k == 5.0) std::abort();") +
-      " template <class T> void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const { "
-      "f[0] = (k == 6.0 ? k : -k) * q[0]; }");
+          " template <class T> void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const { "
+          "f[0] = (k == 6.0 ? k : -k) * q[0]; } int n = 1;",
+      ", parameter(\"n\", &tried::n, \"not used\").at_least(1), "
+      "frequency([](const tried& s) { return s.k == 7.0 ? -1.0 : 1.0; })");
   must_say(by_k, "--k 2", "tried: I will not");
   must_say(by_k, "--k 3", "no std::exception");
   must_say(by_k, "--k 4", "is not finite");
   must_say(by_k, "--k 6", "check its sign");
+  must_say(by_k, "--k 7", "frequency(...) must be positive and finite, got -1");
+  must_say(by_k, "--n 4294967297", "at most 2147483647, got 4294967297");  // which an int would take for 1
+  must_say(by_k, "--n 0", "--n must be at least 1");
   const auto crashed =
       run(folder, "run --system ./tried.hpp --k 5 --method verlet --step 0.1 --horizon 1 --output out");
   BOOST_TEST(crashed.code != 0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
 
+#include "../../plugin/names.hpp"
 #include "../commands.hpp"
 #include "../json.hpp"
 #include "../output.hpp"
@@ -16,7 +16,6 @@ namespace nysalt::program {
 namespace {
 
 void require_name(const std::string& name) {
-  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
   static const std::set<std::string> taken{
       "alignas",   "alignof",   "and",       "asm",       "auto",       "bool",      "break",
       "case",      "catch",     "char",      "class",     "concept",    "const",     "consteval",
@@ -35,7 +34,7 @@ void require_name(const std::string& name) {
       "ceil",      "gamma",     "j0",        "j1",        "jn",         "y0",        "y1",
       "yn",        "div",       "time",      "clock",     "index",      "signal",    "read",
       "write",     "open",      "close",     "link",      "main",       "std"};
-  if (name.empty() || !std::ranges::all_of(name, may_stand) || name.front() < 'a' || taken.contains(name)) {
+  if (!is_plain_name(name) || taken.contains(name)) {
     refuse(
         "a system cannot be called '{}': take lower-case letters, digits and _, a letter first, and no word "
         "of C++",

@@ -27,7 +27,7 @@ system_declaration declare_lennard_jones() {
                         .usual = 7,
                         .meaning = "of the cluster",
                         .least = 2,
-                        .most = 50},  // the minimum of so many is found in a second
+                        .most = 50},  // the cluster of least energy takes a second to find for 50 atoms
                        {.name = "space", .usual = 2, .meaning = "dimensions: 2 or 3", .least = 2, .most = 3}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {
     // The cluster shakes, and no atom leaves.

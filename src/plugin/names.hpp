@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// What users may call a system, its parameters and its observables.
+#pragma once
+
+#include <string_view>
+
+namespace nysalt::program {
+
+/// Lower-case letters, digits and _, a letter first.
+bool is_plain_name(std::string_view name);
+
+/// A name that no parameter may have, as files, options or arguments of Python use it for something else.
+bool is_reserved_name(std::string_view name);
+
+}  // namespace nysalt::program

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is examined of a system that a user declares, before any command works with it.
+#pragma once
+
+#include <string>
+
+#include "nysalt/system_declaration.hpp"
+
+namespace nysalt::program {
+
+/// Checks the names of observables, and energy and force at four starts: both must be finite, and the force
+/// -grad V (up to 2000 coordinates). Finds the frequency along 64 starts where none is declared. Throws
+/// refusal. Cost: some hundred forces a coordinate.
+void examine(made_system& made, const std::string& name);
+
+}  // namespace nysalt::program
