@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "arrays.hpp"
 
-#include "../src/program/refusal.hpp"
+#include "../src/comparison/refusal.hpp"
 
 namespace nysalt::python {
 

@@ -3,15 +3,16 @@
 
 #include <string>
 
-#include "../src/program/comparison.hpp"
+#include "../src/comparison/comparison.hpp"
+#include "../src/comparison/method_file.hpp"
+#include "../src/comparison/recommendation.hpp"
 #include "../src/program/lesson.hpp"
 #include "../src/program/listing.hpp"
-#include "../src/program/method_file.hpp"
-#include "../src/program/recommendation.hpp"
+#include "../src/program/systems.hpp"
+#include "../src/report/write_file.hpp"
 #include "build_info.hpp"
 #include "computing.hpp"
 #include "given.hpp"
-#include "nysalt/report/write_file.hpp"
 #include "refused.hpp"
 #include "systems.hpp"
 
@@ -47,7 +48,7 @@ std::string compare(const held_system& system, const py::dict& arguments) {
   const auto command = compare_of(asked, system.settings);
   std::string document;
   compute(system.calls_python(), [&] {
-    program::comparison all(command, common);
+    program::comparison all(program::make_system(command.system), command, common);
     program::journal nowhere;
     all.learn_and_measure(nowhere);
     document = dumped(document_of(all));
@@ -63,7 +64,7 @@ py::tuple recommend(const held_system& system, const py::dict& arguments) {
   py::object file = py::none();
   std::optional<std::string> scheme;
   compute(system.calls_python(), [&] {
-    program::recommendation all(command, common);
+    program::recommendation all(program::make_system(command.system), command, common);
     all.learn_and_rank();
     document = dumped(all.document());
     scheme = all.scheme();

@@ -6,7 +6,7 @@
 #include <future>
 #include <thread>
 
-#include "../src/program/progress.hpp"
+#include "../src/comparison/progress.hpp"
 #include "leaving.hpp"
 
 namespace nysalt::python {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "given.hpp"
+#include "../src/program/systems.hpp"
 
 #include <pybind11/numpy.h>
 
@@ -7,10 +8,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../src/comparison/checks.hpp"
+#include "../src/comparison/comparison.hpp"
 #include "../src/program/bundled_systems.hpp"
-#include "../src/program/checks.hpp"
-#include "../src/program/comparison.hpp"
-#include "../src/program/world.hpp"
+#include "../src/program/ranks.hpp"
 
 namespace nysalt::python {
 

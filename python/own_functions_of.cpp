@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../src/program/refusal.hpp"
+#include "../src/comparison/refusal.hpp"
 #include "arrays.hpp"
 #include "computing.hpp"
 

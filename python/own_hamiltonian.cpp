@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "../src/program/bundled_model.hpp"
-#include "../src/program/refusal.hpp"
+#include "../src/comparison/prepared_problem.hpp"
+#include "../src/comparison/refusal.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 
 namespace nysalt::python {
@@ -71,12 +71,13 @@ void require_force(const own_functions& functions) {
 
 }  // namespace
 
-std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
-                                                  const program::surroundings& in) {
-  made_system made =
+std::unique_ptr<program::prepared_problem> make_own(std::shared_ptr<const own_functions> functions,
+                                                    const program::surroundings& in) {
+  initial_value_problem made =
       detail::made_of(own_hamiltonian(functions), in.bath, own_starts(functions), functions->frequency);
   made.fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
-  return program::make_bundled(made, {{"name", functions->name}}, in);
+  return std::make_unique<program::prepared_problem>(
+      std::move(made), std::vector<program::named_value>{{"name", functions->name}}, in);
 }
 
 void examine(own_functions& functions) {

@@ -30,7 +30,7 @@ struct own_functions {
 void examine(own_functions& functions);
 
 /// One trajectory at a time. The functions are called by the thread that computes.
-std::unique_ptr<program::bundled_system> make_own(std::shared_ptr<const own_functions> functions,
-                                                  const program::surroundings& in);
+std::unique_ptr<program::prepared_problem> make_own(std::shared_ptr<const own_functions> functions,
+                                                    const program::surroundings& in);
 
 }  // namespace nysalt::python

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "../src/program/progress.hpp"
-#include "../src/program/refusal.hpp"
+#include "../src/comparison/progress.hpp"
+#include "../src/comparison/refusal.hpp"
 
 namespace nysalt::python {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "../src/comparison/json.hpp"
+#include "../src/comparison/learning.hpp"
+#include "../src/comparison/prepared_problem.hpp"
+#include "../src/comparison/refusal.hpp"
+#include "../src/comparison/seeds.hpp"
 #include "../src/plugin/build.hpp"
-#include "../src/program/bundled_system.hpp"
-#include "../src/program/json.hpp"
-#include "../src/program/learning.hpp"
-#include "../src/program/refusal.hpp"
-#include "../src/program/seeds.hpp"
 #include "arrays.hpp"
 #include "computing.hpp"
 #include "given.hpp"
@@ -138,7 +138,7 @@ py::tuple starts(const held_system& system, const py::dict& arguments) {
 }
 
 py::dict facts(const held_system& system) {
-  const program::bundled_system& described_system = *system.model;
+  const program::prepared_problem& described_system = *system.model;
   py::list bands;
   for (const auto& band : described_system.frequency_bands())
     bands.append(py::make_tuple(band.low, band.high));

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "../src/program/bundled_system.hpp"
+#include "../src/comparison/prepared_problem.hpp"
 #include "own_functions_of.hpp"
 
 namespace nysalt::python {
@@ -16,7 +16,7 @@ namespace nysalt::python {
 struct held_system {
   program::system_settings settings;  // of which each command makes its own
   // For what Python asks of the system alone; the starts of the model are not prepared.
-  std::unique_ptr<program::bundled_system> model;
+  std::unique_ptr<program::prepared_problem> model;
   std::shared_ptr<functions_of_python> functions;  // null of a bundled one
 
   bool calls_python() const { return functions != nullptr; }

@@ -7,11 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "../src/program/checks.hpp"
-#include "../src/program/learning.hpp"
-#include "../src/program/method_source.hpp"
-#include "../src/program/planned_run.hpp"
-#include "../src/program/stretches.hpp"
+#include "../src/comparison/checks.hpp"
+#include "../src/comparison/learning.hpp"
+#include "../src/comparison/method_source.hpp"
+#include "../src/comparison/sampled_run.hpp"
+#include "../src/comparison/stretches.hpp"
+#include "../src/program/output/planned_run.hpp"
 #include "arrays.hpp"
 #include "commands.hpp"
 #include "computing.hpp"
@@ -79,7 +80,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
       if (one.diverged_at) lost[m] = *one.diverged_at;
     };
     std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
-    planned_system.run(planned->method(), sampled, take, shown.counter(1000));
+    program::run(planned_system, planned->method(), sampled, take, shown.counter(1000));
     evaluations = planned_system.count_evaluations(planned->method(), plan);
   });
   py::dict result;
@@ -154,7 +155,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
     const program::trajectories_plan plan{command.step, steps, count,
                                           seed_for(program::role::test, common.seed), common.threads};
     program::progress shown;
-    system.model->integrate(method, plan, all_q, all_p, shown.counter(1000));
+    program::integrate(*system.model, method, plan, all_q, all_p, shown.counter(1000));
   });
   return py::make_tuple(to_q, to_p, list_of(warnings));
 }

@@ -29,7 +29,7 @@ const std::vector<std::vector<std::string>> layers{
     {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
     {"detail/kernels", "detail/typed_system", "model", "detail/over_scalars"},
     {"detail/divergence", "integrate", "detail/lockstep"},
-    {"communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
+    {"atomic_file", "communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
      "detail/ensemble_loop"},
     {"derivatives/"},
     {"reference", "detail/small_steps", "references/", "ensemble", "initial_states", "ensembles/"},
@@ -38,7 +38,6 @@ const std::vector<std::vector<std::string>> layers{
     {"learning/", "learn"},
     {"analysis/"},
     {"version", "system_declaration", "plugin"},
-    {"report/"},
     {"core"},
     {"odeint", "mpi", "nysalt"}};
 

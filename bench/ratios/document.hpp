@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/report/table.hpp"
+#include "../../src/report/table.hpp"
 #include "row.hpp"
 
 namespace nysalt::bench {

@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "../../src/report/table.hpp"
 #include "measurements.hpp"
-#include "nysalt/report/table.hpp"
 
 namespace nysalt::bench {
 

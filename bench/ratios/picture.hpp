@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/report/write_file.hpp"
+#include "../../src/report/write_file.hpp"
 #include "row.hpp"
 
 namespace nysalt::bench {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "nysalt/report/table.hpp"
+#include "../../src/report/table.hpp"
 #include "row.hpp"
 
 namespace nysalt::bench {

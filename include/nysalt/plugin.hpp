@@ -108,7 +108,7 @@ consteval bool takes_spread(const starts_of_system<F>*) {
 inline std::string plugin_stamp() {
   return sentence("nysalt {}; compiler {}; {} lanes; Eigen {}.{}.{}, aligned to {}; sizes {}, {}", version,
                   __VERSION__, default_lanes, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                  EIGEN_MAX_ALIGN_BYTES, sizeof(system_declaration), sizeof(made_system));
+                  EIGEN_MAX_ALIGN_BYTES, sizeof(system_declaration), sizeof(initial_value_problem));
 }
 
 }  // namespace detail
@@ -196,7 +196,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
         for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
       }
     }
-    made_system made = [&] {
+    initial_value_problem made = [&] {
       if constexpr (detail::TellsDescription<S>) {
         return detail::made_of(system, in, law.front(), highest);
       } else {

@@ -114,7 +114,7 @@ model put_in(const S& system, const bath& in) {
 }  // namespace detail
 
 /// A system that is made of its parameters.
-struct made_system {
+struct initial_value_problem {
   nysalt::model system;    ///< in its bath
   initial_states starts;   ///< its law of them
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
@@ -129,7 +129,7 @@ struct made_system {
 namespace detail {
 /// A system in a bath, with a law of starts and the highest frequency from them.
 template <SeparableSystem S>
-made_system made_of(const S& system, const bath& in, initial_states starts, double frequency) {
+initial_value_problem made_of(const S& system, const bath& in, initial_states starts, double frequency) {
   return {.system = put_in(system, in),
           .starts = std::move(starts),
           .frequency = frequency,
@@ -144,7 +144,7 @@ struct system_declaration {
   std::vector<declared_parameter> parameters{};  ///< in the order of help and files
   /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
   /// std::invalid_argument for values that cannot be.
-  std::function<made_system(const parameter_values&, const bath&, double spread)> make{};
+  std::function<initial_value_problem(const parameter_values&, const bath&, double spread)> make{};
   bool has_spread = true;   ///< its law of starts has deviations
   std::string described{};  ///< with what its description begins, if not with its name
   std::string source{};     ///< in docs/bibliography.bib

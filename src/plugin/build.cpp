@@ -19,10 +19,10 @@
 #include <sstream>
 #include <vector>
 
-#include "../program/refusal.hpp"
+#include "comparison/refusal.hpp"
 #include "nysalt/plugin.hpp"
-#include "nysalt/report/write_file.hpp"
 #include "plugin.hpp"
+#include "report/write_file.hpp"
 
 extern char** environ;
 

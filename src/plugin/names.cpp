@@ -6,11 +6,6 @@
 
 namespace nysalt::program {
 
-bool is_plain_name(std::string_view name) {
-  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
-  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
-}
-
 bool is_reserved_name(std::string_view name) {
   constexpr std::array taken{"around",     "description", "friction",    "mass",   "name",     "parameter",
                              "parameters", "potential",   "sigma",       "source", "spread",   "start",

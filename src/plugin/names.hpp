@@ -4,10 +4,9 @@
 
 #include <string_view>
 
-namespace nysalt::program {
+#include "comparison/user_system_checks.hpp"
 
-/// Lower-case letters, digits and _, a letter first.
-bool is_plain_name(std::string_view name);
+namespace nysalt::program {
 
 /// A name that no parameter may have, as files, options or arguments of Python use it for something else.
 bool is_reserved_name(std::string_view name);

@@ -9,8 +9,8 @@
 #include <memory>
 #include <string_view>
 
-#include "../program/refusal.hpp"
 #include "build.hpp"
+#include "comparison/refusal.hpp"
 #include "named_signals.hpp"
 #include "names.hpp"
 #include "nysalt/plugin.hpp"

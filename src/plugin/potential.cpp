@@ -11,8 +11,8 @@
 #include <string_view>
 #include <utility>
 
-#include "../program/number.hpp"
-#include "../program/refusal.hpp"
+#include "comparison/number.hpp"
+#include "comparison/refusal.hpp"
 #include "names.hpp"
 
 namespace nysalt::program {

@@ -5,18 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "bundled_system.hpp"
+#include "comparison/prepared_problem.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {
-
-/// What a system is in, and where its trajectories start.
-enum class start { law, gibbs, trajectory };
-struct surroundings {
-  nysalt::bath bath;
-  program::start start;
-  double spread = 1.0;  // of the law of starts: its deviations are multiplied by it
-};
 
 /// In the order of `list`.
 const std::vector<system_declaration>& bundled_declarations();
@@ -31,6 +23,6 @@ system_declaration declare_lennard_jones();
 system_declaration declare_phi4();
 
 /// A chain of three pairs, whose soft springs hold omega^2 at the start.
-std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega);
+std::unique_ptr<prepared_problem> make_soft_dominated_fpu(double omega);
 
 }  // namespace nysalt::program

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "citations.hpp"
+#include "systems.hpp"
 
 #include <algorithm>
 
-#include "asked_metric.hpp"
 #include "bundled_systems.hpp"
-#include "catalogue.hpp"
-#include "did_you_mean.hpp"
-#include "refusal.hpp"
+#include "comparison/asked_metric.hpp"
+#include "comparison/catalogue.hpp"
+#include "comparison/did_you_mean.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "comma_list.hpp"
 
-#include "number.hpp"
-#include "refusal.hpp"
+#include "comparison/number.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 

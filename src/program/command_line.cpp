@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "command_line.hpp"
+#include "systems.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,16 +12,16 @@
 
 #include "as_typed.hpp"
 #include "build_info.hpp"
-#include "bundled_system.hpp"
-#include "checks.hpp"
 #include "commands.hpp"
-#include "did_you_mean.hpp"
+#include "comparison/checks.hpp"
+#include "comparison/did_you_mean.hpp"
+#include "comparison/prepared_problem.hpp"
+#include "comparison/refusal.hpp"
 #include "nysalt/detail/together.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
-#include "refusal.hpp"
-#include "world.hpp"
+#include "ranks.hpp"
 
 namespace nysalt::program {
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "lesson.hpp"
+#include "systems.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "checks.hpp"
-#include "learning.hpp"
-#include "method_file.hpp"
-#include "method_source.hpp"
+#include "comparison/checks.hpp"
+#include "comparison/learning.hpp"
+#include "comparison/method_file.hpp"
+#include "comparison/method_source.hpp"
+#include "comparison/progress.hpp"
 #include "nysalt/losses/loss_choice.hpp"
-#include "progress.hpp"
 
 namespace nysalt::program {
 
@@ -33,7 +34,7 @@ std::vector<double> steps_of(const learn_command& command) {
   return steps;
 }
 
-json document_of(const learned_scheme& learned, const bundled_system& system,
+json document_of(const learned_scheme& learned, const prepared_problem& system,
                  std::optional<placement> where) {
   const fit_summary& fit = learned.fit;
   json result = fit_json(fit);

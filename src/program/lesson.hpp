@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bundled_system.hpp"
-#include "json.hpp"
+#include "comparison/json.hpp"
+#include "comparison/prepared_problem.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
@@ -20,7 +20,7 @@ class lesson {
 
   void learn();
 
-  const bundled_system& system() const { return *system_; }
+  const prepared_problem& system() const { return *system_; }
   /// Where the letters O are; nothing without a bath.
   const std::optional<placement>& where() const { return plan_.where; }
   /// At each of the steps, in their order; one if no curve is asked for.
@@ -36,7 +36,7 @@ class lesson {
  private:
   learn_command command_;
   common_settings common_;
-  std::unique_ptr<bundled_system> system_;
+  std::unique_ptr<prepared_problem> system_;
   std::vector<double> steps_;
   learn_plan plan_{};
   std::vector<learned_scheme> learned_;

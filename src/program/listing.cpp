@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "listing.hpp"
+#include "systems.hpp"
 
 #include <array>
 
 #include "bundled_systems.hpp"
-#include "catalogue.hpp"
-#include "refusal.hpp"
-#include "stability.hpp"
+#include "comparison/catalogue.hpp"
+#include "comparison/refusal.hpp"
+#include "comparison/stability.hpp"
 
 namespace nysalt::program {
 

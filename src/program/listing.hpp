@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "json.hpp"
+#include "comparison/json.hpp"
 
 namespace nysalt::program {
 

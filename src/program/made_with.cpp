@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "bundled_systems.hpp"
-#include "catalogue.hpp"
-#include "json.hpp"
-#include "method_source.hpp"
+#include "comparison/catalogue.hpp"
+#include "comparison/json.hpp"
+#include "comparison/method_source.hpp"
+#include "comparison/refusal.hpp"
 #include "recorded_options.hpp"
-#include "refusal.hpp"
 
 namespace nysalt::program {
 

@@ -2,8 +2,8 @@
 #include <csignal>
 
 #include "../plugin/named_signals.hpp"
+#include "ranks.hpp"
 #include "run_program.hpp"
-#include "world.hpp"
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "did_you_mean.hpp"
-#include "refusal.hpp"
+#include "comparison/did_you_mean.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 

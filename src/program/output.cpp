@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "output.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <ceres/version.h>
-#include <Eigen/Core>
 #include <algorithm>
-#include <boost/version.hpp>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 
-#include "build_info.hpp"
-#include "nysalt/report/write_file.hpp"
-#include "refusal.hpp"
-#include "world.hpp"
+#include "comparison/refusal.hpp"
+#include "ranks.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -29,52 +23,6 @@ void print(std::string_view text) {
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
   refuse("the standard output cannot be written: is the disk full?");
-}
-
-namespace {
-std::filesystem::path manifest_of(std::filesystem::path file) { return file += ".manifest.json"; }
-}  // namespace
-
-json versions() {
-  const auto eigen = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  const auto boost =
-      fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100);
-  const auto of_fmt =
-      fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
-  return {{"nysalt", version},
-          {"Eigen", eigen},
-          {"Boost", boost},
-          {"Ceres", CERES_VERSION_STRING},
-          {"fmt", of_fmt}};
-}
-
-void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more) {
-  json manifest{{"file", file.filename().string()},
-                {"command", common.command},
-                {"options", common.options},
-                {"seed", common.seed},
-                {"versions", versions()},
-                {"compiler", compiler},
-                {"flags", compiler_flags},
-                {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-  if (!more.is_null()) manifest.update(more);
-  write_file(manifest_of(file), text_of(manifest));
-}
-
-void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
-  write_file(file, text);
-  write_manifest(file, common);
-}
-
-void write_pictures(const figure& picture, const std::filesystem::path& folder,
-                    const common_settings& common) {
-  if (!draw(picture, folder)) {
-    warn(fmt::format("gnuplot could not draw {}: is it installed? Its script and data are there",
-                     picture.name));
-    return;
-  }
-  for (const char* kind : {".svg", ".png", ".gp", ".dat"})
-    write_manifest(folder / (picture.name + kind), common);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -164,5 +112,9 @@ void complain(std::string text) {
 }
 
 void warn(std::string_view text) { complain(fmt::format("warning: {}", text)); }
+
+void warn_of_threads(const common_settings& common) {
+  if (const auto advice = advice_on_threads(common.threads); !advice.empty()) warn(advice);
+}
 
 }  // namespace nysalt::program

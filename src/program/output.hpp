@@ -7,27 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "json.hpp"
-#include "nysalt/report/plot.hpp"
-#include "settings.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
 /// Prints to standard output. Throws refusal if it cannot be written; a reader who went away is no error.
 void print(std::string_view text);
-
-/// Of the program and the libraries in it, by name.
-json versions();
-
-/// FILE.manifest.json beside FILE: command, seed, versions, compiler, flags, time, and the members of `more`.
-void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more = {});
-
-/// A whole file and its manifest.
-void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common);
-
-/// The pictures of a figure below a folder, with their manifests; a warning if gnuplot cannot draw.
-void write_pictures(const figure& picture, const std::filesystem::path& folder,
-                    const common_settings& common);
 
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
@@ -55,5 +40,8 @@ void complain(std::string text);
 
 /// The same, of what is no error.
 void warn(std::string_view text);
+
+/// Where a rank has more threads than cores.
+void warn_of_threads(const common_settings& common);
 
 }  // namespace nysalt::program

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "comma_list.hpp"
-#include "number.hpp"
+#include "comparison/number.hpp"
 
 namespace nysalt::program {
 

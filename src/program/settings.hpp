@@ -11,21 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "../plugin/potential.hpp"
+#include "comparison/settings.hpp"
+#include "plugin/potential.hpp"
 
 namespace nysalt::program {
 
-class bundled_system;
+class prepared_problem;
 struct surroundings;
-
-struct common_settings {
-  std::uint64_t seed = 1;
-  int threads = 1;
-  bool json = false;
-  bool force = false;
-  std::string command;  // the whole command line, for manifests
-  std::string options;  // what was asked for by it and by files of options, as TOML
-};
 
 /// Of the bath, if there is one: with friction come sigma or temperature.
 struct bath_settings {
@@ -37,30 +29,13 @@ struct bath_settings {
 struct system_settings {
   std::string name = "fpu";
   /// A system of the caller's own, under that name; empty: one of ours.
-  std::function<std::unique_ptr<bundled_system>(const surroundings&)> own = {};
+  std::function<std::unique_ptr<prepared_problem>(const surroundings&)> own = {};
   std::map<std::string, std::string> parameters{};  // by name, as typed
   typed_potential potential{};                      // instead of a name
   std::optional<double> spread;
   bath_settings bath;
   std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
 };
-
-/// How to learn; the step comes from elsewhere.
-struct learn_settings {
-  std::optional<double> fine_step;
-  std::int64_t trajectories = 100;
-  std::optional<double> horizon;  // of each trajectory
-  std::string coordinates = "qp";
-  std::vector<std::string> fix;  // name=value
-  std::string loss = "state";
-  std::int64_t random_starts = 0;
-
-  /// Where none is asked for: 0.5, or ten steps if that is longer, so that there are pairs to learn from.
-  double horizon_at(double step) const { return horizon.value_or(std::max(0.5, 10.0 * step)); }
-};
-
-/// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
-using held_methods = std::map<std::string, std::string>;
 
 struct learn_command {
   system_settings system;
@@ -94,41 +69,14 @@ struct run_command {
   bool resume = false;
 };
 
-struct compare_command {
+struct compare_command : comparison_options {
   system_settings system;
-  learn_settings learning;
-  std::vector<std::string> methods;
-  held_methods held = {};
-  std::string placement;
-  std::vector<double> steps;
-  bool equal_cost = false;
-  std::optional<double> horizon;  // none: 0.5, or ten of the largest steps if that is longer
-  std::int64_t trajectories = 400;
-  std::vector<std::string> metrics{"path"};
-  std::string observable;
-  std::vector<double> levels;  // of errors, at which costs are compared; empty: those of the data
-  std::vector<double> range;   // of the histogram; empty: that of the starts
-  std::int64_t bins = 100;
-  double longest_lag = 1.0;      // of the autocovariance, a time
-  double hmc_temperature = 1.0;  // kT of the acceptance
-  std::string output;
+  std::string output;  // a folder
   bool resume = false;
 };
 
-struct recommend_command {
+struct recommend_command : recommendation_options {
   system_settings system;
-  learn_settings learning;
-  std::vector<std::string> families;  // empty: all that suit
-  std::string placement;
-  std::optional<double> budget;          // evaluations per unit time
-  std::optional<double> budget_seconds;  // per unit time of one trajectory
-  std::optional<double> error;
-  double horizon = 0.0;
-  std::int64_t trajectories = 100;
-  std::string metric = "state";
-  std::string observable;
-  double hmc_temperature = 1.0;
-  bool reversible = false;
   std::string output;
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "systems.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,12 +10,12 @@
 
 #include "../plugin/build.hpp"
 #include "../plugin/plugin.hpp"
-#include "bundled_model.hpp"
 #include "bundled_systems.hpp"
-#include "did_you_mean.hpp"
-#include "number.hpp"
-#include "refusal.hpp"
-#include "user_system_checks.hpp"
+#include "comparison/did_you_mean.hpp"
+#include "comparison/number.hpp"
+#include "comparison/prepared_problem.hpp"
+#include "comparison/refusal.hpp"
+#include "comparison/user_system_checks.hpp"
 
 namespace nysalt::program {
 
@@ -142,7 +144,7 @@ std::string options_of(const system_declaration& system) {
   return text;
 }
 
-std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
+std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   const surroundings conditions = surroundings_of(settings);
   if (settings.own) return settings.own(conditions);
   const system_declaration& declared = declared_by(settings);
@@ -158,12 +160,13 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
   }
   if (!declared.identity.empty()) named.push_back({"source", declared.identity});
   if (declared.is_checked) {
-    return make_bundled(declared.make(values, conditions.bath, conditions.spread), named, conditions);
+    return std::make_unique<prepared_problem>(declared.make(values, conditions.bath, conditions.spread),
+                                              named, conditions);
   }
   try {
-    made_system made = declared.make(values, conditions.bath, conditions.spread);
+    initial_value_problem made = declared.make(values, conditions.bath, conditions.spread);
     examine(made, declared.name);
-    return make_bundled(made, named, conditions);
+    return std::make_unique<prepared_problem>(std::move(made), named, conditions);
   } catch (const refusal&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -171,12 +174,6 @@ std::unique_ptr<bundled_system> make_system(const system_settings& settings) {
   } catch (const std::exception& problem) {  // of the user's code
     refuse("{}: {}", declared.name, problem.what());
   }
-}
-
-std::optional<double> highest_frequency(const bundled_system& system) {
-  std::optional<double> highest;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
-  return highest;
 }
 
 }  // namespace nysalt::program

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "coverage.hpp"
+#include "../../src/program/systems.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +8,12 @@
 #include <cmath>
 #include <memory>
 
+#include "../../src/comparison/catalogue.hpp"
+#include "../../src/comparison/checks.hpp"
+#include "../../src/comparison/seeds.hpp"
 #include "../../src/program/bundled_systems.hpp"
-#include "../../src/program/catalogue.hpp"
-#include "../../src/program/checks.hpp"
-#include "../../src/program/seeds.hpp"
-#include "nysalt/report/page.hpp"
-#include "nysalt/report/table.hpp"
+#include "../../src/report/page.hpp"
+#include "../../src/report/table.hpp"
 
 namespace nysalt::coverage {
 
@@ -20,7 +21,7 @@ using namespace nysalt::program;
 
 namespace {
 
-std::vector<asked_metric> metrics_of(const bundled_system& system) {
+std::vector<asked_metric> metrics_of(const prepared_problem& system) {
   std::vector<asked_metric> result{
       {"state"}, {"path", system.default_observable()}, {"path", "q1"}, {"energy"}};
   if (system.default_observable() == "stiff_energy") result.push_back({"exchange"});
@@ -33,7 +34,7 @@ tabulated method_of(const std::string& name) {
 }
 
 /// Errors of one method at one step by all metrics, over trajectories of a seed.
-std::vector<method_error> errors(const bundled_system& system, const tabulated& method, double step,
+std::vector<method_error> errors(const prepared_problem& system, const tabulated& method, double step,
                                  double horizon, std::int64_t count, std::uint64_t seed, int threads) {
   const errors_plan plan{.trajectories = {step, steps_beyond("horizon", horizon, step), count,
                                           seed_for(role::test, seed), threads, horizon},
@@ -50,7 +51,7 @@ bool within(const estimate& a, const estimate& b, double deviations) {
   return std::abs(a.mean - b.mean) <= deviations * std::hypot(a.standard_error, b.standard_error);
 }
 
-std::vector<row> rows_at(const bundled_system& system, const std::string& name, const std::string& method,
+std::vector<row> rows_at(const prepared_problem& system, const std::string& name, const std::string& method,
                          double step, double horizon, const extent& what) {
   const auto run = [&](std::int64_t count, std::uint64_t seed) {
     return errors(system, method_of(method), step, horizon, count, seed, what.threads);

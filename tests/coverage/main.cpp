@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "../../src/report/write_file.hpp"
 #include "coverage.hpp"
-#include "nysalt/report/write_file.hpp"
 
 int main(int count, char** arguments) {
   using namespace nysalt;

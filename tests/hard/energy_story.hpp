@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/figure.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/report/figure.hpp"
 
 namespace nysalt::hard {
 

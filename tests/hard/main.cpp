@@ -11,8 +11,8 @@
 #include <exception>
 #include <filesystem>
 
+#include "../../src/report/page.hpp"
 #include "hard_case.hpp"
-#include "nysalt/report/page.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/program/catalogue.hpp"
-#include "../../src/program/did_you_mean.hpp"
+#include "../../src/comparison/catalogue.hpp"
+#include "../../src/comparison/did_you_mean.hpp"
 
 using namespace nysalt::program;
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/program/catalogue.hpp"
-#include "../../src/program/known_word.hpp"
+#include "../../src/comparison/catalogue.hpp"
+#include "../../src/comparison/known_word.hpp"
 
 using namespace nysalt;
 using namespace nysalt::program;

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "../../src/program/paired_ratio.hpp"
+#include "../../src/comparison/paired_ratio.hpp"
 
 using namespace nysalt::program;
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "nysalt/report/page.hpp"
+#include "../../src/report/page.hpp"
 
 using namespace nysalt;
 

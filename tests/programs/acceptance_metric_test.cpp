@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "../../src/program/seeds.hpp"
+#include "../../src/comparison/seeds.hpp"
 #include "../support/bad_input.hpp"
 #include "../support/document.hpp"
 #include "../support/without_times.hpp"

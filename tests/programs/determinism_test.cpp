@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/program/seeds.hpp"
+#include "../../src/comparison/seeds.hpp"
 #include "../support/program.hpp"
 #include "../support/without_times.hpp"
 #include "nysalt/energy.hpp"

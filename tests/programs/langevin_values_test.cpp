@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/program/seeds.hpp"
+#include "../../src/comparison/seeds.hpp"
 #include "../support/document.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/kinetic_temperature.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "../../src/program/seeds.hpp"
+#include "../../src/comparison/seeds.hpp"
 #include "../support/document.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"

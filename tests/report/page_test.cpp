@@ -6,9 +6,9 @@
 #include <set>
 #include <string>
 
+#include "../../src/report/page.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
-#include "nysalt/report/page.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

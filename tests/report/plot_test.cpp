@@ -9,12 +9,12 @@
 #include <set>
 #include <sstream>
 
+#include "../../src/report/curve_drawing.hpp"
+#include "../../src/report/plot.hpp"
+#include "../../src/report/plot_range.hpp"
+#include "../../src/report/plot_script.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
-#include "nysalt/report/curve_drawing.hpp"
-#include "nysalt/report/plot.hpp"
-#include "nysalt/report/plot_range.hpp"
-#include "nysalt/report/plot_script.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "../../src/report/table.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/report/table.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nysalt/report/work_precision.hpp"
+#include "../../src/report/work_precision.hpp"
 
 using namespace nysalt;
 

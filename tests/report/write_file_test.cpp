@@ -4,9 +4,9 @@
 #include <unistd.h>
 #include <boost/test/unit_test.hpp>
 
+#include "../../src/report/write_file.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
-#include "nysalt/report/write_file.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "../../src/program/reproduction/thinned.hpp"
+#include "../../src/reproduction/thinned.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "../../../src/report/table.hpp"
 #include "foretold.hpp"
-#include "nysalt/report/table.hpp"
 #include "units.hpp"
 
 namespace nysalt::bench {

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "../../../src/report/plot.hpp"
+#include "../../../src/report/write_file.hpp"
 #include "../../processor.hpp"
 #include "jobs.hpp"
-#include "nysalt/report/plot.hpp"
-#include "nysalt/report/write_file.hpp"
 #include "picture.hpp"
 #include "tables.hpp"
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "../../../src/report/figure.hpp"
 #include "jobs.hpp"
-#include "nysalt/report/figure.hpp"
 #include "tables.hpp"
 
 namespace nysalt::bench {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "../../../src/report/table.hpp"
 #include "fitted.hpp"
-#include "nysalt/report/table.hpp"
 #include "units.hpp"
 
 namespace nysalt::bench {

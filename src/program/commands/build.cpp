@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../../plugin/build.hpp"
+#include "program/systems.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
-#include "../bundled_system.hpp"
 #include "../commands.hpp"
-#include "../json.hpp"
 #include "../options/subcommand.hpp"
 #include "../output.hpp"
+#include "comparison/json.hpp"
+#include "comparison/prepared_problem.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

@@ -2,11 +2,11 @@
 #include "../bibliography.hpp"
 #include "../citations.hpp"
 #include "../commands.hpp"
-#include "../json.hpp"
 #include "../made_with.hpp"
 #include "../output.hpp"
-#include "../refusal.hpp"
 #include "build_info.hpp"
+#include "comparison/json.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../comparison.hpp"
+#include "comparison/comparison.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,9 +8,10 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "../ranking.hpp"
-#include "../refusal.hpp"
-#include "../world.hpp"
+#include "../ranks.hpp"
+#include "../systems.hpp"
+#include "comparison/ranking.hpp"
+#include "comparison/refusal.hpp"
 #include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
@@ -63,7 +64,9 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
     }
     throw;
   }
-  on_first(world(), [&] { write_report(all, folder); });
+  on_first(world(), [&] {
+    for (const auto& text : write_report(all, folder)) warn(text);
+  });
   if (kept.found() > 0) warn(fmt::format("{} finished parts were taken from the journal", kept.found()));
   kept.remove();
 }
@@ -71,10 +74,13 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
 }  // namespace
 
 int compare(const compare_command& command, const common_settings& common) {
+  comparison_options asked = command;
+  asked.energies = !command.output.empty();
   std::optional<comparison> planned;
-  together(world(), [&] { planned.emplace(command, common); });
+  together(world(), [&] { planned.emplace(make_system(command.system), asked, common); });
   comparison& all = *planned;
   require_agreement("methods", all.question().dump(-1, ' ', false, json::error_handler_t::replace));
+  warn_of_threads(common);
   const std::filesystem::path folder(command.output);
   if (command.output.empty()) {
     if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");

@@ -2,9 +2,10 @@
 #include "../commands.hpp"
 #include "../lesson.hpp"
 #include "../output.hpp"
-#include "../refusal.hpp"
-#include "../world.hpp"
+#include "comparison/refusal.hpp"
+#include "comparison/world.hpp"
 #include "nysalt/detail/together.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -13,6 +14,7 @@ int learn(const learn_command& command, const common_settings& common) {
   on_first(world(), [&] {
     if (!command.output.empty()) require_writable(command.output);
   });
+  warn_of_threads(common);
   training.learn();
 
   const auto& learned = training.learned();

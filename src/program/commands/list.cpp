@@ -5,7 +5,7 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "nysalt/report/table.hpp"
+#include "report/table.hpp"
 
 namespace nysalt::program {
 

@@ -7,9 +7,9 @@
 
 #include "../../plugin/names.hpp"
 #include "../commands.hpp"
-#include "../json.hpp"
 #include "../output.hpp"
-#include "../refusal.hpp"
+#include "comparison/json.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../recommendation.hpp"
+#include "comparison/recommendation.hpp"
+#include "program/systems.hpp"
+#include "report/manifest.hpp"
 
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "../world.hpp"
+#include "comparison/world.hpp"
 #include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 
 int recommend(const recommend_command& command, const common_settings& common) {
-  recommendation all(command, common);
+  recommendation all(make_system(command.system), command, common);
   if (!command.output.empty()) on_first(world(), [&] { require_writable(command.output); });
+  warn_of_threads(common);
   all.learn_and_rank();
   const auto scheme = all.scheme();
   const bool writes = scheme && !command.output.empty();

@@ -6,11 +6,11 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "../progress.hpp"
-#include "../refusal.hpp"
-#include "../reproduction/parts.hpp"
-#include "../reproduction/report.hpp"
-#include "../world.hpp"
+#include "comparison/progress.hpp"
+#include "comparison/refusal.hpp"
+#include "comparison/world.hpp"
+#include "reproduction/parts.hpp"
+#include "reproduction/report.hpp"
 
 namespace nysalt::program {
 

@@ -6,18 +6,20 @@
 #include <optional>
 #include <span>
 
-#include "../checks.hpp"
 #include "../commands.hpp"
-#include "../destination.hpp"
-#include "../learning.hpp"
 #include "../output.hpp"
-#include "../planned_run.hpp"
-#include "../progress.hpp"
-#include "../run_question.hpp"
-#include "../stretches.hpp"
-#include "../world.hpp"
+#include "../ranks.hpp"
+#include "comparison/checks.hpp"
+#include "comparison/learning.hpp"
+#include "comparison/progress.hpp"
+#include "comparison/sampled_run.hpp"
+#include "comparison/stretches.hpp"
 #include "nysalt/detail/together.hpp"
-#include "nysalt/report/plot.hpp"
+#include "program/output/destination.hpp"
+#include "program/output/planned_run.hpp"
+#include "program/output/run_question.hpp"
+#include "report/manifest.hpp"
+#include "report/plot.hpp"
 
 namespace nysalt::program {
 
@@ -52,7 +54,10 @@ void draw_run(const run_command& command, const destination& output, std::int64_
     values.x = trajectory.t;
     values.y = trajectory.values[k];
   }
-  write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
+  if (const auto warning =
+          write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
+      !warning.empty())
+    warn(warning);
 }
 
 /// Throws refusal for what cannot be of the files of a run, before any work.
@@ -84,7 +89,7 @@ void require_files(const run_command& command) {
   }
 }
 
-json document(const run_command& command, const bundled_system& system, const destination& output,
+json document(const run_command& command, const prepared_problem& system, const destination& output,
               const json& diverged) {
   json result{{"system", system.description()},
               {"method", command.method},
@@ -163,7 +168,7 @@ bool agreed(bool at_first) {
 int run(const run_command& asked, const common_settings& common) {
   const planned_run planned(asked, common);
   const run_command& command = planned.command();
-  bundled_system& system = planned.system();
+  prepared_problem& system = planned.system();
   const tabulated& method = planned.method();
   const std::int64_t steps = planned.steps();
   on_first(world(), [&] { require_files(command); });
@@ -179,6 +184,7 @@ int run(const run_command& asked, const common_settings& common) {
                    about_run(command, system, method, steps, common.seed));
   });
   const bool was_finished = agreed(output && output->is_finished());
+  warn_of_threads(common);
   if (!was_finished || common.json) prepare_starts(system, common, shown);
   const trajectories_plan plan = planned.plan();
   shown.clear();
@@ -196,7 +202,7 @@ int run(const run_command& asked, const common_settings& common) {
     });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
-    system.run(method, sampled, take, shown.counter(1000));
+    run(system, method, sampled, take, shown.counter(1000));
     shown.clear();
     on_first(world(), [&] { put_in_place(command, *output, steps, common); });
   }

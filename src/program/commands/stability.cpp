@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../stability.hpp"
+#include "comparison/stability.hpp"
+#include "program/systems.hpp"
+#include "report/manifest.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "../catalogue.hpp"
-#include "../checks.hpp"
 #include "../commands.hpp"
-#include "../learning.hpp"
-#include "../method_source.hpp"
 #include "../output.hpp"
-#include "../progress.hpp"
-#include "../seeds.hpp"
-#include "../stability_margin.hpp"
-#include "../stability_picture.hpp"
+#include "comparison/catalogue.hpp"
+#include "comparison/checks.hpp"
+#include "comparison/learning.hpp"
+#include "comparison/method_source.hpp"
+#include "comparison/progress.hpp"
+#include "comparison/seeds.hpp"
+#include "comparison/stability_margin.hpp"
 #include "nysalt/learning/stability_guard.hpp"
+#include "report/stability_picture.hpp"
 
 namespace nysalt::program {
 
@@ -26,7 +28,7 @@ struct subject {
   tabulated method;
 };
 
-subject subject_of(const stability_command& command, const bundled_system* system, bool force,
+subject subject_of(const stability_command& command, const prepared_problem* system, bool force,
                    std::vector<std::string>& warnings) {
   if (command.family && command.method) refuse("--family and --method contradict each other: give one");
   if (!command.method) {
@@ -122,7 +124,7 @@ void add_frequencies(answer& result, const known_frequencies& known, double step
                              step * known.highest(), where_from(known));
 }
 
-void add_windows_of(answer& result, const judged_step& judged, const bundled_system& system, double step) {
+void add_windows_of(answer& result, const judged_step& judged, const prepared_problem& system, double step) {
   json& document = result.document;
   document["bands"] = json::array();
   for (const auto& [band, stable, margin, touching] : judged.bands) {
@@ -153,7 +155,7 @@ void add_windows_of(answer& result, const judged_step& judged, const bundled_sys
 }
 
 /// Adds what a trial run finds at the step. `stable` is both: the linear criterion, and a trial run.
-void add_trial(answer& result, const tabulated& method, const bundled_system& system, double step,
+void add_trial(answer& result, const tabulated& method, const prepared_problem& system, double step,
                const judged_step* judged, std::uint64_t seed, int threads) {
   json& document = result.document;
   const auto trial = try_step(method, system, step, seed, threads);
@@ -194,7 +196,7 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
   return nearest;
 }
 
-void add_rotation(answer& result, const tabulated& method, const bundled_system& system, double step) {
+void add_rotation(answer& result, const tabulated& method, const prepared_problem& system, double step) {
   const auto guard = system.guard(true);
   const bool stable = guard.admits(method.letters(), method.coefficients(), step);
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
@@ -235,7 +237,8 @@ void write_curve(const stability_command& command, const subject& target, const 
   write_result(command.output, table_of(curve), common);
   if (!command.plot) return;
   const figure picture{picture_name(command.output), {stability_panel(target.name, curve, chart, marked)}};
-  write_pictures(picture, folder_of(command.output), common);
+  if (const auto warning = write_pictures(picture, folder_of(command.output), common); !warning.empty())
+    warn(warning);
 }
 
 }  // namespace
@@ -261,6 +264,7 @@ int stability(const stability_command& command, const common_settings& common) {
     result.document["system"] = system->description();
     result.document["step"] = *command.step;
     progress shown;
+    warn_of_threads(common);
     prepare_starts(*system, common, shown);  // a bath drives the starts to where its law is
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);

@@ -7,7 +7,7 @@
 
 #include "../comma_list.hpp"
 #include "../commands.hpp"
-#include "../comparison.hpp"
+#include "comparison/comparison.hpp"
 #include "number_option.hpp"
 #include "shared_options.hpp"
 

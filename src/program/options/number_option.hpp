@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "../number.hpp"
+#include "comparison/number.hpp"
 
 namespace nysalt::program {
 

@@ -7,7 +7,7 @@
 
 #include "../comma_list.hpp"
 #include "../commands.hpp"
-#include "../refusal.hpp"
+#include "comparison/refusal.hpp"
 #include "number_option.hpp"
 #include "shared_options.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "shared_options.hpp"
+#include "program/systems.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@
 #include "../../plugin/plugin.hpp"
 #include "../bundled_systems.hpp"
 #include "../comma_list.hpp"
-#include "../number.hpp"
+#include "comparison/number.hpp"
 #include "number_option.hpp"
 
 namespace nysalt::program {

@@ -8,7 +8,7 @@
 
 #include "../comma_list.hpp"
 #include "../commands.hpp"
-#include "../world.hpp"
+#include "comparison/world.hpp"
 #include "number_option.hpp"
 #include "nysalt/detail/together.hpp"
 #include "shared_options.hpp"

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/ensembles/fpu_law.hpp"
 
-#include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "comparison/prepared_problem.hpp"
 
 namespace nysalt::program {
 
 namespace {
 template <int Pairs>
-made_system made(const fpu_chain<Pairs>& chain, const bath& in, const fpu_law<Pairs>& law) {
+initial_value_problem made(const fpu_chain<Pairs>& chain, const bath& in, const fpu_law<Pairs>& law) {
   auto result = detail::made_of(chain, in, law, chain.omega());
   result.default_observable = "stiff_energy";
   return result;
 }
 }  // namespace
 
-std::unique_ptr<bundled_system> make_soft_dominated_fpu(double omega) {
+std::unique_ptr<prepared_problem> make_soft_dominated_fpu(double omega) {
   const fpu_chain<3> chain(omega);
   const auto no_bath = bath::of_sigma(0.0, 0.0);
   const std::vector<named_value> parameters{
       {"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
-  return make_bundled(made(chain, no_bath, fpu_law<3>::soft_dominated(chain)), parameters,
-                      {no_bath, start::law});
+  return std::make_unique<prepared_problem>(made(chain, no_bath, fpu_law<3>::soft_dominated(chain)),
+                                            parameters, surroundings{no_bath, start::law});
 }
 
 system_declaration declare_fpu() {

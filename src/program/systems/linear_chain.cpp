@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/linear_chain.hpp"
 
-#include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "comparison/prepared_problem.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "with_exact_flow.hpp"
 
 namespace nysalt::program {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "../bundled_model.hpp"
 #include "../bundled_systems.hpp"
+#include "comparison/prepared_problem.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
+#include "with_exact_flow.hpp"
 
 namespace nysalt::program {
 

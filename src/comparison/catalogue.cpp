@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catalogue.hpp"
+
+#include <algorithm>
+
+#include "did_you_mean.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/aba_free.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/r_aba.hpp"
+#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/bcss.hpp"
+#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/chin.hpp"
+#include "nysalt/methods/forest_ruth.hpp"
+#include "nysalt/methods/impulse.hpp"
+#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/mclachlan_atela.hpp"
+#include "nysalt/methods/omelyan.hpp"
+#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/methods/predescu.hpp"
+#include "nysalt/methods/s_aia.hpp"
+#include "nysalt/methods/takahashi_imada.hpp"
+#include "nysalt/methods/verlet.hpp"
+#include "prepared_problem.hpp"
+
+namespace nysalt::program {
+
+namespace {
+template <class... F>
+std::vector<run_time_family> as_data() {
+  return {run_time_family(F{})...};
+}
+}  // namespace
+
+const std::vector<run_time_family>& families() {
+  static const auto all = as_data<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free,
+                                  aba4_free, fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+  return all;
+}
+
+std::vector<std::string> family_names() {
+  std::vector<std::string> names;
+  for (const auto& family : families()) names.push_back(family.name);
+  return names;
+}
+
+const run_time_family& family_named(std::string_view name) {
+  for (const auto& family : families()) {
+    if (family.name == name) return family;
+  }
+  refuse("unknown family '{}': {}", name, did_you_mean(name, family_names()));
+}
+
+run_time_family placed(std::string_view name, std::optional<placement> where) {
+  const auto& plain = family_named(name);
+  return where ? thermostatted(plain, *where) : plain;
+}
+
+std::string_view source_of_family(std::string_view name) {
+  family_named(name);
+  if (name == "nystrom") return "okunbor_skeel_1992";
+  if (name == "fg_chin") return "chin_1997";
+  if (name == "fg4" || name == "r_fg4") return "takahashi_imada_1984";  // the gradient kick
+  if (name.starts_with("r_")) return "tuckerman_berne_martyna_1992";
+  return {};
+}
+
+tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
+  const auto& family = family_named(name);
+  if (std::ssize(parameters) != family.parameters()) {
+    refuse("the family {} has {} parameters ({}), got {}", name, family.parameters(),
+           listed(family.parameter_names), parameters.size());
+  }
+  const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(parameters.data(), family.parameters());
+  require_in_range(family, theta);
+  return tabulated(family.name, family.letters, family.coefficients(theta),
+                   {family.order, family.symmetric, family.requires_quadratic_kinetic});
+}
+
+const std::vector<classical_method>& classical_methods() {
+  static const std::vector<classical_method> all{
+      {tabulated(verlet{}), "verlet_1967"},
+      {tabulated(verlet_aba{}), "verlet_1967"},
+      {tabulated(verlet_2x{}), "verlet_1967"},
+      {tabulated(mclachlan2{}), "mclachlan_1995"},
+      {tabulated(bcss2{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(bcss3{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(bcss4{}), "blanes_casas_sanz_serna_2014"},
+      {tabulated(predescu3{}), "predescu_and_others_2012"},
+      {tabulated(forest_ruth{}), "forest_ruth_1990"},
+      {tabulated(pefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(vefrl{}), "omelyan_mryglod_folk_2002"},
+      {tabulated(omelyan5v{}), "omelyan_mryglod_folk_2003"},
+      {tabulated(omelyan5p{}), "omelyan_mryglod_folk_2003"},
+      {tabulated(mclachlan_atela4{}), "mclachlan_atela_1992"},
+      {tabulated(mclachlan5{}), "mclachlan_1995"},
+      {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
+      {tabulated(srkn6b{}), "blanes_moan_2002"},
+      {tabulated(srkn11b{}), "blanes_moan_2002"},
+      {tabulated(srkn14a{}), "blanes_moan_2002"},
+      {tabulated(takahashi_imada{}), "takahashi_imada_1984"},
+      {tabulated(chin4a{}), "chin_1997"},
+      {tabulated(omelyan_fg4{}), "omelyan_mryglod_folk_2003"},
+      {tabulated(impulse{}), "tuckerman_berne_martyna_1992"},
+      {tabulated(baoab{}), "leimkuhler_matthews_2013"},
+      {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
+      {tabulated(aboba{}), "leimkuhler_matthews_2013"},
+      {tabulated(obabo{}), "bussi_parrinello_2007"},
+  };
+  return all;
+}
+
+namespace {
+
+std::optional<double> frequency_to_fit(const prepared_problem& system) { return system.frequency_to_fit(); }
+
+template <class M>
+adaptive_method adaptive(std::string_view source,
+                         std::optional<double> (*frequency)(const prepared_problem&)) {
+  return {M::name(),
+          source,
+          run_time_word(typename M::word{}),
+          {M::order, M::symmetric, M::requires_quadratic_kinetic},
+          frequency,
+          [](double z) { return tabulated(M(z)); }};
+}
+
+template <Family F, Method M>
+adaptive_method fitted() {
+  return adaptive<phase_fitted<F, M>>("van_de_vyver_2007", frequency_to_fit);
+}
+
+}  // namespace
+
+const std::vector<adaptive_method>& adaptive_methods() {
+  static const std::vector<adaptive_method> all{
+      adaptive<s_aia2>("nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024", highest_frequency),
+      fitted<fg_chin, chin4a>(),
+      fitted<fg4, omelyan_fg4>(),
+      fitted<aba<4>, pefrl>(),
+      fitted<bab<4>, vefrl>(),
+      fitted<aba<5>, mclachlan5>(),
+      fitted<bab<5>, omelyan5v>(),
+      fitted<bab<6>, srkn6b>(),
+  };
+  return all;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& known : classical_methods()) names.push_back(known.method.name());
+  for (const auto& known : adaptive_methods()) names.push_back(known.name);
+  return names;
+}
+
+placement placement_named(const std::string& name) {
+  for (const auto known : placements) {
+    if (to_string(known) == name) return known;
+  }
+  refuse("unknown placement '{}': it is one of end, symmetric, middle", name);
+}
+
+coordinates coordinates_named(const std::string& name) {
+  for (const auto known : {coordinates::qp, coordinates::modes, coordinates::energy}) {
+    if (to_string(known) == name) return known;
+  }
+  refuse("unknown coordinates '{}': they are one of qp, modes, energy", name);
+}
+
+}  // namespace nysalt::program

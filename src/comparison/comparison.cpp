@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is compared: metrics, and rows of methods at steps.
+#include "comparison.hpp"
+
+#include <algorithm>
+
+#include "build_info.hpp"
+#include "catalogue.hpp"
+#include "checks.hpp"
+#include "learning.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "refusal.hpp"
+#include "seeds.hpp"
+
+namespace nysalt::program {
+
+void require_fitting(const comparison_options& asked, const std::function<bool(const char*)>& is_given) {
+  const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
+    const auto is_of_these = [&](const std::string& text) {
+      const bool names_observable =
+          std::string(option) == "--observable" && text.find(':') != std::string::npos;
+      return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_observable;
+    };
+    if (!is_given(option) || std::ranges::any_of(asked.metrics, is_of_these)) return;
+    refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(asked.metrics));
+  };
+  belongs("--observable", {"path", "relative", "distribution", "acf"});
+  belongs("--range", {"distribution"});
+  belongs("--bins", {"distribution"});
+  belongs("--longest-lag", {"acf"});
+  belongs("--hmc-temperature", {"acceptance"});
+}
+
+comparison::comparison(std::unique_ptr<prepared_problem> system, comparison_options asked,
+                       common_settings common)
+    : options_(std::move(asked)), common_(std::move(common)), system_(std::move(system)) {
+  name_metrics();
+  require_sound_command();
+  plan_rows();
+  question_ = question_asked();
+}
+
+bool comparison::has_result() const {
+  return std::ranges::any_of(rows_, [](const row& line) {
+    return std::ranges::any_of(line.findings, [](const finding& one) { return one.reason.empty(); });
+  });
+}
+
+void comparison::name_metrics() {
+  const std::string otherwise =
+      options_.observable.empty() ? system_->default_observable() : options_.observable;
+  for (const auto& text : options_.metrics) metrics_.push_back(metric_named(text, otherwise));
+  bins_.resize(metrics_.size());
+}
+
+namespace {
+template <class T>
+void require_once(const char* option, const std::vector<T>& all, const auto& text) {
+  for (const T& one : all) {
+    if (std::ranges::count(all, one) > 1) refuse("{} names {} twice", option, text(one));
+  }
+}
+}  // namespace
+
+void comparison::require_sound_command() const {
+  if (options_.methods.empty()) refuse("--methods is needed, such as verlet,mclachlan2,learned:nystrom");
+  if (options_.steps.empty()) refuse("--steps is needed, such as 0.01,0.02");
+  for (const double step : options_.steps) require_positive("--steps", step);
+  for (const double level : options_.levels) require_positive("--levels", level);
+  const auto as_it_is = [](const auto& x) { return x; };
+  require_once("--steps", options_.steps, as_it_is);
+  require_once("--levels", options_.levels, as_it_is);
+  require_once("--methods", options_.methods, as_it_is);
+  require_once("--metric", metrics_, [](const asked_metric& metric) { return metric.text(); });
+  require_at_least_one("--trajectories", options_.trajectories);
+  require_sound(options_.learning, "--learn-");
+  if (std::ranges::any_of(metrics_, &asked_metric::is_of_law)) require_sound_statistics();
+  if (std::ranges::any_of(metrics_, &asked_metric::is_acceptance)) {
+    require_positive("--hmc-temperature", options_.hmc_temperature);
+  }
+}
+
+double comparison::usual_horizon(const std::vector<method_source>& sources) const {
+  double largest = 0.0;
+  for (const auto& source : sources) {
+    const double evaluations = options_.equal_cost ? source.evaluations_per_step : 1.0;
+    largest = std::max(largest, evaluations * std::ranges::max(options_.steps));
+  }
+  return std::max(0.5, fewest_samples * largest);
+}
+
+void comparison::plan_rows() {
+  std::vector<method_source> sources;
+  for (const auto& typed : options_.methods) {
+    sources.push_back(find_method(typed, options_.held));
+    charge(sources.back(), *system_);
+    if (sources.back().family) families_[typed] = sources.back();
+    if (sources.back().learned) schemes_.push_back(sources.back());
+  }
+  horizon_ = options_.horizon.value_or(usual_horizon(sources));
+  for (const double nominal : options_.steps) {
+    for (const auto& source : sources) add_row(source, nominal);
+  }
+  for (const auto& source : sources) {
+    const auto is_of_source = [&](const row& line) { return line.method == source.typed; };
+    if (std::ranges::any_of(rows_, is_of_source)) continue;
+    if (!source.learned) refuse("{}", warnings_.back());
+    const double evaluations = options_.equal_cost ? source.evaluations_per_step : 1.0;
+    refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
+           source.learned->steps(), options_.equal_cost ? " (of an evaluation)" : "",
+           source.learned->curve.steps().back() / evaluations);
+  }
+  require_enough_samples();
+}
+
+/// A scheme file has a row where its own step is asked for, and nowhere else.
+void comparison::add_row(const method_source& source, double nominal) {
+  const double step = options_.equal_cost ? nominal * source.evaluations_per_step : nominal;
+  const bool elsewhere = source.learned && !is_at(*source.learned, step);
+  if (elsewhere && !common_.force) return;
+  row planned{.method = source.typed, .nominal = nominal, .step = step};
+  planned.is_learned = source.family || source.learned;
+  planned.findings.resize(metrics_.size());
+  const auto otherwise = placement_asked(options_.placement);
+  const bool is_noisy = system_->heat_bath().acts() && system_->heat_bath().sigma() > 0.0;
+  int parts = 1;
+  bool symmetric = false;
+  if (source.family) {
+    symmetric = family_named(*source.family).symmetric;
+    steps_within("--learn-horizon", options_.learning.horizon_at(step), step);
+    const auto where = placement_in(source, *system_, otherwise);
+    system_->require_learnable(*source.family, where, options_.learning, step);
+    if (where == placement::symmetric) parts = 2;
+  } else {
+    try {
+      planned.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+    } catch (const refusal& problem) {
+      // Coefficients that follow from the step may end; other steps have their rows.
+      const bool is_alone = options_.steps.size() == 1;
+      if (source.adaptive == nullptr || is_alone) throw;
+      warnings_.push_back(fmt::format("{} (no row at step {:g})", problem.what(), nominal));
+      return;
+    }
+    symmetric = planned.coefficients->symmetric;
+    if (is_noisy) parts = noise_parts(*planned.coefficients, *system_);
+  }
+  for (std::size_t m = 0; m < metrics_.size(); ++m) {
+    const asked_metric& metric = metrics_[m];
+    if (metric.is_acceptance() && !symmetric && !system_->heat_bath().acts()) {
+      refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method",
+             source.typed);
+    }
+    system_->require_measure(metric, metric.is_along_paths() ? paths_at(step) : plan_at(step),
+                             options_.learning.fine_step, metric.is_of_law() ? 1 : parts);
+    if (metric.is_of_law()) statistics_at(m, step);
+    planned.findings[m].reason = too_few_samples(metric, step);
+  }
+  rows_.push_back(std::move(planned));
+}
+
+trajectories_plan comparison::plan_at(double step) const {
+  return {step, steps_within("--horizon", horizon_, step), options_.trajectories,
+          seed_for(role::test, common_.seed), common_.threads};
+}
+
+/// To the horizon, over which errors are means.
+trajectories_plan comparison::paths_at(double step) const {
+  trajectories_plan plan = plan_at(step);
+  plan.steps = steps_beyond("--horizon", horizon_, step);
+  plan.horizon = horizon_;
+  return plan;
+}
+
+std::string comparison::too_few_samples(const asked_metric& metric, double step) const {
+  const double samples = horizon_ / step;
+  if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
+  return fmt::format(
+      "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes: "
+      "take "
+      "{:g} at least",
+      horizon_, samples, step, fewest_samples, fewest_samples * step);
+}
+
+void comparison::require_enough_samples() const {
+  const auto has_none = [](const row& line) {
+    return std::ranges::none_of(line.findings, [](const finding& one) { return one.reason.empty(); });
+  };
+  if (std::ranges::all_of(rows_, has_none)) refuse("{}", rows_.front().findings.front().reason);
+}
+
+namespace {
+
+json as_json(const learn_settings& how) {
+  return {{"fine_step", how.fine_step ? json(*how.fine_step) : json(nullptr)},
+          {"trajectories", how.trajectories},
+          {"horizon", how.horizon ? json(*how.horizon) : json(nullptr)},
+          {"coordinates", how.coordinates},
+          {"fix", how.fix},
+          {"loss", how.loss},
+          {"random_starts", how.random_starts}};
+}
+
+json as_json(const row& line) {
+  json result{{"method", line.method}, {"step", line.nominal}, {"step_size", line.step}};
+  if (!line.coefficients) return result;
+  result["letters"] = line.coefficients->letters().letters();
+  result["coefficients"] = line.coefficients->coefficients();
+  return result;
+}
+
+}  // namespace
+
+json comparison::question_asked() const {
+  json metrics = json::array();
+  for (const auto& metric : metrics_) metrics.push_back(metric.text());
+  json rows = json::array();
+  for (const auto& line : rows_) rows.push_back(as_json(line));
+  return {{"program", fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags)},
+          {"system", system_->parameters()},
+          {"starts", {to_string(system_->start_law()), system_->starts()}},
+          {"metric", metrics},
+          {"rows", rows},
+          {"placement", options_.placement},
+          {"horizon", horizon_},
+          {"trajectories", options_.trajectories},
+          {"equal_cost", options_.equal_cost},
+          {"levels", options_.levels},
+          {"range", options_.range},
+          {"bins", options_.bins},
+          {"longest_lag", options_.longest_lag},
+          {"hmc_temperature", options_.hmc_temperature},
+          {"learning", as_json(options_.learning)},
+          {"seed", common_.seed}};
+}
+
+}  // namespace nysalt::program

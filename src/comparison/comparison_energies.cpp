@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a report says of stability: the margin of each step, and energies and survivors along time.
+#include <algorithm>
+#include <cmath>
+
+#include "comparison.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "sampled_run.hpp"
+#include "seeds.hpp"
+#include "stability.hpp"
+#include "stability_margin.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// Root mean square energy error and share of surviving trajectories at each sample. A record holds the
+/// energy alone, sampled every `between` units of time; the record of a trajectory that diverges is shorter.
+energy_course course_of(const std::vector<record>& all, double between) {
+  energy_course result;
+  std::size_t longest = 0;
+  for (const record& one : all) longest = std::max(longest, one.values.size());
+  for (std::size_t i = 0; i < longest; ++i) {
+    double squares = 0.0;
+    double alive = 0.0;
+    for (const record& one : all) {
+      if (i >= one.values.size()) continue;
+      squares += std::pow(one.values[i] - one.values.front(), 2.0);
+      ++alive;
+    }
+    result.t.push_back(between * static_cast<double>(i));
+    result.deviation.push_back(std::sqrt(squares / alive));
+    result.surviving.push_back(alive / static_cast<double>(all.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+/// At the frequencies for which `stability` judges a step.
+void comparison::judge_steps() {
+  constexpr std::uint64_t starts = 64;
+  const auto known = frequencies_along_starts(*system_, seed_for(role::test, common_.seed), starts);
+  for (row& line : rows_) {
+    if (has_rotation(line.coefficients->letters())) continue;
+    line.margin = judge(*line.coefficients, chart_of(*line.coefficients), known, line.step).margin();
+  }
+}
+
+/// Of the first trajectories of the test, at some forty times.
+void comparison::follow_energies(journal& kept) {
+  constexpr std::int64_t most_trajectories = 64;
+  constexpr std::int64_t samples = 40;
+  for (row& line : rows_) {
+    if (!line.reason.empty()) continue;
+    shown_.part(fmt::format("energies of {} at step {:g}", line.method, line.nominal));
+    const json found = kept.once(fmt::format("energies of {} at {}", line.method, line.step), [&] {
+      sampled_plan plan{.trajectories = plan_at(line.step), .observables = {"energy"}};
+      plan.trajectories.count = std::min(plan.trajectories.count, most_trajectories);
+      plan.every = std::max<std::int64_t>(1, plan.trajectories.steps / samples);
+      std::vector<record> all;
+      const auto take = [&](std::int64_t, const record& one) { all.push_back(one); };
+      run(*system_, *line.coefficients, plan, take, {});
+      return to_json(course_of(all, line.step * static_cast<double>(plan.every)));
+    });
+    line.energies = energies_from(found);
+  }
+}
+
+}  // namespace nysalt::program

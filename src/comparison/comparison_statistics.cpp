@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSL-1.0
+// The metrics that compare laws, not paths: distribution and autocovariance.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "checks.hpp"
+#include "comparison.hpp"
+#include "nysalt/analysis/acf_error.hpp"
+#include "nysalt/analysis/total_variation.hpp"
+#include "seeds.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr int references = 4;  // independent ensembles: six pairs for the floor
+
+std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
+  std::vector<histogram> result;
+  for (const auto& one : all) result.push_back(*one.histogram);
+  return result;
+}
+
+/// Of one ensemble from the law of several: the mean over these.
+estimate distance_to(const gathered_statistics& ensemble, std::span<const gathered_statistics> others) {
+  if (ensemble.histogram) {
+    std::vector<std::vector<histogram>> groups;
+    for (const auto& other : others) groups.push_back(other.histogram_of_groups);
+    return mean_total_variation(ensemble.histogram_of_groups, groups);
+  }
+  estimate result{0.0, 0.0};
+  const auto share = 1.0 / static_cast<double>(others.size());
+  for (const auto& other : others) {
+    const acf_distance found = acf_error(*ensemble.autocovariance, *other.autocovariance);
+    result.mean += found.rms * share;
+    result.standard_error += found.standard_error * share;
+  }
+  return result;
+}
+
+/// The mean distance over all pairs of ensembles of one law.
+double floor_of(std::span<const gathered_statistics> all) {
+  if (all.front().histogram) return sampling_floor(histograms_of(all));
+  double sum = 0.0;
+  double pairs = 0.0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance_to(all[i], all.subspan(k, 1)).mean;
+  }
+  return sum / pairs;
+}
+
+/// Of independent ensembles, with less noise than each has; they share their x.
+drawn_law mean_law(std::span<const gathered_statistics> all) {
+  drawn_law result = drawn(all.front());
+  const double share = 1.0 / static_cast<double>(all.size());
+  const auto add = [&](double& to, double value, bool is_first) {
+    to = (is_first ? 0.0 : to) + share * value;
+  };
+  double variance = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const drawn_law law = drawn(all[k]);
+    for (std::size_t i = 0; i < law.y.size(); ++i) add(result.y[i], law.y[i], k == 0);
+    add(result.mean.mean, law.mean.mean, k == 0);
+    variance += std::pow(share * law.mean.standard_error, 2.0);
+    if (!law.kinetic_temperature) continue;
+    add(*result.kinetic_temperature, *law.kinetic_temperature, k == 0);
+    add(*result.half_step_kinetic_temperature, *law.half_step_kinetic_temperature, k == 0);
+  }
+  result.mean.standard_error = std::sqrt(variance);
+  return result;
+}
+
+}  // namespace
+
+void comparison::require_sound_statistics() const {
+  const bath& heat_bath = system_->heat_bath();
+  const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
+  if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
+    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", of_law->name);
+  }
+  if (heat_bath.acts() && !heat_bath.has_temperature()) {
+    refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
+           of_law->name);
+  }
+  const auto is_distribution = [](const asked_metric& one) { return one.name == "distribution"; };
+  if (!options_.range.empty() && options_.range.size() != 2) {
+    refuse("--range takes two numbers, such as 0,1, got {}", options_.range.size());
+  }
+  if (!options_.range.empty() && std::ranges::count_if(metrics_, is_distribution) > 1) {
+    refuse("--range is of one histogram: ask for one distribution, or leave it away");
+  }
+  if (options_.bins < 1 || options_.bins > 100'000) {
+    refuse("--bins must be at least 1 and at most 100000, got {}", options_.bins);
+  }
+  if (!options_.range.empty()) {
+    const equal_bins bins{options_.range[0], options_.range[1], static_cast<int>(options_.bins)};
+    if (!(bins.low < bins.high && std::isfinite(bins.width()))) {
+      refuse("--range takes LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
+    }
+  }
+  require_positive("--longest-lag", options_.longest_lag);
+}
+
+/// Autocovariances take some 50 lags, whatever the step: a product a lag and sample is all their cost.
+statistics_plan comparison::statistics_at(std::size_t metric, double step) const {
+  statistics_plan plan{.trajectories = plan_at(step)};
+  if (metrics_[metric].name == "distribution") {
+    plan.bins = bins_[metric];
+    return plan;
+  }
+  const std::int64_t longest = steps_within("--longest-lag", options_.longest_lag, step);
+  constexpr std::int64_t enough = 50;
+  plan.every = std::max<std::int64_t>(1, longest / enough);
+  plan.lags = static_cast<int>(longest / plan.every);
+  if (*plan.lags < plan.trajectories.steps / plan.every) return plan;
+  refuse("--longest-lag {} is not shorter than --horizon {}: take a longer horizon", options_.longest_lag,
+         horizon_);
+}
+
+/// The same for all steps.
+void comparison::prepare_bins(std::size_t metric) {
+  if (metrics_[metric].name != "distribution" || bins_[metric]) return;
+  const std::string& observable = metrics_[metric].observable;
+  std::array<double, 2> range{};
+  if (options_.range.empty()) {
+    const auto values = system_->values_at_starts(plan_at(rows_.front().step), observable);
+    const auto [low, high] = std::ranges::minmax(values);
+    range = {low, high};
+    if (!(range[0] < range[1])) {
+      refuse("the observable {} is {} at all starts: say the --range of its histogram", observable, range[0]);
+    }
+  } else {
+    range = {options_.range[0], options_.range[1]};
+  }
+  bins_[metric] = equal_bins{range[0], range[1], static_cast<int>(options_.bins)};
+}
+
+/// Else all laws would be the same: none of them is seen.
+void comparison::require_samples_in_range(std::size_t metric,
+                                          std::span<const gathered_statistics> all) const {
+  const auto& bins = bins_[metric];
+  if (!bins) return;
+  for (const auto& ensemble : all) {
+    const auto inside = ensemble.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
+    if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
+  }
+  refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins->low,
+         bins->high, metrics_[metric].observable, all.front().mean.mean);
+}
+
+/// The trajectories of references have numbers of their own, hence starts and noise of their own. References
+/// are sampled when the methods are at that step: the floor is of as many samples.
+gathered_statistics comparison::reference(std::size_t metric, double step, int number, int finer) {
+  statistics_plan plan = statistics_at(metric, step);
+  plan.trajectories.seed = seed_for(role::reference, common_.seed);
+  plan.first = number * plan.trajectories.count;
+  plan.finer = finer;
+  shown_.part(fmt::format("reference {} of {} at step {:g}", number + 1, references + 1, step),
+              finer * work_of_reference());
+  auto found = system_->reference_statistics(plan, metrics_[metric].observable, options_.learning.fine_step,
+                                             shown_.counter(plan.trajectories.count));
+  if (found.lost.empty()) return found;
+  const auto [trajectory, at] = found.lost.front();
+  refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step or another system",
+         trajectory, at);
+}
+
+const std::vector<gathered_statistics>& comparison::references_at(std::size_t metric, double step) {
+  if (!references_.empty()) return references_;
+  for (int k = 0; k < references; ++k) references_.push_back(reference(metric, step, k, 1));
+  require_samples_in_range(metric, references_);
+  return references_;
+}
+
+/// What stays where it starts: its law is that of the starts, and it forgets nothing. Nothing where the
+/// starts are of the law already, as far as so many tell.
+std::optional<double> comparison::null_model_of_law(std::size_t metric, double step, const drawn_law& law) {
+  if (metrics_[metric].name == "acf") {
+    double sum = 0.0;
+    for (const double rho : law.y) sum += (1.0 - rho) * (1.0 - rho);
+    return std::sqrt(sum / static_cast<double>(law.y.size() - 1));
+  }
+  statistics_plan frozen = statistics_at(metric, step);
+  frozen.trajectories.steps = 0;
+  frozen.trajectories.seed = seed_for(role::reference, common_.seed);
+  std::vector<gathered_statistics> starts;
+  double distance = 0.0;
+  for (int k = 0; k < references; ++k) {
+    frozen.first = (references + 1 + k) * frozen.trajectories.count;
+    starts.push_back(system_->reference_statistics(frozen, metrics_[metric].observable, {}, {}));
+    distance += distance_to(starts.back(), references_).mean / references;
+  }
+  constexpr double seen = 1.5;
+  if (distance < seen * floor_of(starts)) return std::nullopt;
+  return distance;
+}
+
+backdrop comparison::behind_law(std::size_t metric, double step) {
+  const auto& all = references_at(metric, step);
+  const auto finer = reference(metric, step, references, 2);
+  backdrop result{.reference = system_->reference_of_statistics(step, options_.learning.fine_step),
+                  .reference_error = distance_to(finer, all).mean,
+                  .floor = floor_of(all),
+                  .law = mean_law(all)};
+  result.null_model = null_model_of_law(metric, step, *result.law);
+  return result;
+}
+
+finding comparison::law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all) {
+  const statistics_plan plan = statistics_at(metric, line.step);
+  shown_.part(fmt::format("{} at step {:g}", line.method, line.nominal),
+              work_of_law(line.evaluations_per_time));
+  const auto found = system_->statistics(*line.coefficients, plan, metrics_[metric].observable,
+                                         shown_.counter(plan.trajectories.count));
+  finding one{.law = drawn(found)};
+  one.lose(found.lost, plan.trajectories.count);
+  if (found.counted > 0) one.value = distance_to(found, all);
+  return one;
+}
+
+void comparison::measure_law(std::size_t metric, double step, const group& all, journal& kept) {
+  if (all.empty()) return;
+  prepare_bins(metric);
+  references_.clear();
+  const std::string name = metrics_[metric].text();
+  const std::string part = fmt::format("reference of {} at {}", name, step);
+  if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
+  json found{{"behind", kept.once(part, [&] { return to_json(behind_law(metric, step)); })},
+             {"findings", json::array()}};
+  for (const row* line : all) {
+    const std::string line_part = fmt::format("{} of {} at {}", name, line->method, step);
+    if (kept.has(line_part)) shown_.skip(work_of_law(line->evaluations_per_time));
+    found["findings"].push_back(
+        kept.once(line_part, [&] { return to_json(law_of(metric, *line, references_at(metric, step))); }));
+  }
+  take(metric, step, all, found);
+}
+
+}  // namespace nysalt::program

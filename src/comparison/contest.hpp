@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+// Methods at one cost, or at one error, and who of them wins.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "method_source.hpp"
+#include "paired_ratio.hpp"
+#include "prepared_problem.hpp"
+
+namespace nysalt::program {
+
+/// Where on the grid of steps the error was below the one asked for, and where above.
+struct bracket {
+  std::optional<int> below;
+  int above;
+  bool has_failed = false;  // `above` was tried; else it is the end of the grid
+  bool is_fine = false;     // all trajectories, and searches from all starts
+  bool is_found = false;
+  bool is_given_up = false;
+  std::map<int, std::vector<double>> thetas;  // that were learned
+};
+
+/// What a method's errors on some trajectories are.
+struct measured_error {
+  estimate mean{};
+  std::vector<double> scores{};  // of each trajectory
+  bool is_heavy = false;         // the tail of the scores is too heavy for a mean and a standard error
+  std::int64_t diverged = 0;
+};
+
+/// A method that may win, and what was found of it at its step.
+struct candidate {
+  method_source source;
+  std::optional<placement> where;  // of the letters O of a family that is learned
+  int order = 0;
+  bool symmetric = false;
+  bool rotates = false;
+  double step = 0.0;
+  std::optional<learned_scheme> learned{};
+  std::optional<tabulated> method{};
+  bracket search{};
+  std::string reason{};  // why the candidate cannot win
+  measured_error error{};
+  std::optional<measured_error> confirmed{};  // on trajectories on which nothing was chosen
+  double evaluations_per_time = std::numeric_limits<double>::quiet_NaN();
+  double seconds_per_time = std::numeric_limits<double>::quiet_NaN();
+  std::optional<double> reference_error{};
+  std::string reference{};
+
+  bool is_learned() const { return source.family.has_value(); }
+  /// The candidate stayed with the reference on every trajectory.
+  bool stands() const { return reason.empty() && error.diverged == 0; }
+};
+
+enum class cost_unit { evaluations, seconds };
+
+/// Candidates at one cost, ranked by error; or at one error, ranked by cost. One of them wins if it differs
+/// by more than chance, the grid of steps and the clock can tell.
+struct contest {
+  cost_unit unit;
+  std::optional<double> budget;  // cost per unit time; nothing: at one error
+  double cost_ratio;             // how far costs must differ to tell them apart, at one error
+  error_statistic statistic;
+  std::vector<candidate> all{};
+
+  double cost_of(const candidate& contender) const {
+    return unit == cost_unit::evaluations ? contender.evaluations_per_time : contender.seconds_per_time;
+  }
+  double error_of(const candidate& contender) const { return statistic(contender.error.scores); }
+
+  /// Those that stand first, the best of them first of all.
+  void rank();
+  /// The best of those that stand; null if none does.
+  const candidate* best_of(bool learned) const;
+  const candidate* best() const;
+  bool has_result() const { return best() != nullptr; }
+  /// The winner, or null where the best of both kinds cannot be told apart.
+  const candidate* winner() const;
+  /// The error of one over that of the other, on the trajectories that confirm both, or else on those of the
+  /// ranking.
+  ratio_estimate error_ratio(const candidate& a, const candidate& b) const;
+  /// "learned", "classical", "tie" or "none"
+  std::string verdict() const;
+
+ private:
+  bool is_better(const candidate& a, const candidate& b) const;
+};
+
+}  // namespace nysalt::program

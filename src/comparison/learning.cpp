@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "learning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "catalogue.hpp"
+#include "checks.hpp"
+#include "learnable.hpp"
+#include "nysalt/learning/fit.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "seeds.hpp"
+#include "stability_margin.hpp"
+#include "world.hpp"
+
+namespace nysalt::program {
+
+void require_sound(const learn_settings& how, const std::string& prefix) {
+  const std::string trajectories = prefix + "trajectories";
+  const std::string horizon = prefix + "horizon";
+  require_at_least_one(trajectories.c_str(), how.trajectories);
+  if (how.horizon) require_positive(horizon.c_str(), *how.horizon);
+  if (how.fine_step) require_positive("--fine-step", *how.fine_step);
+  coordinates_named(how.coordinates);
+  loss_named(how.loss);
+  if (how.random_starts < 0 || how.random_starts > 10'000) {
+    refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), how.random_starts);
+  }
+}
+
+learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
+  auto [problem, energies] = make_learnable(plan, progress);
+  const run_time_family& family = problem.family;
+  if (progress) {  // told again at each pass that all data are there, whoever counts may end the search
+    problem.loss = [loss = std::move(problem.loss), progress,
+                    all = plan.how.trajectories](const auto& theta) {
+      progress(all);
+      return loss(theta);
+    };
+  }
+  auto [theta, fit] = solve(problem);
+  const tabulated method(family.name, family.letters, family.coefficients(theta),
+                         {family.order, family.symmetric, family.requires_quadratic_kinetic});
+  return {std::move(fit), method, energies};
+}
+
+namespace {
+
+/// Each time as many trajectories more; those that there were are kept.
+learned_scheme learn_enough(const prepared_problem& system, learn_plan plan, progress& shown) {
+  std::optional<learned_scheme> learned;
+  plan.kept = std::make_shared<std::any>();
+  enough_options enough = *plan.enough;
+  enough.most = std::min(enough.most, system.most_trajectories(plan));
+  const auto learn = [&](std::int64_t trajectories) {
+    plan.how.trajectories = trajectories;
+    shown.part(
+        fmt::format("learning {} at step {:g} from {} trajectories", plan.family, plan.step, trajectories));
+    learned.emplace(system.learn(plan, shown.counter(trajectories)));
+    return learned->fit;
+  };
+  const auto course = until_enough(plan.how.trajectories, enough, learn);
+  learned->course = course;
+  return *learned;
+}
+
+}  // namespace
+
+learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan, progress& shown,
+                          double work) {
+  system.require_learnable(plan.family, plan.where, plan.how, plan.step);
+  learn_plan stage = plan;
+  // Where landscapes are hard, the optimum at a smaller step is near that at the next. A fine step that was
+  // asked for must divide these steps too.
+  const double quarter = plan.how.fine_step ? 0.25 * plan.step / *plan.how.fine_step : 1.0;
+  const bool is_divided =
+      std::round(quarter) >= 1.0 && std::abs(quarter - std::round(quarter)) <= 1e-9 * quarter;
+  const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && is_divided;
+  for (const double part : {0.5, 0.75, 1.0}) {
+    if (part < 1.0 && !is_hard) continue;
+    stage.step = part * plan.step;
+    shown.part(fmt::format("learning {} at step {:g}", plan.family, stage.step), is_hard ? work / 3.0 : work);
+    if (part == 1.0 && plan.enough) return learn_enough(system, stage, shown);
+    learned_scheme learned = system.learn(stage, shown.counter(plan.how.trajectories));
+    if (part == 1.0) return learned;
+    stage.from = theta_of(learned.fit);
+  }
+  throw std::logic_error("learn_with: not reached");
+}
+
+std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_plan plan,
+                                        std::vector<double> steps, progress& shown) {
+  std::sort(steps.begin(), steps.end());
+  std::vector<learned_scheme> learned;
+  for (std::size_t n = steps.size(); n-- > 0;) {
+    plan.step = steps[n];
+    learned.insert(learned.begin(), learn_with(system, plan, shown));
+    plan.from = theta_of(learned.front().fit);
+    plan.from_there_alone = true;
+  }
+  return learned;
+}
+
+learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
+                    const learn_settings& how, const common_settings& common) {
+  return {.family = family,
+          .where = where,
+          .step = step,
+          .how = how,
+          .seed = seed_for(role::training, common.seed),
+          .held_out_seed = seed_for(role::held_out, common.seed),
+          .threads = common.threads};
+}
+
+void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown) {
+  shown.part("preparing the starts");
+  system.prepare_starts(seed_for(role::training, common.seed));
+}
+
+std::vector<double> theta_of(const fit_summary& fit) {
+  std::vector<double> theta;
+  for (const auto& parameter : fit.parameters) theta.push_back(parameter.value);
+  return theta;
+}
+
+json by_name(const fit_summary& fit, double fitted_parameter::*field) {
+  json result = json::object();
+  for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
+  return result;
+}
+
+json fit_json(const fit_summary& fit) {
+  return {{"family", fit.family},
+          {"parameters", by_name(fit, &fitted_parameter::value)},
+          {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
+          {"step", fit.step},
+          {"objective", fit.loss_name},
+          {"loss", fit.loss},
+          {"held_out_loss", fit.is_of_data ? json(fit.held_out_loss) : json(nullptr)},
+          {"one_step_error", fit.one_step_error},
+          {"trajectory_error", fit.trajectory_error},
+          {"samples", fit.samples},
+          {"usable", fit.usable},
+          {"verdict", std::string(to_string(fit.verdict()))},
+          {"rival", fit.rival.empty() ? json(nullptr) : json(fit.rival)},
+          {"rival_loss", fit.rival.empty() ? json(nullptr) : json(fit.rival_loss)},
+          {"rival_loss_noise", fit.rival.empty() ? json(nullptr) : json(fit.rival_noise)},
+          {"trial", to_json(fit.trial)},
+          {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
+          {"seconds", fit.data_seconds + fit.fit_seconds},
+          {"data_seconds", fit.data_seconds},
+          {"fit_seconds", fit.fit_seconds},
+          {"learning_evaluations", fit.learning_evaluations},
+          {"expected_excess", fit.is_of_data ? json(fit.expected_excess) : json(nullptr)},
+          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)},
+          {"deciding_trajectories", fit.is_of_data ? json(fit.deciding_trajectories) : json(nullptr)}};
+}
+
+}  // namespace nysalt::program

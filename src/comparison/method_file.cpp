@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "method_file.hpp"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include "build_info.hpp"
+#include "catalogue.hpp"
+#include "did_you_mean.hpp"
+#include "learning.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "refusal.hpp"
+#include "stability.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr int known_version = 1;
+constexpr int with_placement = 2;  // of a scheme that says where its letters O are
+constexpr int as_curve = 3;        // of a scheme with several steps, perhaps with a placement
+constexpr const char* scheme_format = "nysalt scheme";
+constexpr const char* table_format = "nysalt table";
+
+/// Of every member of a document but the checksum itself, as the document would be written without spaces.
+std::string checksum(json document) {
+  document.erase("checksum");
+  const std::string text = document.dump();
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("crc32:{:08x}", crc.checksum());
+}
+
+std::string contents_of(const std::filesystem::path& path) {
+  constexpr std::streamsize most = 1 << 20;  // bytes: schemes and tables are far shorter
+  std::error_code ignored;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path, ignored)) {
+    refuse("cannot read {}: is it there, a file, and readable?", path.string());
+  }
+  std::string text(static_cast<std::size_t>(most), '\0');
+  stream.read(text.data(), most);
+  if (stream) refuse("{}: it is too long to be a scheme or a table", path.string());
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+/// Members of a JSON object, each of its type, or a refusal that names file and member.
+class reader {
+ public:
+  reader(const json& document, std::string file) : document_(document), file_(std::move(file)) {}
+
+  const json& member(const char* key) const {
+    if (!document_.contains(key)) refuse("{}: the member \"{}\" is missing", file_, key);
+    return document_[key];
+  }
+  std::string text(const char* key) const {
+    if (!member(key).is_string()) refuse("{}: \"{}\" must be a text", file_, key);
+    return member(key).get<std::string>();
+  }
+  double number(const char* key) const { return number(member(key), key); }
+  double number(const json& value, const char* key) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      refuse("{}: \"{}\" must hold finite numbers", file_, key);
+    }
+    return value.get<double>();
+  }
+  std::vector<double> numbers(const char* key) const {
+    if (!member(key).is_array()) refuse("{}: \"{}\" must be a list of numbers", file_, key);
+    std::vector<double> result;
+    for (const auto& value : member(key)) result.push_back(number(value, key));
+    return result;
+  }
+  bool flag(const char* key) const {
+    if (!member(key).is_boolean()) refuse("{}: \"{}\" must be true or false", file_, key);
+    return member(key).get<bool>();
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  const json& document_;
+  std::string file_;
+};
+
+/// Runs f; what the library refuses in it gets the file's name.
+auto in_file(const std::string& file, const auto& f) {
+  try {
+    return f();
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}: {}", file, problem.what());
+  }
+}
+
+/// By name: the order of members means nothing in JSON. Each holds one number, or one for each step.
+std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_time_family& family,
+                                           std::size_t steps, bool is_curve, const reader& read) {
+  if (!parameters.is_object()) refuse("{}: \"parameters\" must be an object", read.file());
+  std::vector<Eigen::VectorXd> thetas(steps, Eigen::VectorXd::Zero(family.parameters()));
+  const reader values(parameters, read.file());
+  for (Eigen::Index k = 0; k < family.parameters(); ++k) {
+    const char* name = family.parameter_names[static_cast<std::size_t>(k)].c_str();
+    if (!is_curve) {
+      thetas[0][k] = values.number(name);
+      continue;
+    }
+    const auto all = values.numbers(name);
+    if (all.size() != steps) refuse("{}: \"{}\" must hold a number for each step", read.file(), name);
+    for (std::size_t n = 0; n < steps; ++n) thetas[n][k] = all[n];
+  }
+  if (std::ssize(parameters) != family.parameters()) {
+    refuse("{}: the family {} has the parameters {} and no others", read.file(), family.name,
+           listed(family.parameter_names));
+  }
+  for (const auto& theta : thetas) require_in_range(family, theta);
+  return thetas;
+}
+
+placement placement_in(const reader& read) {
+  const std::string name = read.text("placement");
+  for (const auto known : placements) {
+    if (name == to_string(known)) return known;
+  }
+  refuse("{}: unknown placement '{}': it is one of end, symmetric, middle", read.file(), name);
+}
+
+/// Nothing where the system tells no energy, and where the loss asked for no data.
+std::optional<energy_range> energies_in(const reader& read) {
+  if (read.member("energy_range").is_null() || read.text("objective") == "covariance") return {};
+  const auto ends = read.numbers("energy_range");
+  if (ends.size() != 2 || !(ends[0] <= ends[1])) {
+    refuse("{}: \"energy_range\" must hold the least and the largest energy", read.file());
+  }
+  return energy_range{ends[0], ends[1]};
+}
+
+/// One number, or one for each step where they differ.
+std::size_t trajectories_in(const reader& read) {
+  const auto all = read.member("trajectories").is_array() ? read.numbers("trajectories")
+                                                          : std::vector<double>{read.number("trajectories")};
+  const bool are_counts = std::ranges::all_of(all, [](double n) { return n >= 1.0 && n <= 1e15; });
+  if (all.empty() || !are_counts) refuse("{}: \"trajectories\" must be positive", read.file());
+  return static_cast<std::size_t>(std::ranges::min(all));
+}
+
+scheme scheme_in(const json& document, const reader& read) {
+  if (read.text("checksum") != checksum(document)) {
+    refuse(
+        "{}: its checksum does not fit its contents, so it was edited or damaged; learn it again, or write "
+        "coefficients of your own as a table",
+        read.file());
+  }
+  const std::string name = read.text("family");
+  const auto known = family_names();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    refuse("{}: unknown family '{}': {}", read.file(), name, did_you_mean(name, known));
+  }
+  const bool is_curve = document.contains("steps");
+  const auto steps = is_curve ? read.numbers("steps") : std::vector<double>{read.number("step")};
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    if (!(steps[n] > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), steps[n]);
+    if (n > 0 && !(steps[n - 1] < steps[n])) refuse("{}: \"steps\" must rise", read.file());
+  }
+  if (is_curve && document.contains("step")) {
+    refuse("{}: it has both \"step\" and \"steps\": one is not meant", read.file());
+  }
+  if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
+  const reader of_system(read.member("system"), read.file());
+  const auto trajectories = trajectories_in(read);
+  const auto energies = energies_in(read);
+  return in_file(read.file(), [&] {
+    const auto thetas =
+        parameters_in(read.member("parameters"), family_named(name), steps.size(), is_curve, read);
+    std::optional<placement> where;
+    if (document.contains("placement")) where = placement_in(read);
+    scheme result{name,
+                  where,
+                  theta_curve(steps, thetas),
+                  of_system.text("description"),
+                  source_of_system(document.at("system")),
+                  read.flag("usable"),
+                  read.text("reason"),
+                  energies,
+                  trajectories};
+    result.at(steps.front());  // throws if the word cannot take the placement
+    return result;
+  });
+}
+
+/// "A adds up to 1, B adds up to 0.9": drifts or rotations, and kicks of any kind; a method needs both.
+std::string sums_of(const run_time_word& word, const std::vector<double>& coefficients) {
+  std::map<std::string, double> sums{{word.rotates() ? "R" : "A", 0.0}, {word.rotates() ? "S" : "B", 0.0}};
+  for (std::size_t i = 0; i < word.length; ++i) {
+    std::string letter(1, word.letters()[i]);
+    if (letter[0] == bath_letter) continue;
+    if (letter == "G") letter = "B";  // the first coefficient of G is that of a kick
+    if (letter == "H") letter = "S";
+    sums[letter] += coefficients[word.first_slot(i)];
+  }
+  std::vector<std::string> texts;
+  for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
+  return listed(texts);
+}
+
+tabulated table_in(const json& document, const reader& read) {
+  if (document.contains("placement")) {
+    refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
+  }
+  const std::string letters = read.text("letters");
+  constexpr std::size_t most_letters = 200;  // letters: finding the order takes their square, a second
+  if (letters.size() > most_letters) {
+    refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
+  }
+  const std::vector<double> coefficients = read.numbers("coefficients");
+  return in_file(read.file(), [&] {
+    const run_time_word word(letters);
+    const std::string name = document.contains("name") ? read.text("name") : "table";
+    const tabulated bare(name, word, coefficients, {1, false, false});
+    if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
+    const auto found = taylor_order(bare);
+    if (found.quadratic_kinetic < 1) {
+      refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
+             read.file(), sums_of(word, coefficients));
+    }
+    if (document.contains("order")) {
+      const double declared = read.number("order");
+      if (!(declared >= 1.0) || declared != std::floor(declared)) {
+        refuse("{}: \"order\" must be 1, 2, ..., not {}", read.file(), declared);
+      }
+      if (declared > found.quadratic_kinetic) {
+        refuse(
+            "{}: it declares the order {}, but its steps agree with the flow to order {} only; is a "
+            "coefficient mistyped?",
+            read.file(), declared, found.quadratic_kinetic);
+      }
+    }
+    if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters to tell
+      refuse("{}: it is not linearly stable at any small step", read.file());
+    }
+    return tabulated(name, word, coefficients,
+                     {found.quadratic_kinetic, is_palindrome(word, coefficients),
+                      found.any_kinetic < found.quadratic_kinetic || has_rotation(word)});
+  });
+}
+
+}  // namespace
+
+tabulated scheme::at(double step) const {
+  const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
+  const run_time_family placed_family = placed(family, where);
+  Eigen::VectorXd theta = curve.at(inside);
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {  // a curve may swing beyond a bound that is attained
+    const auto& [low, high, open] = placed_family.ranges[static_cast<std::size_t>(k)];
+    if (!open) theta[k] = std::clamp(theta[k], low, high);
+  }
+  require_in_range(placed_family, theta);
+  return tabulated(placed_family.name, placed_family.letters, placed_family.coefficients(theta),
+                   {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
+}
+
+run_time_word scheme::letters() const { return placed(family, where).letters; }
+
+std::string scheme::steps() const {
+  const auto& all = curve.steps();
+  return all.size() == 1 ? message("the step {}", all.front())
+                         : message("steps from {} to {}", all.front(), all.back());
+}
+
+std::string source_of_system(const json& parameters) {
+  if (!parameters.contains("source")) return {};
+  json known = parameters;
+  for (const char* other : {"description", "spread", "friction", "sigma"}) known.erase(other);
+  return known.dump();
+}
+
+std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                        const learn_plan& plan) {
+  const fit_summary& fit = learned.front().fit;
+  const bool is_curve = learned.size() > 1;
+  json of_system = system.parameters();
+  of_system["description"] = system.description();
+  // One value, or a list with one for each step.
+  const auto at_steps = [&](const auto& value_of) {
+    if (!is_curve) return json(value_of(fit));
+    json all = json::array();
+    for (const auto& one : learned) all.push_back(value_of(one.fit));
+    return all;
+  };
+  const auto by_parameter = [&](double fitted_parameter::*value) {
+    json all = json::object();
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+      all[fit.parameters[k].name] =
+          at_steps([&](const fit_summary& one) { return one.parameters[k].*value; });
+    }
+    return all;
+  };
+  const auto not_usable =
+      std::find_if(learned.begin(), learned.end(), [](const learned_scheme& one) { return !one.fit.usable; });
+  std::optional<energy_range> energies = learned.front().energies;
+  for (const auto& one : learned) {
+    if (!energies || !one.energies) continue;
+    energies->include(one.energies->low);
+    energies->include(one.energies->high);
+  }
+  const auto differs = [&](const learned_scheme& one) { return one.fit.trajectories != fit.trajectories; };
+  const json trajectories = std::ranges::any_of(learned, differs)
+                                ? at_steps([](const fit_summary& one) { return one.trajectories; })
+                                : json(fit.trajectories);
+  json document{
+      {"format", scheme_format},
+      {"version", is_curve     ? as_curve
+                  : plan.where ? with_placement
+                               : known_version},
+      {"family", fit.family},
+      {"parameters", by_parameter(&fitted_parameter::value)},
+      {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
+      {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
+      {"system", of_system},
+      {"energy_range", nullptr},
+      {"objective", fit.loss_name},
+      {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
+      {"held_out_loss",
+       fit.is_of_data ? at_steps([](const fit_summary& one) { return one.held_out_loss; }) : json(nullptr)},
+      {"usable", not_usable == learned.end()},
+      {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
+      {"coordinates", fit.coordinates},
+      {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
+      {"starts", fit.ensemble},
+      {"trajectories", trajectories},
+      {"horizon", plan.how.horizon_at(learned.back().fit.step)},
+      {"seed", fit.seed},
+      {"held_out_seed", fit.held_out_seed},
+      {"versions", {{"nysalt", version}}}};
+  if (energies) document["energy_range"] = {energies->low, energies->high};
+  if (plan.where) document["placement"] = to_string(*plan.where);
+  document["checksum"] = checksum(document);
+  return text_of(document);
+}
+
+method_file read_method_file(const std::filesystem::path& path) {
+  return method_file_in(contents_of(path), path.string());
+}
+
+method_file method_file_in(const std::string& text, const std::string& file) {
+  json document;
+  try {
+    constexpr int deepest = 8;
+    document = json::parse(text, [&](int depth, json::parse_event_t, json&) {
+      if (depth > deepest) refuse("{}: it is nested too deeply to be a scheme or a table", file);
+      return true;
+    });
+  } catch (const json::parse_error& problem) {
+    refuse("{}: this is not whole JSON (it ends or breaks at byte {}); was it cut off?", file, problem.byte);
+  } catch (const json::out_of_range&) {
+    refuse("{}: it holds a number that is not finite", file);
+  }
+  const bool is_ours = document.is_object() && document.contains("format") && document["format"].is_string();
+  const std::string format = is_ours ? document["format"].get<std::string>() : "";
+  if (format != scheme_format && format != table_format) {
+    refuse("{}: this is neither a scheme nor a table: its \"format\" must be \"{}\" or \"{}\"", file,
+           scheme_format, table_format);
+  }
+  const reader read(document, file);
+  const double file_version = read.number("version");
+  const bool is_scheme = format == scheme_format;
+  const bool is_placed = is_scheme && document.contains("placement");
+  const bool is_curve = is_scheme && document.contains("steps");
+  const int newest = is_scheme ? as_curve : known_version;
+  if (file_version > newest) {
+    refuse("{}: it has version {}, and this nysalt knows {} at most: take a newer nysalt, or learn it again",
+           file, file_version, newest);
+  }
+  if (file_version != (is_curve ? as_curve : is_placed ? with_placement : known_version)) {
+    refuse("{}: there is no version {} {} a placement and {} several steps", file, file_version,
+           is_placed ? "with" : "without", is_curve ? "with" : "without");
+  }
+  method_file result;
+  if (format == scheme_format) {
+    result.learned = scheme_in(document, read);
+  } else {
+    result.table = table_in(document, read);
+  }
+  return result;
+}
+
+}  // namespace nysalt::program

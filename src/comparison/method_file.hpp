@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+// Methods on disk: learned schemes, and users' own coefficient tables.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json.hpp"
+#include "nysalt/learning/theta_curve.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "prepared_problem.hpp"
+
+namespace nysalt::program {
+
+/// What a scheme file says: a family's parameters at a step or at several, and where they are valid.
+struct scheme {
+  std::string family;
+  std::optional<placement> where;  // of its letters O
+  theta_curve curve;
+  std::string system;  // its description
+  std::string source;  // of a system of the user's own: its source and parameters; empty: a bundled one
+  bool usable;
+  std::string reason;
+  std::optional<energy_range> energies;  // that it was learned on
+  std::size_t trajectories = 0;          // how many, at the step with the fewest
+
+  /// The method at a step, under the family's name; beyond the curve that of its nearer end.
+  tabulated at(double step) const;
+  bool is_learned_at(double step) const { return curve.has(step); }
+  /// Of the method at any step.
+  run_time_word letters() const;
+  /// "the step 0.03", or "steps from 0.02 to 0.03".
+  std::string steps() const;
+};
+
+/// By what a scheme knows a system of the user's own beside its description: the source and all parameters.
+/// Empty of a bundled one.
+std::string source_of_system(const nlohmann::ordered_json& parameters);
+
+/// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
+/// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
+std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                        const learn_plan& plan);
+
+struct method_file {
+  std::optional<scheme> learned;   // one of the two
+  std::optional<tabulated> table;  // its order was found from its coefficients
+};
+
+/// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or
+/// of a newer version, and for coefficients that are not consistent or of a lower order than declared.
+method_file read_method_file(const std::filesystem::path& path);
+/// The same from the text of a file, whose name is told in refusals.
+method_file method_file_in(const std::string& text, const std::string& file);
+
+}  // namespace nysalt::program

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "method_source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "did_you_mean.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/learning/energies_outside.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "refusal.hpp"
+#include "stability_margin.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr std::string_view to_learn = "learned:";
+
+void count(method_source& source, const auto& word) {
+  source.evaluations_per_step = word.evaluations_per_step;
+  source.force_derivatives = word.force_derivatives;
+}
+
+void take_file(method_source& source, method_file file) {
+  source.learned = std::move(file.learned);
+  source.fixed = std::move(file.table);
+  count(source, source.learned ? source.learned->letters() : source.fixed->letters());
+}
+
+bool is_file_name(const std::string& text) {
+  std::error_code ignored;
+  return text.ends_with(".json") || text.find('/') != std::string::npos ||
+         std::filesystem::is_regular_file(text, ignored);
+}
+
+}  // namespace
+
+method_source find_method(const std::string& typed, const held_methods& held) {
+  if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
+    refuse("a method's name holds a line break or the like: rename the file");
+  }
+  method_source source;
+  source.typed = typed;
+  if (const auto found = held.find(typed); found != held.end()) {
+    take_file(source, method_file_in(found->second, typed));
+    return source;
+  }
+  std::string text = typed;
+  if (const auto at = typed.rfind('@'); at != std::string::npos && !is_file_name(typed)) {
+    source.where = placement_named(typed.substr(at + 1));
+    text = typed.substr(0, at);
+  } else if (at != std::string::npos) {
+    for (const auto known : placements) {  // any other @ is part of the file's name
+      if (typed.substr(at + 1) != to_string(known)) continue;
+      source.where = known;
+      text = typed.substr(0, at);
+    }
+  }
+  for (const auto& known : classical_methods()) {
+    if (known.method.name() == text) source.fixed = known.method;
+  }
+  for (const auto& known : adaptive_methods()) {
+    if (known.name == text) source.adaptive = &known;
+  }
+  if (source.fixed) {
+    count(source, source.fixed->letters());
+  } else if (source.adaptive != nullptr) {
+    count(source, source.adaptive->letters);
+  } else if (text.starts_with(to_learn)) {
+    source.family = text.substr(to_learn.size());
+    count(source, family_named(*source.family).letters);
+  } else if (is_file_name(text)) {
+    take_file(source, read_method_file(text));
+  } else {
+    auto known = method_names();
+    for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
+    refuse("unknown method '{}': {}", text,
+           did_you_mean(text, known, "nysalt list shows all; a method may also be a file NAME.json"));
+  }
+  return source;
+}
+
+void charge(method_source& source, const prepared_problem& system) {
+  source.evaluations_per_step += (system.derivative_calls() - 1) * source.force_derivatives;
+}
+
+bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
+
+std::string out_of_place(const scheme& learned, const prepared_problem& system, double step) {
+  std::vector<std::string> reasons;
+  if (!is_at(learned, step)) {
+    reasons.push_back(message("it was learned for {}, not {}", learned.steps(), step));
+  }
+  if (learned.system != system.description()) {
+    reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
+  }
+  if (learned.system == system.description() && learned.source != source_of_system(system.parameters())) {
+    reasons.push_back("it was learned for another source, or other parameters, of " + learned.system);
+  }
+  if (!learned.usable) reasons.push_back("its fit was not usable: " + learned.reason);
+  return listed(reasons);
+}
+
+namespace {
+
+/// Between learned steps nobody has asked yet whether the method is stable.
+tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
+  const tabulated method = source.learned->at(step);
+  if (source.learned->is_learned_at(step) || force) return method;
+  const std::string objection =
+      system.guard(has_rotation(method.letters())).objection(method.letters(), method.coefficients(), step);
+  if (!objection.empty()) {
+    refuse("{}: between its learned steps, at {}: {}; learn it there, or take --force", source.typed, step,
+           objection);
+  }
+  return method;
+}
+
+tabulated found_at(const method_source& source, const prepared_problem& system, double step, bool force,
+                   std::vector<std::string>& warnings) {
+  if (source.fixed) return *source.fixed;
+  if (source.learned) {
+    const std::string why = out_of_place(*source.learned, system, step);
+    if (why.empty()) return from_scheme(source, system, step, force);
+    if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
+    warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
+    return from_scheme(source, system, step, force);
+  }
+  if (source.adaptive != nullptr) {
+    const auto frequency = source.adaptive->frequency(system);
+    if (!frequency) {
+      refuse("{} needs a highest frequency, and {} declares none: take another method", source.typed,
+             system.description());
+    }
+    try {
+      return source.adaptive->at(step * *frequency);
+    } catch (const std::invalid_argument& problem) {
+      refuse("{} at step {}: {}", source.typed, step, problem.what());
+    }
+  }
+  const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
+  refuse("{} must be learned first: nysalt learn --family {}{} --step {} --output scheme.json", source.typed,
+         *source.family, where, step);
+}
+
+constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
+
+tabulated adapted_to_bath(const method_source& source, tabulated method, const prepared_problem& system,
+                          std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+  const bool has_letters = method.letters().stochastic_letters > 0;
+  if (has_letters && source.where)
+    refuse("{}: it has its letters O already, in {}", source.typed, method.letters().letters());
+  if (!system.heat_bath().acts()) {
+    if (has_letters || source.where) {
+      warnings.push_back(
+          fmt::format("{}: without a bath (--friction) its letters O are left out", source.typed));
+    }
+    return method;
+  }
+  if (has_letters) return method;
+  try {
+    return thermostat(method, source.where.value_or(otherwise.value_or(usual)));
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}: {}", source.typed, problem.what());
+  }
+}
+
+}  // namespace
+
+tabulated coefficients_at(const method_source& source, const prepared_problem& system, double step,
+                          bool force, std::optional<placement> otherwise,
+                          std::vector<std::string>& warnings) {
+  const tabulated method =
+      adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
+  system.require_served(method.letters());
+  // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
+  const bool was_judged =
+      source.learned && source.learned->usable && out_of_place(*source.learned, system, step).empty();
+  if (was_judged) return method;
+  if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
+  return method;
+}
+
+std::optional<std::string> warning_of_energies(const method_source& source, const prepared_problem& system,
+                                               const trajectories_plan& plan) {
+  if (!source.learned || !source.learned->energies) return std::nullopt;
+  if (source.learned->system != system.description()) return std::nullopt;
+  auto energies = system.values_at_starts(plan, "energy");
+  energies.resize(std::min(energies.size(), static_cast<std::size_t>(plan.count)));
+  const auto found = look_outside(*source.learned->energies, source.learned->trajectories, energies);
+  if (!found.is_serious()) return std::nullopt;
+  return fmt::format(
+      "{}: {}: its errors may be larger than those that it was learned with; learn it from such starts, or "
+      "compare it with other methods on them",
+      source.typed, found.report());
+}
+
+std::optional<placement> placement_in(const method_source& source, const prepared_problem& system,
+                                      std::optional<placement> otherwise) {
+  if (!system.heat_bath().acts()) return std::nullopt;
+  const placement where = source.where.value_or(otherwise.value_or(usual));
+  const run_time_word& word = family_named(*source.family).letters;
+  if (where == placement::middle && word.length % 2 == 0) {
+    refuse("{}: the word {} has no central letter to split: place O at the end, or symmetric", source.typed,
+           word.letters());
+  }
+  return where;
+}
+
+int noise_parts(const tabulated& method, const prepared_problem& system) {
+  if (system.heat_bath().sigma() == 0.0) return 0;
+  return intervals_of_noise(method.letters(), method.coefficients()).parts;
+}
+
+std::optional<placement> placement_asked(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return placement_named(text);
+}
+
+}  // namespace nysalt::program

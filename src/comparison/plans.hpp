@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is asked of a problem: trajectories, and what is learned, gathered or measured along them.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asked_metric.hpp"
+#include "nysalt/analysis/histogram.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/learning/until_enough.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "settings.hpp"
+
+namespace nysalt::program {
+
+/// Told how much is done; what it throws ends the work.
+using counter = std::function<void(std::int64_t)>;
+
+/// Trajectories from the system's starts: `count` of them, `steps` steps each.
+struct trajectories_plan {
+  double step;
+  std::int64_t steps;
+  std::int64_t count;
+  std::uint64_t seed;
+  int threads;
+  std::optional<double> horizon = {};  // within the last step: errors are means up to there
+};
+
+struct learn_plan {
+  std::string family;
+  std::optional<placement> where;  // of the letters O, in a bath
+  double step;
+  learn_settings how;
+  std::uint64_t seed;
+  std::uint64_t held_out_seed;
+  int threads;
+  std::vector<double> from = {};              // the optimum at a step nearby: one more start
+  bool from_there_alone = false;              // and no other
+  std::optional<enough_options> enough = {};  // as many trajectories as it takes, from those of `how` on
+  // Where what is made for few trajectories is kept for the same plan with more; nothing: nowhere.
+  std::shared_ptr<std::any> kept = {};
+};
+
+struct learnable;  // learnable.hpp: what it takes is dear to compile
+
+struct learned_scheme {
+  fit_summary fit;
+  tabulated method;                      // with its letters O
+  std::optional<energy_range> energies;  // of the training data
+  std::optional<enough_course> course = {};
+};
+
+/// What is gathered along the trajectories of a plan, sampled every so many steps.
+struct statistics_plan {
+  trajectories_plan trajectories;
+  std::int64_t every = 1;
+  std::int64_t first = 0;  // number of the first trajectory
+  std::optional<equal_bins> bins = {};
+  std::optional<int> lags = {};
+  int finer = 1;  // the reference takes so many fine steps for each of its usual
+};
+
+/// Errors along the trajectories of a plan.
+struct errors_plan {
+  trajectories_plan trajectories;
+  std::vector<asked_metric> metrics;
+  std::optional<double> fine_step = {};  // of the reference; nothing: the usual
+  bool null_model = false;
+  std::optional<double> perturbation = {};  // of the starts, to see how far they can be followed
+};
+
+}  // namespace nysalt::program

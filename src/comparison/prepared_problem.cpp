@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a problem is: its system, its starts, and where it is stable.
+#include "prepared_problem.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "json.hpp"
+#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/gibbs_of_modes.hpp"
+#include "nysalt/ensembles/one_long_trajectory.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
+#include "observables.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr int dynamic = Eigen::Dynamic;
+using states_in_double = std::vector<phase_point<double, dynamic>>;
+
+vector<double, dynamic> vector_of(std::span<const double> numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
+}
+
+}  // namespace
+
+std::string to_string(start where) {
+  return where == start::law ? "law" : where == start::gibbs ? "gibbs" : "trajectory";
+}
+
+prepared_problem::prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
+                                   const surroundings& conditions)
+    : made_(std::move(definition)), parameters_(std::move(parameters)), start_(conditions.start) {
+  if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
+  if (start_ != start::law && !has_frequency_bands(made_.system)) {
+    refuse("{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
+           description());
+  }
+  if (start_ == start::law) starts_.emplace(made_.starts);
+}
+
+std::string prepared_problem::description() const { return describe(made_.system); }
+
+std::int64_t prepared_problem::dimension() const { return size(made_.system); }
+
+double prepared_problem::energy(std::span<const double> q, std::span<const double> p) const {
+  return nysalt::energy<double>(made_.system, {vector_of(q), vector_of(p)});
+}
+
+void prepared_problem::force(std::span<const double> q, std::span<double> f) const {
+  auto forces = make_vector<double>(made_.system);
+  nysalt::force<double>(made_.system, vector_of(q), forces);
+  std::copy_n(forces.data(), forces.size(), f.begin());
+}
+
+nlohmann::ordered_json prepared_problem::parameters() const {
+  json all;
+  for (const auto& [name, value] : parameters_) {
+    json& entry = all[name];
+    std::visit([&](const auto& known) { entry = known; }, value);
+  }
+  if (!made_.system.bath().acts()) return all;
+  all["friction"] = made_.system.bath().friction();
+  all["sigma"] = made_.system.bath().sigma();
+  return all;
+}
+
+const bath& prepared_problem::heat_bath() const { return made_.system.bath(); }
+
+std::vector<frequency_band> prepared_problem::frequency_bands() const {
+  return made_.system.frequency_bands();
+}
+
+std::optional<double> prepared_problem::frequency_to_fit() const {
+  if (!has_modes(made_.system) && !has_frequency_bands(made_.system)) return std::nullopt;
+  return detail::frequency_to_fit(made_.system);
+}
+
+std::vector<std::string> prepared_problem::observables() const { return observable_names(made_); }
+
+void prepared_problem::require_observable(const std::string& name) const { observable(made_, name); }
+
+std::string prepared_problem::default_observable() const { return made_.default_observable; }
+
+std::string prepared_problem::starts() const {
+  return starts_ ? starts_->description() : made_.starts.description();
+}
+
+void prepared_problem::prepare_starts(std::uint64_t seed) {
+  if (starts_) return;
+  const model alone = made_.system.alone();
+  try {
+    if (start_ == start::gibbs && made_.has_exact_flow) {
+      starts_.emplace(gibbs_of_modes<dynamic>(alone, made_.system.bath().temperature()));
+    } else if (start_ == start::gibbs) {
+      starts_.emplace(gibbs(made_.system, made_.starts));
+    } else {
+      starts_.emplace(one_long_trajectory<dynamic>(made_.system, made_.starts, {.seed = seed}));
+    }
+  } catch (const std::runtime_error& problem) {
+    refuse("{}; take another temperature, or --start law", problem.what());
+  }
+}
+
+void prepared_problem::start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,
+                                   std::span<double> p) const {
+  const auto state = (*starts_)(seed, n);
+  std::copy_n(state.q.data(), state.q.size(), q.begin());
+  std::copy_n(state.p.data(), state.p.size(), p.begin());
+}
+
+int prepared_problem::lanes() const { return made_.system.facts().in_lanes ? default_lanes : 1; }
+
+void prepared_problem::require_served(const run_time_word& word) const {
+  try {
+    nysalt::require_served<model, double>(word, made_.system);
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}", problem.what());
+  }
+}
+
+double prepared_problem::frequency_of_law() const { return made_.frequency; }
+
+std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t seed,
+                                                               std::uint64_t count) const {
+  constexpr Eigen::Index most = 1000;
+  {
+    if (size(made_.system) > most || !has_quadratic_kinetic(made_.system)) return std::nullopt;
+    states_in_double states;
+    for (std::uint64_t n = 0; n < count; ++n) {
+      states.push_back(starts_ ? (*starts_)(seed, n) : made_.starts(seed, n));
+    }
+    try {
+      return stiffness_along(made_.system, states).highest_frequency();
+    } catch (const std::invalid_argument&) {  // the force is not finite there: the run will tell
+      return std::nullopt;
+    }
+  }
+}
+
+stability_guard prepared_problem::guard(bool rotations) const {
+  const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
+  return stability_guard(made_.system, states, rotations);
+}
+
+trial_result prepared_problem::trial(const tabulated& method, const trajectories_plan& plan) const {
+  states_in_double states =
+      starts_ ? typical_and_energetic_starts(made_.system, *starts_, plan.seed, 0, plan.count)
+              : typical_and_energetic_starts(made_.system, made_.starts, plan.seed, 0, plan.count);
+  if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
+  return trial_run(made_.system, method, plan.step, repeated_in_bath(made_.system, states),
+                   {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
+}
+
+int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }
+
+std::optional<double> highest_frequency(const prepared_problem& system) {
+  std::optional<double> highest;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
+  return highest;
+}
+
+}  // namespace nysalt::program

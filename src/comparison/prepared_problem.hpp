@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSL-1.0
+// A system in its surroundings, with starts to try methods on: what commands, comparisons and recommendations
+// do with it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "nysalt/analysis/acceptance.hpp"
+#include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/analysis/gathered_statistics.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
+#include "nysalt/bath.hpp"
+#include "nysalt/system_declaration.hpp"
+#include "nysalt/trial_run.hpp"
+#include "plans.hpp"
+
+namespace nysalt {
+class stability_guard;
+struct run_time_family;
+}  // namespace nysalt
+
+namespace nysalt::program {
+
+struct learnable;       // learnable.hpp: what it takes is dear to compile
+class model_reference;  // model_reference.hpp
+
+/// Name or parameter of a system, as scheme files hold it.
+struct named_value {
+  std::string name;
+  std::variant<std::int64_t, double, std::string> value;
+};
+
+/// What a system is in, and where its trajectories start.
+enum class start { law, gibbs, trajectory };
+std::string to_string(start where);
+struct surroundings {
+  nysalt::bath bath;
+  program::start start;
+  double spread = 1.0;  // of the law of starts: its deviations are multiplied by it
+};
+
+class prepared_problem {
+ public:
+  /// Throws refusal if there is no law of such starts.
+  prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
+                   const surroundings& conditions);
+
+  /// What the problem was made of.
+  const initial_value_problem& definition() const { return made_; }
+  start start_law() const { return start_; }
+  /// The starts, once they are prepared.
+  const initial_states& prepared_starts() const { return *starts_; }
+
+  std::string description() const;
+  /// Degrees of freedom.
+  std::int64_t dimension() const;
+  /// H, and -grad V, at a state of so many numbers each. Cost: one evaluation.
+  double energy(std::span<const double> q, std::span<const double> p) const;
+  void force(std::span<const double> q, std::span<double> f) const;
+  /// Name and parameters, as scheme files hold them.
+  nlohmann::ordered_json parameters() const;
+  /// Empty if there is no bound.
+  std::vector<frequency_band> frequency_bands() const;
+  /// The frequency whose phase is kept by phase-fitted methods; nothing if neither modes nor bands are
+  /// declared.
+  std::optional<double> frequency_to_fit() const;
+  std::vector<std::string> observables() const;
+  /// Throws refusal for one that there is not, before any work is done.
+  void require_observable(const std::string& name) const;
+  std::string default_observable() const;
+  const bath& heat_bath() const;
+
+  /// Where trajectories start. Before starts are prepared this is what is known without work.
+  std::string starts() const;
+  /// Finds the burn-in, or runs the one long trajectory, whose seed it is. To be called before anything below
+  /// runs.
+  void prepare_starts(std::uint64_t seed);
+  /// That of trajectory n, by the seed of a role.
+  void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) const;
+
+  /// Trajectories that are stepped at a time.
+  int lanes() const;
+
+  /// Of its bands, or of the frequencies along some starts by its law.
+  stability_guard guard(bool rotations) const;
+  /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
+  /// ones.
+  trial_result trial(const tabulated& method, const trajectories_plan& plan) const;
+  /// Throws refusal for a word that the system does not serve.
+  void require_served(const run_time_word& word) const;
+  /// Throws refusal for what cannot be learned, before any work is done.
+  void require_learnable(const std::string& family, std::optional<placement> where, const learn_settings& how,
+                         double step) const;
+  /// Trajectories to learn from that fit into memory.
+  std::int64_t most_trajectories(const learn_plan& plan) const;
+  /// Makes the data. What is made refers to this.
+  learnable make_learnable(const learn_plan& plan, const counter& progress) const;
+  /// Compiled once, and not for each system.
+  learned_scheme learn(const learn_plan& plan, const counter& progress) const;
+
+  /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
+  /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.
+  void require_measure(const asked_metric& metric, const trajectories_plan& plan,
+                       std::optional<double> fine_step, int noise_parts) const;
+
+  /// Errors of several methods at one step against one reference, by each metric.
+  std::vector<trajectory_errors_result> errors(const std::vector<tabulated>& methods, const errors_plan& plan,
+                                               const counter& progress) const;
+
+  /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
+  acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,
+                               const counter& progress) const;
+
+  /// Of an observable at the first thousand starts of a plan, or all if they are fewer, and at those that
+  /// fill the lanes.
+  std::vector<double> values_at_starts(const trajectories_plan& plan, const std::string& observable) const;
+  /// Statistics of a method, and of the reference: small steps, and in a bath BAOAB.
+  gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
+                                 const std::string& observable, const counter& progress) const;
+  gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
+                                           std::optional<double> fine_step, const counter& progress) const;
+  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  double fastest_rate() const;
+  /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
+  std::optional<double> fine_step_for_ranking(double step) const;
+  std::string reference_of_statistics(double step, std::optional<double> fine_step) const;
+
+  /// Calls of the system that one f'(q) v takes in a gradient kick.
+  int derivative_calls() const;
+  /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
+  /// step after them costs the same.
+  std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const;
+
+  /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.
+  std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const;
+
+  /// Highest angular frequency that motion from its law of starts may meet, rare starts included.
+  double frequency_of_law() const;
+  /// The highest along so many of its starts, known to 1 %; nothing where there are more than a thousand
+  /// coordinates, or the kinetic energy is not quadratic.
+  std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const;
+
+ private:
+  model_reference reference() const;
+  error_measure measure_named(const asked_metric& metric) const;
+  /// In which noise is wanted to learn with.
+  int noise_parts(const run_time_family& family) const;
+  const initial_states& starts_or_law() const { return starts_ ? *starts_ : made_.starts; }
+
+  initial_value_problem made_;
+  std::vector<named_value> parameters_;
+  start start_;
+  std::optional<initial_states> starts_;
+};
+
+/// Highest angular frequency that the system declares; nothing if it declares none.
+std::optional<double> highest_frequency(const prepared_problem& system);
+
+}  // namespace nysalt::program

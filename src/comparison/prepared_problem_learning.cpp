@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a problem makes of a plan to learn.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "catalogue.hpp"
+#include "family_options.hpp"
+#include "learnable.hpp"
+#include "model_reference.hpp"
+#include "nysalt/learning/make_problem.hpp"
+#include "prepared_problem.hpp"
+#include "refusal.hpp"
+#include "world.hpp"
+
+namespace nysalt::program {
+
+void prepared_problem::require_learnable(const std::string& name, std::optional<placement> where,
+                                         const learn_settings& how, double step) const {
+  const run_time_family family = placed(name, where);
+  require_served(family.letters);
+  reference().fine_step(step, how.fine_step, noise_parts(family));
+  const auto which = coordinates_named(how.coordinates);
+  if (which != coordinates::qp) {
+    if (has_modes(made_.system)) {
+      const bool still = (made_.system.modes().frequencies.array() == 0.0).any();
+      if (which == coordinates::energy && still) {
+        refuse(
+            "the energy coordinates of {} do not exist, as it has a mode of frequency zero: take modes or "
+            "qp",
+            description());
+      }
+    } else {
+      refuse("the {} coordinates of {} are not known, as it declares no modes: take qp", how.coordinates,
+             description());
+    }
+  }
+  const auto options = options_for(family, how, 1);
+  const bool of_law = options.loss.of == loss_choice::kind::covariance;
+  const double horizon = how.horizon_at(step);
+  if (!of_law && static_cast<double>(options.loss.steps) * step > horizon * (1.0 + 1e-9)) {
+    refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
+           options.loss.steps, step, horizon);
+  }
+  if (of_law && !has_modes(made_.system))
+    refuse("the covariance loss needs modes, which {} does not declare", description());
+  if (of_law && !made_.system.bath().has_temperature()) {
+    refuse("the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
+  }
+}
+
+std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
+  const data_options options{.step = plan.step,
+                             .horizon = plan.how.horizon_at(plan.step),
+                             .noise_parts = noise_parts(placed(plan.family, plan.where))};
+  return nysalt::most_trajectories(options, size(made_.system));
+}
+
+learnable prepared_problem::make_learnable(const learn_plan& plan, const counter& progress) const {
+  require_learnable(plan.family, plan.where, plan.how, plan.step);
+  const run_time_family family = placed(plan.family, plan.where);
+  const int parts = noise_parts(family);
+  fit_options options = options_for(family, plan.how, plan.threads);
+  options.seed = plan.seed;
+  if (!plan.from.empty()) {
+    const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
+    if (plan.from_there_alone) {
+      options.start = theta;
+      options.random_starts = 0;
+    } else {
+      options.further_starts.push_back({"a step nearby", theta});
+    }
+  }
+  using two_sets = std::array<flow_map_data, 2>;
+  two_sets fresh;
+  auto* kept = plan.kept ? std::any_cast<two_sets>(plan.kept.get()) : nullptr;
+  if (plan.kept && kept == nullptr) kept = &plan.kept->template emplace<two_sets>();
+  auto& data = (kept != nullptr ? *kept : fresh)[0];
+  auto& held_out = (kept != nullptr ? *kept : fresh)[1];
+  const auto reference_solution = reference().at(plan.step, plan.how.fine_step, parts);
+  const auto make = [&](auto& pairs, std::uint64_t seed) {
+    detail::extend_data(made_.system, *starts_, reference_solution.held(),
+                        {.step = plan.step,
+                         .horizon = plan.how.horizon_at(plan.step),
+                         .trajectories = plan.how.trajectories,
+                         .seed = seed,
+                         .noise_parts = parts,
+                         .threads = plan.threads,
+                         .ranks = &world(),
+                         .progress = progress},
+                        pairs);
+  };
+  make(data, plan.seed);
+  make(held_out, plan.held_out_seed);
+  return {make_learning_problem(family, made_.system, data, held_out, options), data.energies};
+}
+
+int prepared_problem::noise_parts(const run_time_family& family) const {
+  if (made_.system.bath().sigma() == 0.0) return 0;
+  return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "ranking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "nysalt/analysis/pareto_front.hpp"
+
+namespace nysalt::program {
+
+std::string to_string(mark which) {
+  switch (which) {
+    case mark::reference:
+      return "reference";
+    case mark::null:
+      return "null";
+    case mark::floor:
+      return "floor";
+    case mark::horizon:
+      return "horizon";
+    case mark::tail:
+      return "tail";
+    case mark::formula:
+      return "formula";
+    case mark::diverged:
+      return "diverged";
+  }
+  return {};
+}
+
+std::string meaning(mark which) {
+  switch (which) {
+    case mark::reference:
+      return "the reference's own error is more than a tenth of this one, or three times the floor; not "
+             "ranked";
+    case mark::null:
+      return "no better than the null model, which stays as it was at the start and costs nothing; not "
+             "ranked";
+    case mark::floor:
+      return "not above the floor of sampling by two standard errors: nothing is seen of the method";
+    case mark::horizon:
+      return "beyond the time for which a path can be followed: chaos more than the method; not ranked";
+    case mark::tail:
+      return "few trajectories decide the mean: it and its standard error say little; ranked by the median, "
+             "as "
+             "are all rows here";
+    case mark::formula:
+      return "learned, but nothing was gained: by the loss a classical method of the same cost, named with "
+             "the "
+             "fit, is as good";
+    case mark::diverged:
+      return "some trajectories diverged; of the others alone, and not ranked";
+  }
+  return {};
+}
+
+const backdrop& behind(const comparison& all, std::size_t m, const row& line) {
+  static const backdrop none;
+  const auto at = all.behind().find({m, line.step});
+  return at == all.behind().end() ? none : at->second;
+}
+
+namespace {
+
+bool has_tail(const finding& one) { return one.spread && one.spread->largest.is_heavy(); }
+
+/// Of acceptances what is rejected.
+double error_of(const comparison& all, std::size_t m, const row& line) {
+  const double value = ranked_value(all, m, line).mean;
+  return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
+}
+
+}  // namespace
+
+bool is_by_median(const comparison& all, std::size_t m) {
+  return std::ranges::any_of(
+      all.rows(), [&](const row& line) { return has_tail(line.findings[m]) && is_known(all, m, line); });
+}
+
+estimate ranked_value(const comparison& all, std::size_t m, const row& line) {
+  const finding& one = line.findings[m];
+  return one.spread && is_by_median(all, m) ? one.spread->median : one.value;
+}
+
+std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line) {
+  std::vector<mark> result;
+  const finding& one = line.findings[m];
+  if (!one.reason.empty() || std::isnan(one.value.mean)) return result;
+  const backdrop& against = behind(all, m, line);
+  const asked_metric& metric = all.metrics()[m];
+  const double error = one.value.mean;
+  constexpr double known_well = 0.1;
+  constexpr double above_floor = 3.0;  // lags are correlated: one distance scatters as much as it is
+  const double known = against.reference_error.value_or(0.0);
+  if (metric.is_along_paths() && known > known_well * error) result.push_back(mark::reference);
+  if (metric.is_of_law() && known > above_floor * against.floor.value_or(known))
+    result.push_back(mark::reference);
+  if (against.null_model && error >= *against.null_model) result.push_back(mark::null);
+  if (against.floor) {
+    const double scatter = std::isnan(one.value.standard_error) ? 0.0 : one.value.standard_error;
+    if (error <= *against.floor + 2.0 * scatter) result.push_back(mark::floor);
+  }
+  if (against.predictable_until.value_or(std::numeric_limits<double>::infinity()) < all.horizon()) {
+    result.push_back(mark::horizon);
+  }
+  if (has_tail(one)) result.push_back(mark::tail);
+  if (line.gains_nothing) result.push_back(mark::formula);
+  if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
+  return result;
+}
+
+bool is_known(const comparison& all, std::size_t m, const row& line) {
+  const finding& one = line.findings[m];
+  if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
+  const auto marks = marks_of(all, m, line);
+  return std::ranges::none_of(marks, [](mark found) {
+    return found == mark::reference || found == mark::horizon || found == mark::diverged;
+  });
+}
+
+bool is_ranked(const comparison& all, std::size_t m, const row& line) {
+  return is_known(all, m, line) && std::ranges::count(marks_of(all, m, line), mark::null) == 0;
+}
+
+std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
+  std::vector<at_equal_cost> result;
+  constexpr double start_up = 1.01;  // a run of n steps may cost one evaluation more
+  for (const row& line : all.rows()) {
+    if (!line.is_learned || !is_ranked(all, m, line)) continue;
+    const row* best = nullptr;
+    for (const row& other : all.rows()) {
+      if (other.is_learned || !is_ranked(all, m, other)) continue;
+      const bool is_affordable = all.options().equal_cost
+                                     ? other.nominal == line.nominal
+                                     : other.evaluations_per_time <= start_up * line.evaluations_per_time;
+      if (!is_affordable) continue;
+      if (best == nullptr || error_of(all, m, other) < error_of(all, m, *best)) best = &other;
+    }
+    if (best != nullptr) result.push_back({&line, best});
+  }
+  return result;
+}
+
+estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
+  const double learned = error_of(all, m, *pair.learned);
+  const double best = error_of(all, m, *pair.best);
+  if (learned == 0.0 || best == 0.0) return {};
+  const double ratio = best / learned;
+  const auto& a = pair.best->findings[m].groups;
+  const auto& b = pair.learned->findings[m].groups;
+  if (is_by_median(all, m) || a.empty() || a.size() != b.size()) {
+    const double of_best = ranked_value(all, m, *pair.best).standard_error / best;
+    const double of_learned = ranked_value(all, m, *pair.learned).standard_error / learned;
+    return {ratio, ratio * std::hypot(of_best, of_learned)};
+  }
+  // d ln(best/learned) = d best/best - d learned/learned: acceptances and rejections move by as much.
+  std::vector<double> in_best;
+  std::vector<double> in_learned;
+  for (const double x : a) in_best.push_back(x / best);
+  for (const double x : b) in_learned.push_back(x / learned);
+  return {ratio, ratio * paired_difference(in_best, in_learned).standard_error};
+}
+
+double evaluations_of(const row& line) { return line.evaluations_per_time; }
+double seconds_of(const row& line) { return line.seconds_per_time.least; }
+
+std::vector<const row*> pareto_front(const comparison& all, std::size_t m, double (*cost)(const row&)) {
+  std::vector<const row*> ranked;
+  std::vector<cost_and_error> points;
+  for (const row& line : all.rows()) {
+    if (!is_ranked(all, m, line)) continue;
+    ranked.push_back(&line);
+    points.push_back(
+        {cost(line), std::max(error_of(all, m, line), behind(all, m, line).floor.value_or(0.0))});
+  }
+  std::vector<const row*> front;
+  for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
+  return front;
+}
+
+namespace {
+
+/// A row that diverged is above any level. Nothing is said of what was not used, nor beyond the horizon.
+std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std::string& method,
+                                double (*cost)(const row&)) {
+  std::vector<error_at> result;
+  for (const row& line : all.rows()) {
+    if (line.method != method) continue;
+    const finding& one = line.findings[m];
+    const bool counts = is_known(all, m, line);
+    const bool is_lost = one.diverged > 0;
+    if (!counts && !is_lost) continue;
+    const double error = counts ? error_of(all, m, line) : std::numeric_limits<double>::infinity();
+    result.push_back({cost(line), error, ranked_value(all, m, line).standard_error});
+  }
+  std::ranges::sort(result, std::greater{}, &error_at::x);
+  // Not std::ranges::unique: clang++ 14 does not compile what it returns.
+  const auto same = [](const error_at& a, const error_at& b) { return a.x == b.x; };
+  result.erase(std::unique(result.begin(), result.end(), same), result.end());
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> levels_for(const comparison& all, std::size_t m) {
+  if (!all.options().levels.empty()) return all.options().levels;
+  std::vector<std::vector<error_at>> by_method;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const auto& method : all.options().methods) {
+    by_method.push_back(errors_at(all, m, method, evaluations_of));
+    for (const error_at& one : by_method.back()) {
+      if (!(one.error > 0.0) || std::isinf(one.error)) continue;
+      low = std::min(low, one.error);
+      high = std::max(high, one.error);
+    }
+  }
+  std::size_t most = 0;
+  std::vector<double> best;
+  for (int decade = static_cast<int>(std::floor(std::log10(low)));
+       high > 0.0 && std::pow(10.0, decade) <= high; ++decade) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double level = digit * std::pow(10.0, decade);
+      const auto crossing = static_cast<std::size_t>(std::ranges::count_if(by_method, [&](const auto& rows) {
+        return !rows.empty() && threshold(rows, level).kind == crossing_kind::found;
+      }));
+      if (crossing > most) best.clear();
+      most = std::max(most, crossing);
+      if (most > 0 && crossing == most) best.push_back(level);
+    }
+  }
+  if (best.empty()) return {};
+  return {best[best.size() / 2]};
+}
+
+std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double level) {
+  constexpr double same_trajectories = 1.0;  // errors of rows rise and fall together: never too small
+  std::vector<cost_at_level> result;
+  for (const auto& method : all.options().methods) {
+    const auto evaluations = errors_at(all, m, method, evaluations_of);
+    const auto seconds = errors_at(all, m, method, seconds_of);
+    if (evaluations.empty()) continue;
+    const auto line = std::ranges::find(all.rows(), method, &row::method);
+    result.push_back({.method = method,
+                      .is_learned = line->is_learned,
+                      .evaluations = threshold(evaluations, level, same_trajectories),
+                      .seconds = threshold(seconds, level, same_trajectories)});
+  }
+  const auto order = [](const cost_at_level& cost) {
+    return std::pair(cost.evaluations.kind == crossing_kind::above_from_first, cost.evaluations.x);
+  };
+  std::ranges::stable_sort(result, {}, order);
+  return result;
+}
+
+std::vector<std::string> warnings_of_reference(const comparison& all) {
+  std::vector<std::string> result;
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    if (all.metrics()[m].is_of_law()) continue;
+    std::vector<const row*> rows;
+    for (const row& line : all.rows()) {
+      if (std::ranges::count(marks_of(all, m, line), mark::reference) > 0) rows.push_back(&line);
+    }
+    if (rows.empty()) continue;
+    const row& first = *rows.front();
+    result.push_back(fmt::format(
+        "the reference's own error {:.1e} is not ten times smaller than that of {} at step {:g}, {:.1e}{}",
+        *behind(all, m, first).reference_error, first.method, first.nominal, first.findings[m].value.mean,
+        rows.size() == 1 ? "" : fmt::format(", and so in {} more rows", rows.size() - 1)));
+  }
+  return result;
+}
+
+}  // namespace nysalt::program

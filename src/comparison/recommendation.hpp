@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+// Which method to take: learned families and classical methods at one cost, or at one error.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contest.hpp"
+#include "json.hpp"
+#include "nysalt/analysis/timing.hpp"
+#include "nysalt/run_time_family.hpp"
+#include "prepared_problem.hpp"
+#include "progress.hpp"
+
+namespace nysalt::program {
+
+class recommendation {
+ public:
+  /// Plans who takes part. Throws refusal for whatever cannot be, before any work is done.
+  recommendation(std::unique_ptr<prepared_problem> system, recommendation_options asked,
+                 common_settings common);
+
+  void learn_and_rank();
+
+  bool has_result() const { return asked().has_result(); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  json document() const;
+  std::string readable() const;
+  /// The winner's scheme; nothing if none that is learned wins.
+  std::optional<std::string> scheme() const;
+
+ private:
+  void require_sound_command() const;
+  void plan_classical();
+  void plan_families();
+  void consider(candidate contender);
+  bool is_fixed_in(const run_time_family& family) const;
+
+  // At one error.
+  void rank_at_one_error();
+  void find_steps(std::vector<candidate>& all);
+  static const double grid_ratio;
+  double grid_step(const candidate& contender, int k) const;
+  void prepare_search(candidate& contender) const;
+  /// The point of the grid to try next; nothing if there is none.
+  static std::optional<int> next_of(const bracket& search);
+  void probe(candidate& contender, int k);
+  void judge(candidate& contender, int k) const;
+  void step_down(candidate& contender);
+
+  asked_metric metric() const { return {options_.metric, options_.observable}; }
+  trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
+  /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
+  /// or the only.
+  void prepare(candidate& contender, const std::vector<double>& from = {}, bool from_there_alone = false);
+  std::vector<tabulated> formulas_at(double step) const;
+  void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
+  void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
+  void measure_on_test(std::vector<candidate*> all);
+
+  // Seconds.
+  void time_steps();
+  double seconds_of_step(const candidate& contender) const {
+    return step_seconds_.at(contender.source.typed).least;
+  }
+  double noise_of(const candidate& contender) const;
+  double noise_of(const candidate& a, const candidate& b) const;
+  contest at_equal_seconds(double seconds_per_time, const contest* known) const;
+
+  void settle(contest& among);
+  void run(contest& among);
+  /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
+  /// Where there is an objection, the contender takes a smaller step (at one error) or gets a reason.
+  void confirm(contest& among, candidate& contender);
+  std::string objection_to(const candidate& contender) const;
+  error_statistic statistic(bool by_quantiles) const;
+  bool is_heavy(const contest& among) const;
+  void warn_of_reference(const contest& among);
+
+  const contest& asked() const { return by_evaluations_ ? *by_evaluations_ : *by_seconds_; }
+  std::string advice() const;
+  std::string advice_of(const contest& among) const;
+  std::string advice_on_seconds() const;
+  std::string costs(const candidate& contender, const candidate& other) const;
+  std::string as_options(const candidate& contender) const;
+  std::string bound_of(const contest& among, const candidate& contender) const;
+  std::string quantity() const;
+  double quantile_of(const measured_error& error) const;
+  json row_json(const contest& among, const candidate& contender) const;
+  json contest_json(const contest& among) const;
+
+  recommendation_options options_;
+  common_settings common_;
+  std::unique_ptr<prepared_problem> system_;
+  std::vector<candidate> all_;                                 // as planned
+  std::vector<std::pair<std::string, std::string>> left_out_;  // name and reason
+  std::map<std::string, timed_job> step_seconds_;              // of one step of one trajectory, by name
+  bool searches_by_quantiles_ = false;                         // at one error
+  std::optional<contest> by_evaluations_;                      // nothing: only seconds are asked for
+  std::optional<contest> by_seconds_;
+  mutable std::map<std::pair<std::string, double>, std::string> objections_;  // by name and step
+  std::vector<std::string> warnings_;
+  progress shown_;
+};
+
+}  // namespace nysalt::program

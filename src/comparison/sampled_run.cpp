@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "sampled_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "nysalt/detail/together.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/stepper.hpp"
+#include "observables.hpp"
+#include "refusal.hpp"
+#include "shared_wave.hpp"
+#include "stretches.hpp"
+#include "world.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr int dynamic = Eigen::Dynamic;
+
+/// How many trajectories, of so many numbers each, are in the memory of all ranks at a time: a million
+/// numbers, or where trajectories are long, a block for each thread of a rank. With more ranks a rank has
+/// fewer, and each of its threads equally many.
+std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_t workers) {
+  const std::int64_t blocks = 1'000'000 / numbers / lanes;
+  return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;
+}
+
+/// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
+template <class P>
+void run_in_waves(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
+                  const sampled_plan& plan, const std::function<void(std::int64_t, const record&)>& take,
+                  const counter& progress, const communicator& ranks) {
+  using states = phase_point<P, Eigen::Dynamic>;
+  const model& system = made.system;
+  std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
+  for (const auto& name : plan.observables) watched.push_back(observable(made, name));
+  const auto read = [&](const states& x, std::span<P> values) {
+    for (std::size_t i = 0; i < watched.size(); ++i) values[i] = watched[i](x);
+  };
+  const trajectories_plan& all = plan.trajectories;
+  const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
+  using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
+  const stretches run_stretches(all.steps, plan.stretch);
+  const std::int64_t numbers =
+      (run_stretches.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system);
+  const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
+  std::int64_t first = plan.from.first;
+  std::int64_t under_way = std::ssize(plan.from.wave.diverged_at);
+  broadcast(ranks, first);
+  broadcast(ranks, under_way);
+  while (first < all.count) {
+    const std::int64_t count = under_way > 0 ? under_way : std::min(at_a_time, all.count - first);
+    const shared_wave shared(first, count, lanes_in<P>, ranks);
+    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.wave) : saved_runs();
+    std::optional<wave> runs;  // a rank may have none
+    together(ranks, [&] {
+      if (shared.count() == 0) return;
+      if (under_way > 0) {
+        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, all.threads);
+      } else {
+        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), all.threads);
+      }
+    });
+    for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
+      end = run_stretches.end_after(step);
+      const std::int64_t before = under_way > 0 || step > 0 ? step : -1;
+      std::vector<record> records(static_cast<std::size_t>(shared.count()));
+      for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
+      const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
+        auto& of_one = records[static_cast<std::size_t>(m - shared.first())].values;
+        of_one.insert(of_one.end(), values.begin(), values.end());
+      };
+      const auto tell = [&](std::int64_t done) {
+        if (!progress) return;
+        const double of_stretch = static_cast<double>(done) / static_cast<double>(shared.count());
+        const double steps = static_cast<double>(step) + of_stretch * static_cast<double>(end - step);
+        const double of_wave = static_cast<double>(count) * steps / static_cast<double>(all.steps);
+        const double of_all = static_cast<double>(first) + of_wave;
+        progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
+      };
+      together(ranks, [&] {
+        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, tell);
+      });
+      for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));
+        if (lost && *lost > before) records[i].diverged_at = lost;
+      }
+      shared.hand_over(records, take);
+      if (!plan.stretch || end == all.steps) continue;
+      const standing at{first, shared.gather(runs ? runs->save() : saved_runs())};
+      on_first(ranks, [&] { plan.reached(at); });
+    }
+    first += count;
+    under_way = 0;
+    if (plan.stretch) on_first(ranks, [&] { plan.reached({first, {}}); });
+  }
+}
+
+void run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
+              const sampled_plan& plan, const std::function<void(std::int64_t, const record&)>& take,
+              const counter& progress) {
+  // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
+  const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
+  if (!fills_lanes || !made.system.facts().in_lanes) {
+    run_in_waves<double>(made, starts, method, plan, take, progress, world());
+  } else {
+    run_in_waves<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
+  }
+}
+
+}  // namespace
+
+void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
+         const std::function<void(std::int64_t, const record&)>& take, const counter& progress) {
+  run_from(system.prepared_starts(), system.definition(), method, plan, take, progress);
+}
+
+void integrate(const prepared_problem& system, const tabulated& method, const trajectories_plan& plan,
+               std::span<double> q, std::span<double> p, const counter& progress) {
+  const auto n = static_cast<std::size_t>(system.dimension());
+  const auto count = static_cast<std::size_t>(plan.count);
+  std::vector<phase_point<double, dynamic>> states;
+  for (std::size_t m = 0; m < count; ++m) {
+    const auto part = [&](std::span<double> of) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(of.subspan(m * n, n).data(), system.dimension()));
+    };
+    states.push_back({part(q), part(p)});
+    if (!is_finite(states.back())) {
+      refuse("the state of trajectory {} is not finite: {}", m, nysalt::detail::not_finite_in(states.back()));
+    }
+  }
+  sampled_plan sampled{.trajectories = plan, .observables = {}, .every = plan.steps};
+  for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
+  for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
+  sampled.stretch = short_stretch(system.dimension());
+  sampled.reached = [](const standing&) {};
+  std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
+  std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
+  const auto take = [&](std::int64_t m, const record& segment) {
+    const auto sample =
+        std::ssize(segment.values) / std::ssize(sampled.observables) - 1;  // the last sample of the segment
+    if (segment.first + sample * plan.steps < plan.steps) return;
+    const auto from = segment.values.end() - std::ssize(sampled.observables);
+    std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
+    std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
+  };
+  run_from(nysalt::listed<dynamic>(std::move(states)), system.definition(), method, sampled, take, progress);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+// Trajectories that are stepped at a time, shared by the ranks; what comes of them goes to rank 0.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "nysalt/communicator.hpp"
+#include "sampled_plan.hpp"
+
+namespace nysalt::program {
+
+/// Trajectories first .. first + count - 1. Each rank has consecutive ones, in whole blocks of as many as are
+/// stepped together, rank 0 the first; one may have none. All but first() and count() is collective.
+class shared_wave {
+ public:
+  shared_wave(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks);
+
+  /// Of this rank.
+  std::int64_t first() const { return first_of(ranks_->rank()); }
+  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
+
+  /// take(m, record) at rank 0, in the order of the trajectories, of each that has samples or is lost. One
+  /// trajectory of another rank is in its memory at a time. What take() throws is thrown at all ranks.
+  void hand_over(const std::vector<record>& own,
+                 const std::function<void(std::int64_t, const record&)>& take) const;
+  /// All of them at rank 0, elsewhere nothing.
+  saved_runs gather(saved_runs own) const;
+  /// Of all, which rank 0 has, each gets its own.
+  saved_runs scatter(const saved_runs& all) const;
+
+ private:
+  std::int64_t first_of(int rank) const;
+
+  std::int64_t first_;
+  std::int64_t count_;
+  std::int64_t lanes_;
+  const communicator* ranks_;
+};
+
+}  // namespace nysalt::program

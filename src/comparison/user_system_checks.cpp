@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "user_system_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/ensemble.hpp"
+#include "observables.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// Refuses observables with the name of another.
+void require_observables(const initial_value_problem& made, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& own : made.observables) {
+    if (!is_plain_name(own.name)) {
+      refuse("{}: an observable is called '{}': take lower-case letters, digits and _, a letter first", name,
+             own.name);
+    }
+    if (std::ranges::count(names, own.name) > 0 || is_built_in_observable(made, own.name)) {
+      refuse("{}: there is an observable '{}' already: choose another name", name, own.name);
+    }
+    names.push_back(own.name);
+  }
+}
+
+/// Refuses energies and forces that are not finite, and a force other than -grad V, at four starts.
+void require_force(const initial_value_problem& made, const std::string& name) {
+  constexpr Eigen::Index most = 2000;  // some hundred forces a coordinate
+  std::vector<Eigen::VectorXd> points;
+  std::vector<Eigen::VectorXd> momenta;
+  for (std::uint64_t n = 0; n < 4; ++n) {
+    const auto start = sound_start(made.system, made.starts, 1, static_cast<std::int64_t>(n));
+    points.push_back(start.q);
+    momenta.push_back(start.p);
+    auto f = make_vector<double>(made.system);
+    force<double>(made.system, start.q, f);
+    if (!f.allFinite()) refuse("{}: the force is not finite at start {}", name, n);
+    if (has_energy(made.system) && !std::isfinite(energy<double>(made.system, start))) {
+      refuse("{}: the energy is not finite at start {}", name, n);
+    }
+  }
+  if (size(made.system) > most) return;
+  const force_check found = check_force(made.system, points, momenta);
+  if (!found.passed()) refuse("{}: {}", name, found.report());
+}
+
+/// Of a system that does not tell how fast its motion is: the highest frequency, or rate at which motions
+/// part, along 64 starts.
+double frequency_of(const initial_value_problem& made, const std::string& name) {
+  constexpr Eigen::Index most = 1000;  // coordinates
+  if (size(made.system) > most || !has_quadratic_kinetic(made.system)) {
+    refuse("{}: its highest frequency is not known: declare it by frequency(...)", name);
+  }
+  std::vector<phase_point<double, Eigen::Dynamic>> starts;
+  for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
+  const auto stiffness = stiffness_along(made.system, starts);
+  const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
+  if (found > 0.0 && std::isfinite(found)) return found;
+  refuse("{}: the force is the same at all starts, which tells no frequency: declare it by frequency(...)",
+         name);
+}
+
+}  // namespace
+
+bool is_plain_name(std::string_view name) {
+  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
+  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
+}
+
+void examine(initial_value_problem& made, const std::string& name) {
+  require_observables(made, name);
+  if (!(made.frequency >= 0.0) || !std::isfinite(made.frequency)) {
+    refuse("{}: frequency(...) must be positive and finite, got {}", name, made.frequency);
+  }
+  require_force(made, name);
+  if (made.frequency == 0.0) made.frequency = frequency_of(made, name);
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+// Files that HDF5 lays out, and others may fill: numbers lie in them as in memory, one after the other.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "comparison/json.hpp"
+
+namespace nysalt::program {
+
+/// Whether the program was built with HDF5.
+bool has_hdf5();
+/// Empty without HDF5.
+std::string hdf5_version();
+
+struct hdf5_dataset {
+  std::string name;
+  std::vector<std::uint64_t> shape;
+  bool is_of_integers = false;  // of 64 bits; else double
+};
+
+/// Makes a file with these datasets, whose numbers are not written yet, and attributes: texts, numbers, lists
+/// of doubles; anything else as JSON. Equal calls make equal bytes. Throws std::runtime_error if it cannot.
+void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset>& datasets,
+               const json& attributes);
+
+/// Where the numbers of each dataset begin, in bytes. Throws std::runtime_error if the file is not of these
+/// datasets.
+std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
+                                          const std::vector<hdf5_dataset>& datasets);
+
+}  // namespace nysalt::program

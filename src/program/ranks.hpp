@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+// The ranks that mpirun started: how the program joins and leaves them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "comparison/world.hpp"
+
+namespace nysalt::program {
+
+/// Threads for a rank, if nobody asks for a number: those of the cores that it may use, shared with other
+/// ranks of the machine.
+int usual_threads();
+
+/// What to tell where a rank was given more threads than mpirun gave it cores, as it does unless told
+/// otherwise; empty if all is well.
+std::string advice_on_threads(int threads);
+
+/// Throws at all ranks unless all have the same text: options, or what they have read. Ranks that differ
+/// would mix results, or wait for each other for ever.
+void require_agreement(const std::string& what, const std::string& text);
+
+/// Joins the other ranks, if the process was started as one of several and the program is built with MPI; to
+/// be made once, in main(). To call MPI takes a tenth of a second, so that a process by itself does not.
+class joined_world {
+ public:
+  joined_world(int argc, char** argv);
+  ~joined_world();
+  joined_world(const joined_world&) = delete;
+  joined_world& operator=(const joined_world&) = delete;
+
+  /// Waits for the others and returns the exit code. A rank that ends with an error while others wait for it
+  /// in the midst of their work ends them too, after some seconds.
+  int leave(int code) const;
+
+ private:
+  class session;
+  std::unique_ptr<session> session_;
+};
+
+/// Keeps what a rank that does not speak would have said, in case nobody else says it.
+void keep_unsaid(const std::string& text);
+
+}  // namespace nysalt::program

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// The system that a command names: bundled, of a file, or a potential.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "comparison/prepared_problem.hpp"
+#include "settings.hpp"
+#include "systems.hpp"
+
+namespace nysalt::program {
+
+/// The system that the settings name. Throws refusal for what it does not have.
+std::unique_ptr<prepared_problem> make_system(const system_settings& settings);
+
+/// A bundled system, or one that a file declares, which is loaded. Throws refusal if there is none of that
+/// name, or what the file holds cannot be used.
+const system_declaration& declaration_of(const std::string& name);
+/// "--pairs 3 --omega 50 --spread 1"
+std::string options_of(const system_declaration& system);
+/// A name that is the path of a file.
+bool is_path_of_system(std::string_view name);
+
+}  // namespace nysalt::program

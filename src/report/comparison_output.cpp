@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a comparison found: a document for machines, text and tables for people.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "comparison/refusal.hpp"
+#include "comparison_output.hpp"
+
+namespace nysalt::program {
+
+std::int64_t peak_memory() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return 1024 * static_cast<std::int64_t>(used.ru_maxrss);
+}
+
+std::string quantity(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  if (metric.name == "path") return "path error of " + metric.observable;
+  if (metric.name == "relative") return "relative error of " + metric.observable;
+  if (metric.name == "distribution") return "total variation of " + metric.observable;
+  if (metric.name == "acf") return "acf error of " + metric.observable;
+  if (metric.is_acceptance()) return fmt::format("acceptance at kT = {:g}", all.options().hmc_temperature);
+  return metric.name + " error";
+}
+
+namespace {
+
+std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
+std::string in_full(double x) { return std::isnan(x) ? std::string() : fmt::format("{}", x); }
+std::string in_full(const std::optional<double>& x) { return x ? in_full(*x) : std::string(); }
+
+/// Where there is none: NaN.
+distribution_of_errors no_spread() {
+  distribution_of_errors none;
+  none.quantiles.fill(std::numeric_limits<double>::quiet_NaN());
+  none.largest.deciding = std::numeric_limits<double>::quiet_NaN();
+  return none;
+}
+
+std::string joined_marks(const comparison& all, std::size_t m, const row& line) {
+  std::string text;
+  for (const mark one : marks_of(all, m, line)) {
+    if (!text.empty()) text += ' ';
+    text += to_string(one);
+  }
+  return text;
+}
+
+std::string text_of_margin(const std::optional<double>& margin) {
+  if (!margin) return "-";
+  return *margin < 0.0 ? "unstable" : fmt::format("{:.0f} %", 100.0 * *margin);
+}
+
+}  // namespace
+
+table rows_of(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  std::vector<std::string> names{"method",   "step",         "evaluations/time", "ns/time",
+                                 "median +", metric.value(), "standard error"};
+  const bool has_spread = metric.is_along_paths();
+  if (has_spread) names.insert(names.end(), {"median error", "5 % to 95 %"});
+  names.insert(names.end(), {"diverged", "margin", "marks"});
+  table result(names);
+  const auto shown = [&](double x) {
+    return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
+  };
+  for (const row& line : all.rows()) {
+    const finding& one = line.findings[m];
+    const timed_job& seconds = line.seconds_per_time;
+    std::vector<std::string> cells{line.method,
+                                   fmt::format("{:g}", line.nominal),
+                                   fmt::format("{:.1f}", line.evaluations_per_time),
+                                   fmt::format("{:.0f}", 1e9 * seconds.least),
+                                   fmt::format("{:.0f} %", 100.0 * (seconds.median / seconds.least - 1.0)),
+                                   shown(one.value.mean),
+                                   in_short(one.value.standard_error)};
+    if (has_spread) {
+      const distribution_of_errors spread = one.spread.value_or(no_spread());
+      cells.push_back(in_short(spread.median.mean));
+      const bool is_known = one.spread && std::isfinite(spread.quantiles.front());
+      cells.push_back(is_known ? fmt::format("{} to {}", in_short(spread.quantiles.front()),
+                                             in_short(spread.quantiles.back()))
+                               : "-");
+    }
+    cells.push_back(fmt::format("{}/{}", one.diverged, all.options().trajectories));
+    cells.push_back(text_of_margin(line.margin));
+    cells.push_back(joined_marks(all, m, line));
+    result.add(cells);
+  }
+  for (const auto& [name, value] : free_of_cost(all, m)) {
+    std::vector<std::string> cells{name, "-", "0.0", "0", "-", in_short(value), "-"};
+    if (has_spread) cells.insert(cells.end(), {"-", "-"});
+    cells.insert(cells.end(), {"-", "-", ""});
+    result.add(cells);
+  }
+  return result;
+}
+
+std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t m) {
+  std::vector<std::pair<std::string, double>> result;
+  const auto add = [&](const char* name, std::optional<double> backdrop::*field) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [key, context] : all.behind()) {
+      if (key.first == m) least = std::min(least, (context.*field).value_or(least));
+    }
+    if (std::isfinite(least)) result.emplace_back(name, least);
+  };
+  add("null model", &backdrop::null_model);
+  add("floor of sampling", &backdrop::floor);
+  return result;
+}
+
+std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m) {
+  std::vector<std::string> result;
+  for (const mark one :
+       {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::formula, mark::diverged}) {
+    const bool is_there = std::ranges::any_of(
+        all.rows(), [&](const row& line) { return std::ranges::count(marks_of(all, m, line), one) > 0; });
+    if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));
+  }
+  return result;
+}
+
+namespace {
+
+/// What rows of one reference are seen against: the worst of it over their steps.
+struct span_of_steps {
+  double from;
+  double to;
+  backdrop worst;
+};
+
+void worsen(backdrop& all, const backdrop& context) {
+  const auto take = [](std::optional<double>& a, const std::optional<double>& b, bool larger) {
+    if (!a || (b && (larger ? *b > *a : *b < *a))) a = b;
+  };
+  take(all.reference_error, context.reference_error, true);
+  take(all.null_model, context.null_model, false);
+  take(all.floor, context.floor, true);
+  take(all.predictable_until, context.predictable_until, false);
+}
+
+std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
+  std::vector<span_of_steps> result;
+  for (const auto& [key, context] : all.behind()) {
+    if (key.first != m || context.reference.empty()) continue;
+    if (result.empty() || result.back().worst.reference != context.reference) {
+      result.push_back({key.second, key.second, context});
+    }
+    result.back().to = key.second;
+    worsen(result.back().worst, context);
+  }
+  return result;
+}
+
+}  // namespace
+
+table backdrops_of(const comparison& all, std::size_t m) {
+  const bool is_of_law = all.metrics()[m].is_of_law();
+  table result({"step sizes", "reference", is_of_law ? "its finer self, at most" : "its own error, at most",
+                "null model, at least", is_of_law ? "floor of sampling" : "predictable until"},
+               2);
+  const auto shown = [](const std::optional<double>& x) { return x ? in_short(*x) : std::string("-"); };
+  for (const auto& [from, to, worst] : spans_of(all, m)) {
+    const auto until = worst.predictable_until;
+    const std::string horizon = !until ? "-" : std::isinf(*until) ? "the end" : fmt::format("{:g}", *until);
+    result.add({from == to ? fmt::format("{:g}", from) : fmt::format("{:g} to {:g}", from, to),
+                worst.reference, shown(worst.reference_error), shown(worst.null_model),
+                is_of_law ? shown(worst.floor) : horizon});
+  }
+  return result;
+}
+
+/// To the first digit of the error: 125 ± 10, 48.4 ± 0.5.
+std::string with_error(const estimate& value) {
+  if (std::isnan(value.mean)) return "-";
+  if (!(value.standard_error > 0.0)) return fmt::format("{:.4g}", value.mean);
+  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(value.standard_error))));
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", value.mean, value.standard_error, decimals);
+}
+
+table equal_cost_table(const comparison& all, std::size_t m) {
+  const asked_metric& metric = all.metrics()[m];
+  const bool accepts = metric.is_acceptance();
+  std::string value = metric.value();
+  if (is_by_median(all, m)) value = "median " + value;
+  table result({"at equal cost", "step", value, "best of the others", "its " + value,
+                accepts ? "its rejections / learned" : "its error / learned", "its ns / learned"});
+  const char* format = accepts ? "{:.4f}" : "{:.2e}";
+  for (const at_equal_cost& pair : side_by_side(all, m)) {
+    const double seconds = pair.best->seconds_per_time.least / pair.learned->seconds_per_time.least;
+    result.add({pair.learned->method, fmt::format("{:g}", pair.learned->nominal),
+                fmt::format(fmt::runtime(format), ranked_value(all, m, *pair.learned).mean),
+                pair.best->method, fmt::format(fmt::runtime(format), ranked_value(all, m, *pair.best).mean),
+                with_error(gain(all, m, pair)), fmt::format("{:.2g}", seconds)});
+  }
+  return result;
+}
+
+std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
+  std::vector<std::string> result;
+  for (const row& line : all.rows()) {
+    const std::string& reason = line.findings[m].reason;
+    if (!reason.empty())
+      result.push_back(fmt::format("{} at step {:g}: {}", line.method, line.nominal, reason));
+  }
+  return result;
+}
+
+namespace {
+
+json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? json(*x) : json(nullptr); }
+
+json row_json(const comparison& all, std::size_t m, const row& line) {
+  const asked_metric& metric = all.metrics()[m];
+  const finding& one = line.findings[m];
+  const backdrop& against = behind(all, m, line);
+  json marks = json::array();
+  for (const mark found : marks_of(all, m, line)) marks.push_back(to_string(found));
+  json result{{"metric", metric.text()},
+              {"method", line.method},
+              {"step", line.nominal},
+              {"step_size", line.step},
+              {"evaluations_per_time", line.evaluations_per_time},
+              {"seconds_per_time", line.seconds_per_time.least},
+              {"seconds_per_time_median", line.seconds_per_time.median},
+              {metric.value(), one.value.mean},
+              {"standard_error", one.value.standard_error},
+              {"survivors", all.options().trajectories - one.diverged},
+              {"diverged", one.diverged},
+              {"diverged_at", to_json(one.diverged_at)},
+              {"stability_margin", number(line.margin)},
+              {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
+              {"marks", marks}};
+  if (!one.reason.empty()) result["reason"] = one.reason;
+  if (one.spread) {
+    json quantiles = json::object();
+    for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
+      quantiles[fmt::format("{:g} %", 100.0 * shown_quantiles[i])] = number(one.spread->quantiles[i]);
+    }
+    result["median"] = number(one.spread->median.mean);
+    result["median_standard_error"] = number(one.spread->median.standard_error);
+    result["quantiles"] = quantiles;
+    result["deciding"] = number(one.spread->largest.deciding);
+    result["enough_trajectories"] = number(one.spread->largest.enough());
+  }
+  if (!metric.is_of_law() || !one.law) return result;
+  if (against.floor) result["floor"] = *against.floor;
+  result["mean"] = one.law->mean.mean;
+  result["mean_standard_error"] = one.law->mean.standard_error;
+  result["effective_sample_size"] = one.law->effective_sample_size;
+  if (!one.law->kinetic_temperature) return result;
+  result["kinetic_temperature"] = *one.law->kinetic_temperature;
+  result["half_step_kinetic_temperature"] = *one.law->half_step_kinetic_temperature;
+  return result;
+}
+
+json references_json(const comparison& all) {
+  json result = json::array();
+  for (const auto& [key, context] : all.behind()) {
+    if (context.reference.empty()) continue;
+    json one{{"metric", all.metrics()[key.first].text()},
+             {"step_size", key.second},
+             {"reference", context.reference},
+             {"error", number(context.reference_error)},
+             {"null_model", number(context.null_model)}};
+    if (context.predictable_until) one["predictable_until"] = number(context.predictable_until);
+    if (context.floor) one["floor"] = *context.floor;
+    if (context.law) one["mean"] = context.law->mean.mean;
+    if (context.law && context.law->kinetic_temperature) {
+      one["kinetic_temperature"] = *context.law->kinetic_temperature;
+      one["half_step_kinetic_temperature"] = *context.law->half_step_kinetic_temperature;
+    }
+    result.push_back(one);
+  }
+  return result;
+}
+
+json crossing_json(const threshold_crossing& crossing) {
+  constexpr std::array kinds{"found", "bracketed", "below all", "above from first"};
+  return {{"kind", kinds[static_cast<std::size_t>(crossing.kind)]},
+          {"at", crossing.x},
+          {"standard_error", number(crossing.standard_error)}};
+}
+
+json rankings_json(const comparison& all) {
+  json result = json::array();
+  const auto named = [](const std::vector<const row*>& rows) {
+    json names = json::array();
+    for (const row* line : rows) names.push_back({{"method", line->method}, {"step", line->nominal}});
+    return names;
+  };
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    json levels = json::array();
+    for (const double level : levels_for(all, m)) {
+      if (all.metrics()[m].is_acceptance()) break;
+      json costs = json::array();
+      for (const cost_at_level& cost : costs_at(all, m, level)) {
+        costs.push_back({{"method", cost.method},
+                         {"evaluations_per_time", crossing_json(cost.evaluations)},
+                         {"seconds_per_time", crossing_json(cost.seconds)}});
+      }
+      levels.push_back({{"level", level}, {"methods", costs}});
+    }
+    result.push_back({{"metric", all.metrics()[m].text()},
+                      {"ranked_by", is_by_median(all, m) ? "median" : "mean"},
+                      {"front_by_evaluations", named(pareto_front(all, m, evaluations_of))},
+                      {"front_by_seconds", named(pareto_front(all, m, seconds_of))},
+                      {"levels", levels}});
+  }
+  return result;
+}
+
+}  // namespace
+
+json document_of(const comparison& all) {
+  const comparison_options& options = all.options();
+  json metrics = json::array();
+  json rows = json::array();
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    metrics.push_back(all.metrics()[m].text());
+    for (const row& line : all.rows()) rows.push_back(row_json(all, m, line));
+  }
+  json result{{"system", all.system().description()},
+              {"starts", all.system().starts()},
+              {"metrics", metrics},
+              {"horizon", all.horizon()},
+              {"trajectories", options.trajectories},
+              {"equal_cost", options.equal_cost},
+              {"seed", all.common().seed},
+              {"references", references_json(all)},
+              {"rows", rows},
+              {"rankings", rankings_json(all)},
+              {"fits", all.fits()},
+              {"warnings", all.warnings()},
+              {"peak_memory", peak_memory()}};
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    const auto& bins = all.bins(m);
+    if (bins) result["histogram"] = {{"low", bins->low}, {"high", bins->high}, {"bins", bins->count}};
+    if (all.metrics()[m].is_acceptance()) result["hmc_temperature"] = options.hmc_temperature;
+    if (all.metrics()[m].name == "acf") result["longest_lag"] = options.longest_lag;
+  }
+  return result;
+}
+
+std::string csv_of(const comparison& all) {
+  table result({"metric",
+                "method",
+                "step",
+                "step_size",
+                "evaluations_per_time",
+                "seconds_per_time",
+                "seconds_per_time_median",
+                "value",
+                "standard_error",
+                "diverged",
+                "reference_error",
+                "null_model",
+                "floor",
+                "predictable_until",
+                "marks",
+                "reason",
+                "survivors",
+                "quantile_5",
+                "quantile_25",
+                "median",
+                "quantile_75",
+                "quantile_95",
+                "median_standard_error",
+                "deciding",
+                "enough_trajectories",
+                "stability_margin"});
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    for (const row& line : all.rows()) {
+      const finding& one = line.findings[m];
+      const backdrop& against = behind(all, m, line);
+      const distribution_of_errors spread = one.spread.value_or(no_spread());
+      const auto& quantiles = spread.quantiles;
+      result.add({all.metrics()[m].text(),
+                  line.method,
+                  in_full(line.nominal),
+                  in_full(line.step),
+                  in_full(line.evaluations_per_time),
+                  in_full(line.seconds_per_time.least),
+                  in_full(line.seconds_per_time.median),
+                  in_full(one.value.mean),
+                  in_full(one.value.standard_error),
+                  fmt::format("{}", one.diverged),
+                  all.metrics()[m].is_of_law() ? std::string() : in_full(against.reference_error),
+                  in_full(against.null_model),
+                  in_full(against.floor),
+                  in_full(against.predictable_until),
+                  joined_marks(all, m, line),
+                  one.reason,
+                  fmt::format("{}", all.options().trajectories - one.diverged),
+                  in_full(quantiles[0]),
+                  in_full(quantiles[1]),
+                  in_full(quantiles[2]),
+                  in_full(quantiles[3]),
+                  in_full(quantiles[4]),
+                  in_full(spread.median.standard_error),
+                  in_full(spread.largest.deciding),
+                  one.spread ? in_full(spread.largest.enough()) : std::string(),
+                  in_full(line.margin)});
+    }
+  }
+  return result.csv();
+}
+
+std::string readable(const comparison& all) {
+  const comparison_options& options = all.options();
+  std::string text = fmt::format("{}, {} trajectories over {:g}", all.system().description(),
+                                 options.trajectories, all.horizon());
+  text += fmt::format("\nstarts: {}\n", all.system().starts());
+  if (options.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    text += fmt::format("\n{}\n\n", quantity(all, m));
+    if (const table against = backdrops_of(all, m); !against.empty()) text += against.text() + "\n";
+    text += rows_of(all, m).text();
+    for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
+    for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";
+    if (const table beside = equal_cost_table(all, m); !beside.empty()) {
+      text += fmt::format("\n{}", beside.text());
+    }
+  }
+  return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
+}
+
+}  // namespace nysalt::program

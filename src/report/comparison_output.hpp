@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+// The tables of a comparison, as the terminal and the report show them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "comparison/ranking.hpp"
+#include "table.hpp"
+
+namespace nysalt::program {
+
+/// Of this process so far, in bytes.
+std::int64_t peak_memory();
+
+/// What the values of a metric are, as axes say it.
+std::string quantity(const comparison& all, std::size_t metric);
+
+/// The rows of a metric, and what costs nothing: null model and floor.
+table rows_of(const comparison& all, std::size_t metric);
+std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);
+std::string with_error(const estimate& value);
+/// Reference, null model and floor or horizon, over the steps that share a reference.
+table backdrops_of(const comparison& all, std::size_t metric);
+table equal_cost_table(const comparison& all, std::size_t metric);
+/// One sentence for each mark that is there, and for each row without a value.
+std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t metric);
+std::vector<std::string> reasons_of(const comparison& all, std::size_t metric);
+/// Every row by every metric.
+std::string csv_of(const comparison& all);
+
+}  // namespace nysalt::program

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSL-1.0
+// The report of a comparison: a page, its pictures, and the tables for machines.
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "build_info.hpp"
+#include "comparison/catalogue.hpp"
+#include "comparison_output.hpp"
+#include "comparison_pictures.hpp"
+#include "machine.hpp"
+#include "manifest.hpp"
+#include "nysalt/learning/fit_summary.hpp"
+#include "page.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+void add_question(page& report, const comparison& all) {
+  const comparison_options& options = all.options();
+  report.text(fmt::format("{} trajectories of {}, each over {:g}; starts: {}; seed {}.", options.trajectories,
+                          all.system().description(), all.horizon(), all.system().starts(),
+                          all.common().seed));
+  if (options.equal_cost) {
+    report.text(
+        "Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
+        "steps are equal cost.");
+  }
+  report.code(all.common().command);
+}
+
+std::string listed_front(const std::vector<const row*>& front) {
+  std::string text;
+  for (const row* line : front) {
+    text += fmt::format("{}`{}` at {:g}", text.empty() ? "" : ", ", line->method, line->nominal);
+  }
+  return text.empty() ? "none" : text;
+}
+
+/// A cost, or between which rows or beyond which it lies.
+std::string text_of(const threshold_crossing& crossing, double unit) {
+  const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
+  switch (crossing.kind) {
+    case crossing_kind::found:
+      return with_error({crossing.x * unit, crossing.standard_error * unit});
+    case crossing_kind::bracketed:
+      return fmt::format("{} to {}", number(crossing.first_above), number(crossing.last_below));
+    case crossing_kind::below_all:
+      return fmt::format("below {}", number(crossing.x));
+    case crossing_kind::above_from_first:
+      return fmt::format("above {}", number(crossing.x));
+  }
+  return {};
+}
+
+/// How many times dearer the cheapest classical method is: nothing is known where it is above all its rows,
+/// and only a bound where its rows stay below, or lose the level between two.
+std::string against_classical(const cost_at_level& cost, const std::vector<cost_at_level>& all) {
+  const auto best = std::ranges::find_if(all, [](const cost_at_level& other) {
+    return !other.is_learned && other.evaluations.kind != crossing_kind::above_from_first;
+  });
+  if (best == all.end() || cost.evaluations.kind != crossing_kind::found) return "-";
+  const double ratio = best->evaluations.x / cost.evaluations.x;
+  return fmt::format("{}{:.2f}", best->evaluations.kind == crossing_kind::found ? "" : "< ", ratio);
+}
+
+/// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
+/// classical method at the same error; the dearest of the method's fits counts.
+std::string repaid_after(const comparison& all, const cost_at_level& cost,
+                         const std::vector<cost_at_level>& costs) {
+  const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
+    return !other.is_learned && other.evaluations.kind == crossing_kind::found;
+  });
+  double spent = 0.0;
+  for (const auto& fit : all.fits()) {
+    if (fit["method"] == cost.method) spent = std::max(spent, fit["learning_evaluations"].get<double>());
+  }
+  if (best == costs.end() || spent == 0.0 || cost.evaluations.kind != crossing_kind::found) return "-";
+  const double saved = best->evaluations.x - cost.evaluations.x;
+  return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
+}
+
+/// What it costs to come to a level.
+table level_table(const comparison& all, std::size_t m, double level) {
+  const auto costs = costs_at(all, m, level);
+  const bool is_learned = std::ranges::any_of(costs, &cost_at_level::is_learned);
+  std::vector<std::string> names{"method", "evaluations/time", "ns/time", "cheapest classical / its"};
+  if (is_learned) names.push_back("learning repaid after");
+  table result(names);
+  for (const cost_at_level& cost : costs) {
+    std::vector<std::string> cells{cost.method, text_of(cost.evaluations, 1.0), text_of(cost.seconds, 1e9),
+                                   against_classical(cost, costs)};
+    if (is_learned) cells.push_back(repaid_after(all, cost, costs));
+    result.add(cells);
+  }
+  return result;
+}
+
+void add_ranking(page& report, const comparison& all, std::size_t m) {
+  const bool is_ranked_at_all =
+      std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
+  if (!is_ranked_at_all) {
+    report.text(
+        "**No row is ranked**: none has a value of all trajectories within the time for which paths can "
+        "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
+    return;
+  }
+  if (table beside = equal_cost_table(all, m); !beside.empty()) {
+    report.subheading("What is learned, beside the best of the others that cost no more");
+    report.table(std::move(beside));
+  }
+  for (const double level : levels_for(all, m)) {
+    if (all.metrics()[m].is_acceptance()) break;
+    report.subheading(fmt::format("The cost of an error of {:g}", level));
+    if (is_by_median(all, m)) report.text("Of the median over trajectories.");
+    report.table(level_table(all, m, level));
+  }
+  report.subheading("Best at its cost");
+  report.list({"in evaluations: " + listed_front(pareto_front(all, m, evaluations_of)),
+               "in seconds: " + listed_front(pareto_front(all, m, seconds_of))});
+}
+
+void add_metric(page& report, const comparison& all, std::size_t m) {
+  std::string title = quantity(all, m);
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  report.heading(title);
+  for (auto& picture : pictures_of_errors(all, m)) {
+    const std::string caption = (is_by_median(all, m) ? "median " : "") + quantity(all, m) + " against " +
+                                picture.panels.front().x_label +
+                                "; bars are standard errors, hollow points are not ranked";
+    report.picture(std::move(picture), caption);
+  }
+  if (const auto drawn = drawn_methods(all, m).size(); drawn < all.options().methods.size()) {
+    report.text(fmt::format("{} of {} methods are drawn: the cheapest of both kinds.", drawn,
+                            all.options().methods.size()));
+  }
+  report.table(rows_of(all, m));
+  std::vector<std::string> sentences = meanings_of_marks(all, m);
+  for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
+  if (!sentences.empty()) report.list(sentences);
+  if (table against = backdrops_of(all, m); !against.empty()) {
+    report.subheading("What they are seen against");
+    report.table(std::move(against));
+  }
+  add_ranking(report, all, m);
+  for (auto& picture : pictures_of_laws(all, m)) {
+    const std::string caption = quantity(all, m) + ", " + picture.panels.front().title;
+    report.picture(std::move(picture), caption);
+  }
+}
+
+void add_energies(page& report, const comparison& all) {
+  auto pictures = pictures_of_energies(all);
+  if (pictures.empty()) return;
+  report.heading("Energy and survivors along time");
+  for (auto& picture : pictures) {
+    const std::string caption =
+        picture.panels.front().title + ": root mean square of H(t) - H(0) over the trajectories that survive";
+    report.picture(std::move(picture), caption);
+  }
+}
+
+/// "usable", "not usable", or "nothing gained over chin4a".
+std::string verdict_of(const json& fit) {
+  const auto verdict = fit["verdict"].get<std::string>();
+  const bool has_rival = verdict == to_string(nysalt::verdict::nothing_gained) && fit["rival"].is_string();
+  return has_rival ? verdict + " over " + fit["rival"].get<std::string>() : verdict;
+}
+
+void add_fits(page& report, const comparison& all) {
+  if (all.fits().empty()) return;
+  report.heading("What was learned");
+  table fits(
+      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict"});
+  for (const auto& fit : all.fits()) {
+    std::string parameters;
+    for (const auto& [name, value] : fit["parameters"].items()) {
+      parameters += fmt::format("{}{} = {:.6g}", parameters.empty() ? "" : ", ", name, value.get<double>());
+    }
+    const auto number = [](const json& x) {
+      return x.is_number() ? fmt::format("{:.3g}", x.get<double>()) : std::string("-");
+    };
+    fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters,
+              number(fit["one_step_error"]), number(fit["learning_evaluations"]), number(fit["seconds"]),
+              verdict_of(fit)});
+  }
+  report.table(std::move(fits));
+}
+
+/// "b1 = 0.41, a = 0.2"; beyond the steps of the scheme the parameters of the nearer end.
+std::string theta_of(const scheme& learned, double step) {
+  const auto& names = family_named(learned.family).parameter_names;
+  const auto& steps = learned.curve.steps();
+  const Eigen::VectorXd theta = learned.curve.at(std::clamp(step, steps.front(), steps.back()));
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    text +=
+        fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", names[k], theta[static_cast<Eigen::Index>(k)]);
+  }
+  return text;
+}
+
+/// Parameters and coefficients of the learned rows that were not learned here.
+void add_files(page& report, const comparison& all) {
+  table files({"method from a file", "step size", "parameters", "letters", "coefficients"});
+  for (const row& line : all.rows()) {
+    const bool is_fitted =
+        std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == line.method; });
+    if (!line.is_learned || is_fitted || !line.coefficients) continue;
+    std::string numbers;
+    for (const double c : line.coefficients->coefficients()) {
+      numbers += fmt::format("{}{:.6g}", numbers.empty() ? "" : ", ", c);
+    }
+    const auto source = std::ranges::find_if(
+        all.schemes(), [&](const method_source& one) { return one.typed == line.method; });
+    files.add({line.method, fmt::format("{:.3g}", line.step), theta_of(*source->learned, line.step),
+               line.coefficients->letters().letters(), numbers});
+  }
+  if (files.empty()) return;
+  report.heading("What came from files");
+  report.table(std::move(files));
+}
+
+page report_of(const comparison& all) {
+  page report("Speed against error: " + all.system().description());
+  add_question(report, all);
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) add_metric(report, all, m);
+  add_energies(report, all);
+  add_fits(report, all);
+  add_files(report, all);
+  report.heading("How it was measured");
+  std::vector<std::string> notes{
+      "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
+      "one "
+      "included",
+      "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "
+      "interleaved rounds; `median +` says how much more the median of the rounds is; an error of a cost in "
+      "seconds is that of the errors alone",
+      "standard errors are over trajectories, which all methods share; those of laws over groups of "
+      "trajectories; those of gains are of the differences trajectory by trajectory",
+      fmt::format(
+          "errors along paths are means over [0, {:g}], the same for all rows; of paths, exchange and "
+          "energies relative to a mean over all trajectories",
+          all.horizon()),
+      "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
+      "dearest "
+      "fit of the method took, against the cheapest of the others at the same error",
+      "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
+      "that "
+      "the starts are known to meet, as a share of the window; `-` for words with rotations",
+      fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
+      fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
+                  fmt::gmtime(std::time(nullptr)))};
+  for (const auto& text : all.warnings()) notes.push_back(fmt::format("warning: {}", text));
+  report.list(notes);
+  return report;
+}
+
+}  // namespace
+
+std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder) {
+  std::vector<std::string> warnings;
+  const page report = report_of(all);
+  for (const figure& picture : report.figures()) {
+    if (auto warning = write_pictures(picture, folder, all.common()); !warning.empty()) {
+      warnings.push_back(std::move(warning));
+    }
+  }
+  write_result(folder / "rows.csv", csv_of(all), all.common());
+  json document = document_of(all);
+  document["question"] = all.question();
+  write_result(folder / "report.json", text_of(document), all.common());
+  write_result(folder / "report.md", report.markdown(), all.common());
+  write_result(folder / "report.html", report.html(folder), all.common());
+  return warnings;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+// How a curve looks: in colour, in grey and to the colour-blind, so that colour says nothing alone.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "figure.hpp"
+
+namespace nysalt::detail {
+
+struct look {
+  const char* colour;
+  int point;  // filled; the hollow one of the same shape is the number below
+  const char* dash;
+  double width;
+  double size;
+};
+
+bool has_hollow(const curve& one);
+
+/// What is emphasised is solid and thick, the others are thin and of five dashes.
+look look_of(const panel& plot, std::size_t j);
+
+/// The elements of a plot command that draw a curve, without its entry in the key.
+std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std::string& data);
+
+std::string key_entry(const panel& plot, std::size_t j);
+
+/// How the stretches of a label look: the first light and without a border, the next dark with one.
+std::string look_of_stretches(std::size_t label);
+
+/// Numbers of labels, in the order of their first stretches.
+std::vector<std::string> labels_of_stretches(const panel& plot);
+
+}  // namespace nysalt::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// Pictures by gnuplot: a script and its data, which stay beside what they drew.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "figure.hpp"
+#include "write_file.hpp"
+
+namespace nysalt {
+
+namespace detail {
+
+/// The name stands in a command line and in the script as it is, so it may hold nothing that they read.
+void require_plain(const std::string& name);
+
+}  // namespace detail
+
+/// Writes NAME.dat and NAME.gp into the folder, and has gnuplot draw NAME.svg and NAME.png, each whole or
+/// not at all. False if gnuplot is not there or fails; then data and script are there to draw later, and
+/// no older picture stays beside them. Throws std::invalid_argument if the figure's name has other characters
+/// than letters, digits, _ and -, std::runtime_error if the folder cannot be written.
+bool draw(const figure& f, const std::filesystem::path& folder);
+
+}  // namespace nysalt

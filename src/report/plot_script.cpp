@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "plot_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "curve_drawing.hpp"
+#include "plot_range.hpp"
+#include "plot_ticks.hpp"
+#include "quoted.hpp"
+
+namespace nysalt::detail {
+
+namespace {
+
+/// Fronts first, so that they lie behind, and what is emphasised last.
+std::string plot_command(const panel& plot, const std::string& name, std::size_t first_block) {
+  std::vector<std::string> elements;
+  for (const auto& level : plot.levels) {  // unseen: for the range; what is seen is an arrow, of full width
+    elements.push_back(fmt::format("{:.10g} with dots lc 'white' notitle", level.y));
+  }
+  const auto draw_if = [&](auto wanted) {
+    for (std::size_t j = 0; j < plot.curves.size(); ++j) {
+      if (!wanted(plot.curves[j])) continue;
+      const auto drawing = drawing_of(plot, j, fmt::format("'{}.dat' index {}", name, first_block + j));
+      elements.insert(elements.end(), drawing.begin(), drawing.end());
+    }
+  };
+  draw_if([](const curve& c) { return c.front; });
+  draw_if([](const curve& c) { return !c.front && !c.emphasised; });
+  draw_if([](const curve& c) { return !c.front && c.emphasised; });
+  for (std::size_t j = 0; j < plot.curves.size(); ++j) elements.push_back(key_entry(plot, j));
+  const auto labels = labels_of_stretches(plot);
+  for (std::size_t j = 0; j < labels.size(); ++j) {
+    elements.push_back(
+        fmt::format("keyentry with boxes {} title {}", look_of_stretches(j), quoted(labels[j])));
+  }
+  return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
+}
+
+/// More than six entries would hide points: then the key stands beside the panel.
+bool has_key_beside(const panel& plot) { return plot.curves.size() > 6; }
+
+/// What a key beside the panel takes, in pixels: a sample of 60, and some 7.5 a character.
+int key_width(const figure& f) {
+  double width = 0.0;
+  for (const auto& panel : f.panels) {
+    if (!has_key_beside(panel)) continue;
+    for (const auto& curve : panel.curves) {
+      width = std::max(width, 60.0 + 7.5 * static_cast<double>(curve.label.size()));
+    }
+  }
+  return static_cast<int>(width) * static_cast<int>(f.panels.size());
+}
+
+/// Behind all else; the later over the earlier.
+std::string stretches(const panel& plot) {
+  const auto labels = labels_of_stretches(plot);
+  std::string text = "unset object\n";
+  for (std::size_t i = 0; i < plot.stretches.size(); ++i) {
+    const auto& one = plot.stretches[i];
+    const auto label = std::find(labels.begin(), labels.end(), one.label) - labels.begin();
+    text += fmt::format(
+        "set object {} rectangle from first {:.10g}, graph 0 to first {:.10g}, graph 1 behind clip {}\n",
+        i + 1, one.low, one.high, look_of_stretches(static_cast<std::size_t>(label)));
+  }
+  return text;
+}
+
+std::string axes(const panel& axis_pair) {
+  std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(axis_pair.title),
+                                 quoted(axis_pair.x_label), quoted(axis_pair.y_label));
+  const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
+  text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
+  const bool log_x = axis_pair.log_log && !axis_pair.linear_x;
+  if (log_x || log_y) text += fmt::format("set logscale {}{}\n", log_x ? "x" : "", log_y ? "y" : "");
+  // Whole decades would leave much of a logarithmic axis empty.
+  const log_range costs = log_x ? range_of_costs(axis_pair) : log_range();
+  if (costs.is_empty()) {
+    text += "set autoscale x\nset xtics autofreq\n";
+  } else {
+    text += fmt::format("set xrange [{:.6g}:{:.6g}]\n{}", costs.low, costs.high,
+                        ticks_command('x', {costs.low, costs.high}));
+  }
+  text += has_key_beside(axis_pair) ? "set key outside right top vertical Left reverse samplen 4\n"
+                                    : "set key outside top center horizontal Right noreverse samplen 4\n";
+  text += "unset label\nunset arrow\n" + stretches(axis_pair);
+  bool at_right = true;  // levels may be close: their names stand at the two ends in turn
+  for (const auto& level : axis_pair.levels) {
+    text += fmt::format(
+        "set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back "
+        "lc '#777777' lw 1.2 dt (7,5)\n",
+        level.y);
+    text +=
+        fmt::format("set label {} at graph {}, first {:.10g} {} offset 0,0.5 tc '#555555' font ',10' front\n",
+                    quoted(level.label), at_right ? 0.99 : 0.01, level.y, at_right ? "right" : "left");
+    at_right = !at_right;
+  }
+  text += "set ytics autofreq\n";
+  if (!log_y || axis_pair.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", axis_pair.y_range);
+  const log_range range = range_of_logarithms(axis_pair);
+  if (!range.is_empty()) text += ticks_command('y', {range.low, range.high});
+  if (range.outside > 0) {
+    text += fmt::format(
+        "set label '{} beyond the frame' at graph 0.01, graph 0.03 left tc '#555555' font ',10'\n",
+        range.outside);
+  }
+  return text + fmt::format("set yrange {}\n", range.is_empty()
+                                                   ? "[*:*]"
+                                                   : fmt::format("[{:.3g}:{:.3g}]", range.low, range.high));
+}
+
+}  // namespace
+
+std::string plot_data(const figure& f) {
+  std::string text;
+  for (const auto& panel : f.panels) {
+    for (const auto& curve : panel.curves) {
+      text += fmt::format("# {}\n", on_one_line(fmt::format("{}: {}", panel.title, curve.label)));
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        const double error = i < curve.error.size() && std::isfinite(curve.error[i]) ? curve.error[i] : 0.0;
+        const bool finite = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
+        text +=
+            finite ? fmt::format("{:.10g} {:.10g} {:.10g}", curve.x[i], curve.y[i], error) : "NaN NaN NaN";
+        if (has_hollow(curve)) text += i < curve.hollow.size() && curve.hollow[i] ? " 1" : " 0";
+        text += "\n";
+      }
+      text += "\n\n";
+    }
+  }
+  return text;
+}
+
+std::string plot_script(const figure& f) {
+  std::string text = fmt::format(
+      "# gnuplot -e \"kind='svg'; target='{0}.svg'\" {0}.gp\n"
+      "if (kind eq 'svg') {{ set terminal svg size {1},{2} dashlength 1.3 background 'white' font 'sans,13' "
+      "noenhanced }}\n"
+      "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} pointscale 1.5 dashlength 2 background "
+      "'white' font 'sans,11' noenhanced "
+      "}}\n"
+      "set output target\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc '#cccccc'\nset samples 2\n",
+      f.name, f.width + key_width(f), f.height);
+  if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
+  std::size_t block = 0;
+  for (const auto& panel : f.panels) {
+    text += axes(panel) + plot_command(panel, f.name, block);
+    block += panel.curves.size();
+  }
+  return text + (f.panels.size() > 1 ? "unset multiplot\n" : "");
+}
+
+}  // namespace nysalt::detail

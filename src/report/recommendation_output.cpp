@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSL-1.0
+// Who wins, for machines and for people.
+#include <algorithm>
+#include <cmath>
+
+#include "comparison/learning.hpp"
+#include "comparison/method_file.hpp"
+#include "comparison/recommendation.hpp"
+#include "table.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// What is to be taken; of a tie the one that needs no learning.
+const candidate* taken(const contest& among) {
+  const candidate* winner = among.winner();
+  return winner != nullptr ? winner : among.best_of(false);
+}
+
+std::string in_words(const ratio_estimate& ratio) {
+  if (std::isinf(ratio.value)) return "zero, and so smaller";
+  const std::string value = fmt::format("{:.3g} times smaller", ratio.value);
+  if (std::isnan(ratio.low)) return value;
+  return fmt::format("{} (95 %: {:.3g} to {:.3g})", value, ratio.low, ratio.high);
+}
+
+/// "1.3 times the seconds"
+std::string multiple_of(double ratio, double tolerance, const char* what, const std::string& same) {
+  if (std::abs(std::log(ratio)) <= tolerance) return same;
+  return fmt::format("{:.2g} times the {}", ratio, what);
+}
+
+}  // namespace
+
+std::string recommendation::as_options(const candidate& contender) const {
+  const std::string where = options_.placement.empty() ? "" : " --placement " + options_.placement;
+  return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
+}
+
+/// What one costs beside the other: "as many evaluations and 1.3 times the seconds".
+std::string recommendation::costs(const candidate& contender, const candidate& other) const {
+  constexpr double start_up = 0.05;  // a start costs one evaluation, of twenty at least
+  const double noise = noise_of(contender, other);
+  return multiple_of(contender.evaluations_per_time / other.evaluations_per_time, start_up, "evaluations",
+                     "as many evaluations") +
+         " and " +
+         multiple_of(contender.seconds_per_time / other.seconds_per_time, noise, "seconds",
+                     fmt::format("the same seconds within {:.2g} %", 100.0 * noise));
+}
+
+/// Of errors below the one asked for.
+std::string recommendation::bound_of(const contest& among, const candidate& contender) const {
+  if (!options_.error || !contender.confirmed) return {};
+  return fmt::format(", where {} is {:.2e}, and with 97.7 % confidence at most {:.2e}",
+                     among.statistic.is_quantile ? "the error of 95 of 100 trajectories" : "the error",
+                     among.statistic(contender.confirmed->scores),
+                     among.statistic.upper_bound(contender.confirmed->scores));
+}
+
+std::string recommendation::advice_of(const contest& among) const {
+  const candidate* learned = among.best_of(true);
+  const candidate* classical = among.best_of(false);
+  if (!among.has_result()) {
+    return "No method stays with the reference and is stable: take more evaluations, or a shorter horizon.";
+  }
+  if (learned == nullptr) {
+    return fmt::format(
+        "A classical method wins: {}{}. None that was learned stands; there is no scheme to write.",
+        as_options(*classical), bound_of(among, *classical));
+  }
+  if (classical == nullptr) {
+    return fmt::format("Take {} at step {:.12g}{}: no classical method stands.", learned->source.typed,
+                       learned->step, bound_of(among, *learned));
+  }
+  const candidate* best = among.winner();
+  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
+  if (best == nullptr) {
+    const std::string within =
+        std::isnan(ratio.low) || !among.budget
+            ? std::string()
+            : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
+                          ratio.low, ratio.high);
+    return fmt::format("A tie: {} and {} cannot be told apart{}. The latter needs no learning: {}{}.",
+                       learned->source.typed, classical->source.typed, within, as_options(*classical),
+                       bound_of(among, *classical));
+  }
+  const bool is_learned = best == learned;
+  const candidate& other = is_learned ? *classical : *learned;
+  const std::string rival = is_learned ? fmt::format("{}, the best classical method", other.source.typed)
+                                       : fmt::format("{}, the best that was learned", other.source.typed);
+  const std::string why =
+      among.budget ? fmt::format("its error is {} than that of {}, at {}",
+                                 in_words(is_learned ? ratio : ratio.inverse()), rival, costs(*best, other))
+                   : fmt::format("it takes {} of {}{}", costs(*best, other), rival, bound_of(among, *best));
+  if (is_learned) return fmt::format("Take {} at step {:.12g}: {}.", best->source.typed, best->step, why);
+  return fmt::format("A classical method wins: {}; {}. There is no scheme to write.", as_options(*best), why);
+}
+
+/// Whether seconds say the same as evaluations, and if not, who wins by them.
+std::string recommendation::advice_on_seconds() const {
+  if (!by_evaluations_ || !by_evaluations_->has_result() || !by_seconds_->has_result()) return {};
+  const candidate* first = taken(*by_evaluations_);
+  const candidate* fast = taken(*by_seconds_);
+  if (first == nullptr || fast == nullptr) return {};
+  const std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
+  if (fast->source.typed == first->source.typed) return same;
+  const std::string method_at_step = fmt::format("{} at step {:.4g}", fast->source.typed, fast->step);
+  if (!options_.budget) {
+    const double ratio = first->seconds_per_time / fast->seconds_per_time;
+    if (!(ratio > by_seconds_->cost_ratio)) return same;
+    return fmt::format(
+        " By seconds another wins: {} takes {:.2g} times fewer of them, {:.0f} ns per unit time, "
+        "and {:.2g} times the evaluations{}.",
+        method_at_step, ratio, 1e9 * fast->seconds_per_time,
+        fast->evaluations_per_time / first->evaluations_per_time, bound_of(*by_seconds_, *fast));
+  }
+  const ratio_estimate ratio = by_seconds_->error_ratio(*first, *fast);
+  if (!ratio.is_above_one()) {
+    return fmt::format(" In the same seconds the best, {}, is not better by more than chance.",
+                       fast->source.typed);
+  }
+  return fmt::format(
+      " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "
+      "times the evaluations (--budget-seconds {:.3g}).",
+      1e9 * first->seconds_per_time, method_at_step, in_words(ratio),
+      fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
+}
+
+std::string recommendation::advice() const { return advice_of(asked()) + advice_on_seconds(); }
+
+std::optional<std::string> recommendation::scheme() const {
+  const candidate* winner = asked().winner();
+  if (winner == nullptr || !winner->is_learned()) return std::nullopt;
+  const learn_plan plan =
+      plan_for(*winner->source.family, winner->where, winner->step, options_.learning, common_);
+  return scheme_text({*winner->learned}, *system_, plan);
+}
+
+std::string recommendation::quantity() const {
+  if (options_.metric == "path") return "path error of " + options_.observable;
+  if (options_.metric == "acceptance") return fmt::format("rejection at kT = {:g}", options_.hmc_temperature);
+  return options_.metric + " error";
+}
+
+json recommendation::row_json(const contest& among, const candidate& contender) const {
+  const bool has_error = contender.reason.empty() && !contender.error.scores.empty();
+  json row{{"method", contender.source.typed},
+           {"learned", contender.is_learned()},
+           {"order", contender.order},
+           {"reversible", contender.symmetric},
+           {"rotation", contender.rotates},
+           {"evaluations_per_step", contender.source.evaluations_per_step},
+           {"step_size", contender.step},
+           {"evaluations_per_time", contender.evaluations_per_time},
+           {"seconds_per_time", contender.seconds_per_time},
+           {"error", contender.error.mean.mean},
+           {"standard_error", contender.error.mean.standard_error},
+           {"tail", contender.error.is_heavy},
+           {"error_of_95_percent",
+            has_error && contender.stands() ? json(quantile_of(contender.error)) : json(nullptr)},
+           {"diverged", contender.error.diverged},
+           {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
+           {"confirmed", nullptr}};
+  if (contender.confirmed && contender.reason.empty()) {
+    row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
+                        {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
+  }
+  if (!contender.reason.empty()) row["reason"] = contender.reason;
+  return row;
+}
+
+double recommendation::quantile_of(const measured_error& error) const {
+  return statistic(true)(error.scores);
+}
+
+json recommendation::contest_json(const contest& among) const {
+  const auto name_of = [](const candidate* contender) {
+    return contender == nullptr ? json(nullptr) : json(contender->source.typed);
+  };
+  const candidate* learned = among.best_of(true);
+  const candidate* classical = among.best_of(false);
+  json result{{"verdict", among.verdict()},
+              {"winner", name_of(among.winner())},
+              {"best_learned", name_of(learned)},
+              {"best_classical", name_of(classical)},
+              {"judged_by", among.statistic.is_quantile ? "quantile" : "mean"},
+              {"error_ratio", nullptr},
+              {"evaluations_ratio", nullptr},
+              {"seconds_ratio", nullptr}};
+  if (learned == nullptr || classical == nullptr) return result;
+  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
+  result["error_ratio"] = {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
+  result["evaluations_ratio"] = classical->evaluations_per_time / learned->evaluations_per_time;
+  result["seconds_ratio"] = classical->seconds_per_time / learned->seconds_per_time;
+  return result;
+}
+
+json recommendation::document() const {
+  json rows = json::array();
+  json fits = json::array();
+  for (const auto& contender : asked().all) {
+    rows.push_back(row_json(asked(), contender));
+    if (!contender.learned) continue;
+    json fit{{"method", contender.source.typed}};
+    fit.update(fit_json(contender.learned->fit));
+    fits.push_back(fit);
+  }
+  json left_out = json::array();
+  for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
+  const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
+  json result{{"system", system_->description()},
+              {"starts", system_->starts()},
+              {"metric", options_.metric},
+              {"observable", options_.metric == "path" ? json(options_.observable) : json(nullptr)},
+              {"budget", number(options_.budget)},
+              {"budget_seconds", number(options_.budget_seconds)},
+              {"error", number(options_.error)},
+              {"horizon", options_.horizon},
+              {"trajectories", options_.trajectories},
+              {"seed", common_.seed}};
+  result.update(contest_json(asked()));
+  result["advice"] = advice();
+  result["by_seconds"] = contest_json(*by_seconds_);
+  json in_seconds = json::array();
+  for (const auto& contender : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, contender));
+  result["by_seconds"]["rows"] = in_seconds;
+  result["rows"] = rows;
+  result["fits"] = fits;
+  result["left_out"] = left_out;
+  result["warnings"] = warnings_;
+  return result;
+}
+
+std::string recommendation::readable() const {
+  const contest& among = asked();
+  std::string text = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
+                                 options_.trajectories, options_.horizon, quantity());
+  if (options_.budget) text += fmt::format(", {:g} evaluations per unit time", *options_.budget);
+  if (options_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
+  if (options_.error) text += fmt::format(" below {:g}", *options_.error);
+  text += fmt::format("\nstarts: {}\n\n", system_->starts());
+  table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
+                 "95 % err below", "diverged"});
+  const auto number = [](const char* format, double x) {
+    return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
+  };
+  for (const auto& contender : among.all) {
+    const bool has_quantile = contender.stands() && !contender.error.scores.empty();
+    const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
+    ranking.add(
+        {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
+         number("{:.1f}", contender.evaluations_per_time), number("{:.0f}", 1e9 * contender.seconds_per_time),
+         number("{:.2e}", contender.error.mean.mean),
+         contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
+         number("{:.2e}", quantile), fmt::format("{}/{}", contender.error.diverged, options_.trajectories)});
+  }
+  text += ranking.text();
+  if (among.statistic.is_quantile) {
+    text +=
+        "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
+  }
+  for (const auto& contender : among.all) {
+    if (!contender.reason.empty()) text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
+  }
+  std::map<std::string, std::string> by_reason;
+  for (const auto& [name, reason] : left_out_) {
+    auto& names = by_reason[reason];
+    names += names.empty() ? name : ", " + name;
+  }
+  for (const auto& [reason, names] : by_reason) text += fmt::format("left out: {}: {}\n", names, reason);
+  return text + "\n" + advice() + "\n";
+}
+
+}  // namespace nysalt::program
