@@ -27,8 +27,7 @@ both_laws sweeps(const setting& setup, double horizon) {
       return [method = classical(name, *system)](double) { return method; };
     };
     const auto learned = [&](double gap) {
-      return learn_at(setup, *system, gap * gap_step, {.trajectories = setup.pick<std::int64_t>(100, 10)})
-          .method;
+      return learn_at(setup, *system, gap * gap_step, usual_lesson(setup)).method;
     };
     // At one step Verlet costs half of what the others do.
     const std::vector<rival> rivals{{"Verlet", fixed("verlet")},

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "comparison/json.hpp"
+#include "comparison/settings.hpp"
 #include "exhibit.hpp"
-#include "program/settings.hpp"
 
 namespace nysalt::program::paper {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "setting.hpp"
-#include "comparison/sampled_run.hpp"
-#include "program/systems.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +10,11 @@
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
+#include "comparison/sampled_run.hpp"
 #include "comparison/seeds.hpp"
-#include "program/bundled_systems.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "program/settings.hpp"
+#include "program/systems.hpp"
 
 namespace nysalt::program::paper {
 
@@ -55,7 +56,16 @@ const tabulated& setting::learned_in_bath(const std::string& start, double gap, 
   return learned_.emplace(key, learn_at(*this, in_bath(start), gap * gap_step, how).method).first->second;
 }
 
-std::unique_ptr<prepared_problem> soft_dominated_chain() { return make_soft_dominated_fpu(omega); }
+std::unique_ptr<prepared_problem> soft_dominated_chain() {
+  initial_value_problem problem = chain()->definition();
+  problem.starts = fpu_law<3>::soft_dominated(fpu_chain<3>(omega));
+  const std::vector<named_value> parameters{
+      {"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
+  return std::make_unique<prepared_problem>(std::move(problem), parameters,
+                                            surroundings{bath::of_sigma(0.0, 0.0), start::law});
+}
+
+lesson usual_lesson(const setting& setup) { return {.trajectories = setup.pick<std::int64_t>(100, 10)}; }
 
 learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step,
                         const lesson& how) {

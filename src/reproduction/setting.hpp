@@ -12,9 +12,9 @@
 
 #include "comparison/prepared_problem.hpp"
 #include "comparison/sampled_plan.hpp"
+#include "comparison/settings.hpp"
 #include "curves.hpp"
 #include "exhibit.hpp"
-#include "program/settings.hpp"
 
 namespace nysalt::program::paper {
 
@@ -59,6 +59,8 @@ struct lesson {
   std::optional<double> fine_step{};
   std::uint64_t repetition = 0;
 };
+/// M = 100, the paper's for the chain alone.
+lesson usual_lesson(const setting& setup);
 learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step, const lesson& how);
 
 /// (b1, beta1) with the standard errors that the fit tells.

@@ -8,10 +8,9 @@
 
 namespace nysalt::program::paper {
 
-const error_curve& sweep::of(const std::string& name) const {
-  const auto found =
-      std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
-  if (found == methods.end()) throw std::logic_error("no such method in this sweep: " + name);
+const error_curve& curve_named(const std::string& name, const std::vector<named_curve>& all) {
+  const auto found = std::ranges::find(all, name, &named_curve::name);
+  if (found == all.end()) throw std::logic_error("no such method: " + name);
   return found->curve;
 }
 

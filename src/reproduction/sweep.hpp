@@ -12,12 +12,14 @@ struct named_curve {
   std::string name;
   error_curve curve;
 };
+/// Throws if there is none.
+const error_curve& curve_named(const std::string& name, const std::vector<named_curve>& all);
 
 struct sweep {
   std::vector<named_curve> methods;
   std::vector<double> of_reference;  // error of the reference itself, by gap
 
-  const error_curve& of(const std::string& name) const;
+  const error_curve& of(const std::string& name) const { return curve_named(name, methods); }
 };
 
 /// A method of the sweep, by its name and the step.
