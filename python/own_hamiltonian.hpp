@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../src/program/bundled_systems.hpp"
+#include "../src/comparison/prepared_problem.hpp"
 
 namespace nysalt::python {
 

@@ -2,10 +2,8 @@
 // The bundled systems: each is declared in its own file below systems/.
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "comparison/prepared_problem.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {
@@ -21,8 +19,5 @@ system_declaration declare_henon_heiles();
 system_declaration declare_kepler();
 system_declaration declare_lennard_jones();
 system_declaration declare_phi4();
-
-/// A chain of three pairs, whose soft springs hold omega^2 at the start.
-std::unique_ptr<prepared_problem> make_soft_dominated_fpu(double omega);
 
 }  // namespace nysalt::program

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,13 +13,13 @@
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "comparison/checks.hpp"
-#include "comparison/did_you_mean.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/detail/together.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
+#include "parse.hpp"
 #include "ranks.hpp"
 
 namespace nysalt::program {
@@ -34,64 +33,6 @@ constexpr const char* three_commands =
     "  nysalt compare --system fpu --steps 0.02,0.03 --methods "
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
     "nysalt --help tells of all.\n";
-
-/// A text that is empty is a variable of the shell that was never set, not a wish.
-void refuse_empty_texts(CLI::App& command) {
-  const auto objection = [](const std::string& text) { return text.empty() ? "it is empty" : ""; };
-  for (CLI::Option* option : command.get_options()) option->check(objection);
-}
-
-/// Words on the command line that nothing takes. Without a command that is the first of them, as options
-/// follow a command; behind one it is the first option, whose value is left over too.
-[[noreturn]] void refuse_extras(const CLI::App& app) {
-  const auto extras = app.remaining(true);
-  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
-  const auto asked = app.get_subcommands();
-  if (asked.empty() && !is_option(extras.front())) {
-    refuse("unknown command '{}': {}", extras.front(), did_you_mean(extras.front(), command_names(app)));
-  }
-  if (asked.empty()) {
-    refuse("option '{}' before a command: name the command first, one of {}", extras.front(),
-           listed(command_names(app)));
-  }
-  const CLI::App& command = *asked.front();
-  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
-  if (option == extras.end()) {
-    refuse("unknown argument '{}': {} has options only; {}", extras.front(), command.get_name(),
-           help_of(command));
-  }
-  const auto known = option_names(command);
-  const std::string name = option->substr(0, option->find('='));
-  if (std::ranges::count(known, name) > 0) {
-    refuse("option '{}' must stand behind the command: nysalt {} {}", name, command.get_name(), name);
-  }
-  refuse("unknown option '{}': {}", *option, did_you_mean(name, known, help_of(command)));
-}
-
-/// The help or the version, if that is asked for; else all options are read. Throws refusal.
-std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::CallForHelp&) {
-    const auto asked = app.get_subcommands();
-    return asked.empty() ? app.help() : asked.front()->help("nysalt");
-  } catch (const CLI::CallForVersion&) {
-    return fmt::format("nysalt {}\n", version);
-  } catch (const CLI::ConfigError& problem) {
-    refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
-  } catch (const CLI::ExtrasError&) {
-    refuse_extras(app);
-  } catch (const CLI::RequiredError& problem) {
-    if (!app.remaining(true).empty()) refuse_extras(app);  // a mistyped option is why
-    refuse("{}; nysalt {} --help tells what it takes", problem.what(),
-           app.get_subcommands().front()->get_name());
-  } catch (const CLI::ParseError& problem) {
-    const auto asked = app.get_subcommands();
-    const std::string where = asked.empty() ? "nysalt" : "nysalt " + asked.front()->get_name();
-    refuse("{}; {} --help tells what it takes", problem.what(), where);
-  }
-}
 
 /// What follows a name on the command line, or the name and an =; the last if there are several.
 std::string typed_after(const std::string& name, int argc, char** argv) {
@@ -124,8 +65,7 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
   try {
     return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
             offer_compare(app, common), offer_recommend(app, common), offer_stability(app, common),
-            offer_new(app, common),     offer_build(app, common),     offer_reproduce(app, common),
-            offer_cite(app, common)};
+            offer_new(app, common),     offer_build(app, common),     offer_cite(app, common)};
   } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
     std::string name = problem.what();                // "...: NAME is already added"
     name = name.substr(name.rfind(": ") == std::string::npos ? 0 : name.rfind(": ") + 2);
@@ -166,8 +106,6 @@ int run_command_line(int argc, char** argv) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
                     command->get_footer());
   }
-  refuse_empty_texts(app);
-  for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
   app.footer(
       "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
       "the fit is not usable.");

@@ -18,7 +18,6 @@ int new_system(const new_command& command, const common_settings& common);
 int run(const run_command& command, const common_settings& common);
 int compare(const compare_command& command, const common_settings& common);
 int recommend(const recommend_command& command, const common_settings& common);
-int reproduce(const reproduce_command& command, const common_settings& common);
 int stability(const stability_command& command, const common_settings& common);
 
 }  // namespace nysalt::program

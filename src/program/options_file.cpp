@@ -24,8 +24,9 @@ std::vector<std::string> option_names(const CLI::App& command) {
 }
 
 std::string help_of(const CLI::App& command) {
-  const bool is_program = command.get_parent() == nullptr;
-  return (is_program ? "nysalt" : "nysalt " + command.get_name()) + " --help tells what it takes";
+  const CLI::App* program = command.get_parent();
+  return (program == nullptr ? "" : program->get_name() + " ") + command.get_name() +
+         " --help tells what it takes";
 }
 
 namespace {
@@ -124,7 +125,9 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
     const auto found =
         command->get_subcommands([&](const CLI::App* subcommand) { return subcommand->check_name(section); });
     if (found.empty()) {
-      refuse("--config: unknown section [{}]: {}", section, did_you_mean(section, command_names(app_)));
+      const auto commands = command_names(app_);
+      refuse("--config: unknown section [{}]: {}", section,
+             commands.empty() ? help_of(app_) : did_you_mean(section, commands));
     }
     command = found.front();
   }

@@ -20,9 +20,9 @@ int refused(const std::string& text) {
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int exit_code_of(const std::function<int()>& work) {
   try {
-    return run_command_line(argc, argv);
+    return work();
   } catch (const std::bad_alloc&) {
     return refused(
         "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");
@@ -31,6 +31,10 @@ int run_program(int argc, char** argv) {
   } catch (...) {  // by a system of the user's own
     return refused("something was thrown that is no std::exception: which it is cannot be told");
   }
+}
+
+int run_program(int argc, char** argv) {
+  return exit_code_of([&] { return run_command_line(argc, argv); });
 }
 
 }  // namespace nysalt::program

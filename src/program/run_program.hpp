@@ -2,7 +2,12 @@
 // The whole program but for its main(): whatever goes wrong becomes one line and an exit code.
 #pragma once
 
+#include <functional>
+
 namespace nysalt::program {
+
+/// What the work returns, or bad_input once it is told what it threw. Throws nothing.
+int exit_code_of(const std::function<int()>& work);
 
 /// The exit code: done, bad_input or no_result of commands.hpp. Throws nothing.
 int run_program(int argc, char** argv);

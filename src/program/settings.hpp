@@ -90,12 +90,6 @@ struct stability_command {
   bool plot = false;
 };
 
-struct reproduce_command {
-  std::vector<std::string> parts;  // of the paper; empty: all
-  std::string output;              // a folder
-  bool quick = false;
-};
-
 struct list_command {
   std::string system;  // the file of one, listed too; empty: none
 };

@@ -30,7 +30,7 @@ words words_of(const std::string& text) {
 /// Commands that compute for seconds whatever they are told, and pictures, for which gnuplot is started.
 bool is_dear(const words& typed) {
   const auto says = [&](const char* word) { return std::ranges::count(typed, word) > 0; };
-  return says("reproduce") || says("recommend") || says("--plot") || (says("compare") && says("--output"));
+  return says("recommend") || says("--plot") || (says("compare") && says("--output"));
 }
 
 }  // namespace

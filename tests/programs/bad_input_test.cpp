@@ -48,6 +48,11 @@ BOOST_AUTO_TEST_CASE(mistyped_names_are_answered_by_what_was_meant) {
                {"compare --methods verlet --steps 0.1 --metric paths", {"'paths'", "did you mean path?"}}});
 }
 
+BOOST_AUTO_TEST_CASE(a_command_that_moved_says_where_to) {
+  all_refused(scratch("moved"), {{"reproduce", {"nysalt_paper", "./dev reproduce"}},
+                                 {"reproduce linear --quick", {"nysalt_paper", "./dev reproduce"}}});
+}
+
 // 0.6 is 0.6000000000000001 as three times 0.2.
 BOOST_AUTO_TEST_CASE(numbers_in_messages_have_the_digits_that_people_type) {
   const auto done =

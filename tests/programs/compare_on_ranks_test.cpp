@@ -92,7 +92,6 @@ BOOST_AUTO_TEST_CASE(bad_input_is_told_once) {
   refused("compare --methods nobody --steps 0.02", "nobody");
   refused(along_paths + "file/report", "is not a folder");  // which rank 0 alone looks for
   refused("stability --method verlet --output file/curve.csv", "there is no folder");
-  refused("reproduce linear --quick", "without mpirun");
   BOOST_TEST(folder.files().size() == 1U);
 }
 

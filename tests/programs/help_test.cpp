@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(commands_are_found_in_a_text) {
 
 BOOST_AUTO_TEST_CASE(examples_of_the_program_run) {
   for (const char* command : {"", "list --help", "learn --help", "run --help", "compare --help",
-                              "recommend --help", "stability --help", "reproduce --help", "cite --help"}) {
+                              "recommend --help", "stability --help", "cite --help"}) {
     BOOST_TEST_CONTEXT("shown by nysalt " << command) {
       const auto help = run(command);
       BOOST_TEST(help.code == 0);
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(examples_of_the_program_run) {
 }
 
 BOOST_AUTO_TEST_CASE(help_names_the_options_that_all_take) {
-  for (const char* command : {"list", "learn", "run", "compare", "recommend", "stability", "reproduce"}) {
+  for (const char* command : {"list", "learn", "run", "compare", "recommend", "stability"}) {
     const auto help = run(std::string(command) + " --help").out;
     for (const char* option : {"--help", "--seed", "--threads", "--config", "--json"})
       BOOST_TEST(help.find(option) != std::string::npos, command << " --help does not tell of " << option);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The program `nysalt` (NYSALT_PROGRAM) as a shell runs it. In program.cpp, as reading JSON is long to
-// compile.
+// The program `nysalt`, or `nysalt_paper` in tests/paper (NYSALT_PROGRAM), as a shell runs it. In
+// program.cpp, as reading JSON is long to compile.
 #pragma once
 
 #include <nlohmann/json.hpp>

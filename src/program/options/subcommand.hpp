@@ -28,7 +28,6 @@ subcommand offer_learn(CLI::App& app, common_settings& common);
 subcommand offer_list(CLI::App& app, common_settings& common);
 subcommand offer_new(CLI::App& app, common_settings& common);
 subcommand offer_recommend(CLI::App& app, common_settings& common);
-subcommand offer_reproduce(CLI::App& app, common_settings& common);
 subcommand offer_run(CLI::App& app, common_settings& common);
 subcommand offer_stability(CLI::App& app, common_settings& common);
 

@@ -2,7 +2,6 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 
 #include "../bundled_systems.hpp"
-#include "comparison/prepared_problem.hpp"
 
 namespace nysalt::program {
 
@@ -14,15 +13,6 @@ initial_value_problem made(const fpu_chain<Pairs>& chain, const bath& in, const 
   return result;
 }
 }  // namespace
-
-std::unique_ptr<prepared_problem> make_soft_dominated_fpu(double omega) {
-  const fpu_chain<3> chain(omega);
-  const auto no_bath = bath::of_sigma(0.0, 0.0);
-  const std::vector<named_value> parameters{
-      {"name", "fpu"}, {"pairs", 3}, {"omega", omega}, {"starts", "soft"}};
-  return std::make_unique<prepared_problem>(made(chain, no_bath, fpu_law<3>::soft_dominated(chain)),
-                                            parameters, surroundings{no_bath, start::law});
-}
 
 system_declaration declare_fpu() {
   system_declaration fpu{.name = "fpu",

@@ -1,33 +1,30 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "reproduce.hpp"
+
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <filesystem>
 
-#include "../commands.hpp"
-#include "../output.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/world.hpp"
-#include "reproduction/parts.hpp"
-#include "reproduction/report.hpp"
+#include "parts.hpp"
+#include "program/commands.hpp"
+#include "program/output.hpp"
+#include "report.hpp"
 
-namespace nysalt::program {
+namespace nysalt::program::paper {
 
 namespace {
 
-using paper::finished_part;
-using paper::part_of_paper;
-
 std::vector<part_of_paper> parts_named(const std::vector<std::string>& names) {
   std::vector<std::string> known;
-  for (const auto& part : paper::parts_of_paper()) known.push_back(part.name);
+  for (const auto& part : parts_of_paper()) known.push_back(part.name);
   for (const auto& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     refuse("unknown part '{}' of the paper: it is one of {}", name, listed(known));
   }
   std::vector<part_of_paper> result;
-  for (const auto& part : paper::parts_of_paper()) {
+  for (const auto& part : parts_of_paper()) {
     const bool wanted = names.empty() || std::find(names.begin(), names.end(), part.name) != names.end();
     if (wanted) result.push_back(part);
   }
@@ -42,7 +39,7 @@ class timetable {
       for (const auto& one : part.exhibits) all_ += one.seconds;
     }
   }
-  std::string next(const paper::planned& one) {
+  std::string next(const planned& one) {
     const auto passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     std::string text = one.what;
     if (done_ > 0.02 * all_) text += fmt::format(", some {:.0f} s left", passed / done_ * (all_ - done_));
@@ -59,11 +56,11 @@ class timetable {
 }  // namespace
 
 int reproduce(const reproduce_command& command, const common_settings& common) {
-  if (!world().is_alone()) refuse("reproduce is the work of one process: start it without mpirun");
+  if (!world().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) require_folder(command.output);
   progress shown;
-  const paper::setting setup(common, command.quick);
+  const setting setup(common, command.quick);
   timetable plan(planned);
   std::vector<finished_part> finished;
   for (const auto& part : planned) {
@@ -77,11 +74,11 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
     }
   }
   shown.clear();
-  const paper::reproduction_report report(std::move(finished), command.quick, common);
+  const reproduction_report report(std::move(finished), command.quick, common);
   if (!command.output.empty()) report.write(command.output);
   print(common.json ? text_of(report.document()) : report.summary());
   if (!common.json && !command.output.empty()) print(fmt::format("Written: {}\n", command.output));
   return done;
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::program::paper

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-// `nysalt reproduce` runs every exhibit of the paper, writes what it promises, and judges by numbers.
+// `nysalt_paper` runs every exhibit of the paper, writes what it promises, and judges by numbers.
 #include <boost/test/unit_test.hpp>
 
 #include <map>
 #include <set>
 #include <string>
 
-#include "../support/bad_input.hpp"
 #include "../support/document.hpp"
 
 using namespace nysalt::test;
@@ -49,7 +48,7 @@ void must_be_whole(const json& all) {
 // What follows from formulas, and so does not depend on a seed. The same is derived in
 // docs/theory-langevin-optimum.md and, for the windows, in values_test.
 BOOST_AUTO_TEST_CASE(the_linear_claims_have_known_verdicts) {
-  const auto all = document("reproduce linear");
+  const auto all = document("linear");
   must_be_whole(all);
   const std::map<std::string, std::string> known{
       {"b1* = 0.5", "depends on the weights of the loss"},
@@ -73,8 +72,8 @@ BOOST_AUTO_TEST_CASE(the_linear_claims_have_known_verdicts) {
 }
 
 BOOST_AUTO_TEST_CASE(quick_runs_go_through_all_exhibits_and_write_them) {
-  const scratch folder("reproduce");
-  const auto done = run(folder, "reproduce --quick --json --output results");
+  const scratch folder("paper");
+  const auto done = run(folder, "--quick --json --output results");
   BOOST_TEST_REQUIRE(done.code == 0, done.err);
   const auto all = json_of(done);
   must_be_whole(all);
@@ -103,16 +102,7 @@ BOOST_AUTO_TEST_CASE(quick_runs_go_through_all_exhibits_and_write_them) {
 }
 
 BOOST_AUTO_TEST_CASE(threads_change_nothing_and_seeds_do) {
-  const auto first = document("reproduce linear deterministic --quick --threads 1");
-  BOOST_TEST((document("reproduce deterministic linear --quick --threads 3") == first));
-  BOOST_TEST((document("reproduce linear deterministic --quick --seed 2")["items"] != first["items"]));
-}
-
-BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
-  const scratch folder("reproduce_bad");
-  all_refused(folder, after("reproduce", {{"quadratic", {"quadratic", "linear, deterministic, langevin"}},
-                                          {"linear --output /dev/null/results", {"not a folder"}},
-                                          {"linear --output ''", {"--output", "empty"}},
-                                          {"linear --threads 0", {"--threads"}},
-                                          {"linear --step 1", {"--step"}}}));
+  const auto first = document("linear deterministic --quick --threads 1");
+  BOOST_TEST((document("deterministic linear --quick --threads 3") == first));
+  BOOST_TEST((document("linear deterministic --quick --seed 2")["items"] != first["items"]));
 }

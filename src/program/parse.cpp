@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "parse.hpp"
+
+#include <algorithm>
+
+#include "comparison/did_you_mean.hpp"
+#include "comparison/refusal.hpp"
+#include "nysalt/version.hpp"
+#include "options_file.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// A text that is empty is a variable of the shell that was never set, not a wish.
+void refuse_empty_texts(CLI::App& command) {
+  const auto objection = [](const std::string& text) { return text.empty() ? "it is empty" : ""; };
+  for (CLI::Option* option : command.get_options()) option->check(objection);
+}
+
+/// The first word, where a command is missing: options follow a command.
+[[noreturn]] void refuse_without_command(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) {
+    refuse("option '{}' before a command: name the command first, one of {}", word,
+           listed(command_names(app)));
+  }
+  if (word == "reproduce") {
+    refuse("the paper's results are made by nysalt_paper of the source tree: run ./dev reproduce there");
+  }
+  refuse("unknown command '{}': {}", word, did_you_mean(word, command_names(app)));
+}
+
+/// The command that is asked for; of a program without commands the program itself.
+const CLI::App& asked_of(const CLI::App& app) {
+  const auto asked = app.get_subcommands();
+  return asked.empty() ? app : *asked.front();
+}
+
+/// Words on the command line that nothing takes. Without a command that is the first of them; behind one it
+/// is the first option, whose value is left over too.
+[[noreturn]] void refuse_extras(const CLI::App& app) {
+  const auto extras = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+  const CLI::App& command = asked_of(app);
+  if (&command == &app && !command_names(app).empty()) refuse_without_command(app, extras.front());
+  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  if (option == extras.end()) {
+    refuse("unknown argument '{}': {} has options only; {}", extras.front(), command.get_name(),
+           help_of(command));
+  }
+  const auto known = option_names(command);
+  const std::string name = option->substr(0, option->find('='));
+  if (std::ranges::count(known, name) > 0) {
+    refuse("option '{}' must stand behind the command: nysalt {} {}", name, command.get_name(), name);
+  }
+  refuse("unknown option '{}': {}", *option, did_you_mean(name, known, help_of(command)));
+}
+
+}  // namespace
+
+std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
+  refuse_empty_texts(app);
+  for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::CallForHelp&) {
+    const CLI::App& command = asked_of(app);
+    return &command == &app ? app.help() : command.help(app.get_name());
+  } catch (const CLI::CallForVersion&) {
+    return fmt::format("{} {}\n", app.get_name(), version);
+  } catch (const CLI::ConfigError& problem) {
+    refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
+  } catch (const CLI::ExtrasError&) {
+    refuse_extras(app);
+  } catch (const CLI::RequiredError& problem) {
+    if (!app.remaining(true).empty()) refuse_extras(app);  // a mistyped option is why
+    refuse("{}; {}", problem.what(), help_of(asked_of(app)));
+  } catch (const CLI::ParseError& problem) {
+    refuse("{}; {}", problem.what(), help_of(asked_of(app)));
+  }
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// Reading of a command line, with errors in our own sentences.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace nysalt::program {
+
+/// The help or the version, if that is asked for; else all options are read. Throws refusal, also for a text
+/// that is empty.
+std::optional<std::string> parse(CLI::App& app, int argc, char** argv);
+
+}  // namespace nysalt::program

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "build_info.hpp"
+#include "comparison/checks.hpp"
+#include "program/as_typed.hpp"
+#include "program/commands.hpp"
+#include "program/options/shared_options.hpp"
+#include "program/options_file.hpp"
+#include "program/output.hpp"
+#include "program/parse.hpp"
+#include "program/ranks.hpp"
+#include "reproduce.hpp"
+
+namespace nysalt::program::paper {
+
+int run_command_line(int argc, char** argv) {
+  common_settings common;
+  common.threads = usual_threads();
+  common.command = as_typed(argc, argv);
+  reproduce_command asked;
+  CLI::App app("The paper's tables and figures beside our own.", "nysalt_paper");
+  app.set_version_flag("--version", version);
+  app.get_formatter()->column_width(34);
+  app.set_config("--config", "", "TOML file of options, as typed without the dashes");
+  app.config_formatter(std::make_shared<options_file>(app));
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.add_option("parts", asked.parts, "linear, deterministic, langevin [all; some ten minutes]");
+  app.add_option("--output", asked.output, "folder for paper.md, paper.html, paper.json and pictures");
+  app.add_flag("--quick", asked.quick, "few trajectories and steps, to see it run");
+  add_common(app, common);
+  app.footer(
+      "Examples:\n"
+      "  nysalt_paper linear\n"
+      "  nysalt_paper deterministic langevin --quick --output results\n\n"
+      "Exit codes: 0 done, 2 bad input.");
+  if (const auto answer = parse(app, argc, argv)) {
+    print(*answer);
+    return done;
+  }
+  common.options = app.config_to_str();
+  require_sound(common);
+  return reproduce(asked, common);
+}
+
+}  // namespace nysalt::program::paper
