@@ -45,6 +45,6 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
                        {"linear --output ''", {"--output", "empty", "nysalt_paper --help"}},
                        {"linear --threads 0", {"--threads"}},
                        {"linear --quik", {"--quik", "did you mean --quick?"}},
-                       {"linear --config absent.toml", {"--config"}},
+                       {"linear --config absent.toml", {"absent.toml"}},
                        {"linear --step 1", {"--step"}}});
 }
