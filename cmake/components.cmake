@@ -1,5 +1,6 @@
 # Which component a header belongs to: core has nysalt/core.hpp and what that includes, itself or through others
-# of ours; what includes Boost.Odeint or MPI is of the component of that name, and all else is of nysalt.
+# of ours; what includes Boost.Odeint or MPI is of the component of that name; nysalt/compare.hpp and
+# nysalt/recommend.hpp are of report, and all else is of nysalt.
 
 # All that a header includes, by others of ours too.
 function(find_includes header result)
@@ -32,6 +33,8 @@ function(find_component header result)
     set(component mpi)
   elseif(";${all}" MATCHES ";boost/numeric/odeint/")
     set(component odeint)
+  elseif(header MATCHES "^nysalt/(compare|recommend)\\.hpp$")
+    set(component report)
   elseif(NOT header STREQUAL "nysalt/core.hpp")
     find_includes(nysalt/core.hpp of_core)
     if(NOT header IN_LIST of_core)
@@ -41,8 +44,8 @@ function(find_component header result)
   set(${result} ${component} PARENT_SCOPE)
 endfunction()
 
-# nysalt_COMPONENT: headers alone, but that nysalt and shared are the compiled library. It is nysalt::COMPONENT where
-# this machine has what it needs.
+# nysalt_COMPONENT: headers alone, but that nysalt and shared are the compiled library, and report the static library
+# of src/CMakeLists.txt. It is nysalt::COMPONENT where this machine has what it needs.
 function(add_component component)
   set(library nysalt_${component})
   set(reach INTERFACE)
@@ -62,6 +65,12 @@ function(add_component component)
     set(reach PUBLIC)
   elseif("nysalt" IN_LIST nysalt_${component}_needs AND NOT TARGET nysalt_nysalt)
     return()
+  elseif(component STREQUAL "report")
+    if(NOT NYSALT_BUILD_REPORT)
+      return()
+    endif()
+    add_library(${library} STATIC)
+    set(reach PUBLIC)
   else()
     add_library(${library} INTERFACE)
   endif()

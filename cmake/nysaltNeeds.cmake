@@ -1,12 +1,13 @@
 # The components of nysalt, and what each needs of the others and of other projects. Read by nysalt's own
 # CMakeLists.txt and, installed, by find_package(nysalt).
 
-set(nysalt_components core nysalt shared learn odeint mpi)
+set(nysalt_components core nysalt shared learn report odeint mpi)
 set(nysalt_compiled nysalt shared)  # one library, static and shared
 set(nysalt_core_needs Eigen3)
 set(nysalt_nysalt_needs core fmt TBB Ceres)  # to be linked with: no header of ours includes them
 set(nysalt_shared_needs core)
 set(nysalt_learn_needs nysalt)
+set(nysalt_report_needs nysalt fmt TBB)  # to be linked with, as above
 set(nysalt_odeint_needs core Boost)
 set(nysalt_mpi_needs nysalt MPI)
 set(nysalt_library_needs core Boost fmt TBB Ceres)  # to compile it

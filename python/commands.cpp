@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "../src/comparison/comparison.hpp"
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
 #include "../src/program/lesson.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"
+#include "../src/report/comparison_report.hpp"
 #include "../src/report/write_file.hpp"
 #include "build_info.hpp"
 #include "computing.hpp"

@@ -71,7 +71,7 @@ std::vector<T> each(const py::object& value, const auto& thing) {
   return all;
 }
 
-void take_learning(const given& arguments, const std::string& prefix, program::learn_settings& how) {
+void take_learning(const given& arguments, const std::string& prefix, learning_options& how) {
   const auto named = [&](const char* name) { return prefix + name; };
   arguments.take(named("trajectories").c_str(), how.trajectories);
   arguments.take(named("horizon").c_str(), how.horizon);
@@ -126,7 +126,7 @@ void given::take(const char* name, std::vector<std::string>& to) const {
     to = each<std::string>(arguments_[name], [&](const auto& one) { return text_in(name, one); });
 }
 
-void given::take(const char* name, program::held_methods& to) const {
+void given::take(const char* name, held_methods& to) const {
   if (!has(name)) return;
   for (const auto& [method_name, text] : py::dict(arguments_[name])) {
     to[text_in(name, method_name)] = text_in(name, text);

@@ -35,7 +35,7 @@ class given {
   void take(const char* name, std::string& to) const;
   void take(const char* name, std::vector<double>& to) const;
   void take(const char* name, std::vector<std::string>& to) const;
-  void take(const char* name, program::held_methods& to) const;
+  void take(const char* name, held_methods& to) const;
   template <class T>
   void take(const char* name, std::optional<T>& to) const {
     if (has(name)) take(name, to.emplace());

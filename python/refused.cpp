@@ -3,37 +3,16 @@
 
 #include <pybind11/pybind11.h>
 
-#include <cctype>
 #include <stdexcept>
 
+#include "../src/comparison/argument_names.hpp"
 #include "../src/comparison/progress.hpp"
 #include "../src/comparison/refusal.hpp"
 
 namespace nysalt::python {
 
 std::string in_words_of_python(const std::string& text) {
-  const std::size_t proposal = text.find("nysalt learn --");
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins = text.compare(i, 2, "--") == 0 && i + 2 < text.size() &&
-                        std::islower(static_cast<unsigned char>(text[i + 2])) != 0;
-    if (!begins || i > proposal) {
-      result += text[i];
-      continue;
-    }
-    std::string name;
-    for (i += 2; i < text.size(); ++i) {
-      const bool goes_on = std::islower(static_cast<unsigned char>(text[i])) != 0 ||
-                           (text[i] == '-' && i + 1 < text.size() &&
-                            std::islower(static_cast<unsigned char>(text[i + 1])) != 0);
-      if (!goes_on) break;
-      name += text[i] == '-' ? '_' : text[i];
-    }
-    --i;
-    result += name;
-    if (name == "force" || name == "equal_cost" || name == "reversible") result += "=True";
-  }
-  return result;
+  return program::with_arguments(text, program::in_python);
 }
 
 void tell_refusals() {

@@ -37,7 +37,7 @@ const std::vector<std::vector<std::string>> layers{
     {"losses/"},
     {"learning/", "learn"},
     {"analysis/"},
-    {"version", "system_declaration", "plugin"},
+    {"version", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
     {"core"},
     {"odeint", "mpi", "nysalt"}};
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "nysalt/compare.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/nysalt.hpp"
 
@@ -117,6 +118,18 @@ int main() {
   fmt::print("after {} steps x = {:+.3f}{}\n", end.steps, end.finish.q[0],
              end.diverged_at ? ", diverged" : "");
   // [/run]
+
+  // [report]
+  const initial_value_problem problem{.system = system, .starts = starts};
+  const comparison_options asked{.methods = {"learned:fg_chin", "chin4a", "pefrl", "verlet_2x"},
+                                 .steps = {0.02, 0.03},  // of a force evaluation
+                                 .equal_cost = true,
+                                 .horizon = 3.6,
+                                 .trajectories = 100,
+                                 .metrics = {"state", "energy"}};
+  report(problem, asked, "page");
+  // [/report]
+  fmt::print("page/report.html\n");
 }
 
 // Expected output:
@@ -141,3 +154,4 @@ int main() {
 // t = 675.0  x = -0.137  H = -0.9370
 // t = 900.0  x = +0.099  H = -0.9370
 // after 10000 steps x = +0.099
+// page/report.html

@@ -190,7 +190,7 @@ void comparison::require_enough_samples() const {
 
 namespace {
 
-json as_json(const learn_settings& how) {
+json as_json(const learning_options& how) {
   return {{"fine_step", how.fine_step ? json(*how.fine_step) : json(nullptr)},
           {"trajectories", how.trajectories},
           {"horizon", how.horizon ? json(*how.horizon) : json(nullptr)},

@@ -2,7 +2,6 @@
 // Methods beside each other: which at which step, how far they err by each metric, and what they cost.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "finding.hpp"
 #include "journal.hpp"
 #include "json.hpp"
+#include "learned_row.hpp"
 #include "method_source.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "prepared_problem.hpp"
@@ -60,7 +60,7 @@ class comparison {
   const prepared_problem& system() const { return *system_; }
   const std::vector<asked_metric>& metrics() const { return metrics_; }
   const std::vector<row>& rows() const { return rows_; }
-  const json& fits() const { return fits_; }
+  const std::vector<learned_row>& fits() const { return fits_; }
   const std::vector<method_source>& schemes() const { return schemes_; }
   const backdrops& behind() const { return behind_; }
   const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
@@ -99,7 +99,7 @@ class comparison {
   /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
   std::optional<double> fine_step_for(double step, const std::vector<tabulated>& methods) const;
   double refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const;
-  void take(std::size_t metric, double step, const group& all, const json& found);
+  void take(std::size_t metric, double step, const group& all, const measured& found);
   void measure_acceptance(std::size_t metric, double step, const group& all, journal& kept);
   void measure_law(std::size_t metric, double step, const group& all, journal& kept);
   statistics_plan statistics_at(std::size_t metric, double step) const;
@@ -123,18 +123,12 @@ class comparison {
   std::vector<method_source> schemes_;             // of the methods that come from files
   std::vector<row> rows_;
   json question_;
-  json fits_ = json::array();
+  std::vector<learned_row> fits_;
   backdrops behind_;
   std::vector<std::string> warnings_;
   std::vector<std::optional<equal_bins>> bins_;  // by metric
   std::vector<gathered_statistics> references_;  // of the metric and step at hand
   progress shown_;
 };
-
-/// The results of a comparison for machines, and for people.
-json document_of(const comparison& all);
-std::string readable(const comparison& all);
-/// Report, table and pictures in a folder. Returns warnings of pictures that could not be drawn.
-std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);
 
 }  // namespace nysalt::program

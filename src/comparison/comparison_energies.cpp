@@ -54,16 +54,16 @@ void comparison::follow_energies(journal& kept) {
   for (row& line : rows_) {
     if (!line.reason.empty()) continue;
     shown_.part(fmt::format("energies of {} at step {:g}", line.method, line.nominal));
-    const json found = kept.once(fmt::format("energies of {} at {}", line.method, line.step), [&] {
+    const std::string part = fmt::format("energies of {} at {}", line.method, line.step);
+    line.energies = kept.once(part, energies_from, [&] {
       sampled_plan plan{.trajectories = plan_at(line.step), .observables = {"energy"}};
       plan.trajectories.count = std::min(plan.trajectories.count, most_trajectories);
       plan.every = std::max<std::int64_t>(1, plan.trajectories.steps / samples);
       std::vector<record> all;
       const auto take = [&](std::int64_t, const record& one) { all.push_back(one); };
       run(*system_, *line.coefficients, plan, take, {});
-      return to_json(course_of(all, line.step * static_cast<double>(plan.every)));
+      return course_of(all, line.step * static_cast<double>(plan.every));
     });
-    line.energies = energies_from(found);
   }
 }
 

@@ -93,7 +93,7 @@ double comparison::evaluations_expected(const row& line) const {
 /// evaluations, times the cube of their number.
 double comparison::work_of_learning(const row& line) const {
   const auto parameters = static_cast<double>(family_named(*families_.at(line.method).family).parameters());
-  const learn_settings& how = options_.learning;
+  const learning_options& how = options_.learning;
   const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon_at(line.step);
   const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
   return 2e7 * std::pow(parameters, 3.0) + time * (reference + 1000.0 * evaluations_expected(line));
@@ -118,24 +118,19 @@ void comparison::learn(row& line, journal& kept) {
   const auto where = placement_in(source, *system_, placement_asked(options_.placement));
   const std::string part = fmt::format("{} learned at {}", line.method, line.step);
   if (kept.has(part)) shown_.skip(work_of_learning(line));
-  const json found = kept.once(part, [&] {
+  const learned_row found = kept.once(part, learned_row_from, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
-    const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(line));
-    json fit{{"method", line.method}};
-    fit.update(fit_json(learned.fit));
-    return json{{"fit", fit}, {"theta", theta_of(learned.fit)}};
+    return learned_row_of(line.method, learn_with(*system_, plan, shown_, work_of_learning(line)).fit);
   });
-  fits_.push_back(found.at("fit"));
+  fits_.push_back(found);
   const run_time_family family = placed(*source.family, where);
-  const auto theta = found.at("theta").get<std::vector<double>>();
+  const auto theta = found.theta();
   const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   line.coefficients.emplace(
       family.name, family.letters, family.coefficients(parameters),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
-  line.gains_nothing = found.at("fit").at("verdict") == std::string(to_string(verdict::nothing_gained));
-  if (found.at("fit").at("usable").get<bool>()) return;
-  line.reason = "the fit is not usable: ";
-  line.reason += found.at("fit").at("reason").get<std::string>();
+  line.gains_nothing = found.gains_nothing;
+  if (!found.usable) line.reason = "the fit is not usable: " + found.reason;
 }
 
 std::vector<asked_metric> comparison::along_paths() const {
@@ -187,12 +182,12 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
 
 namespace {
 
-json findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
-  json result = json::array();
+std::vector<finding> findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
+  std::vector<finding> result;
   for (const method_error& method : all) {
     finding one{.value = method.error, .spread = method.spread, .groups = means_of_groups(method.of_each)};
     one.lose(method.diverged_at, trajectories);
-    result.push_back(to_json(one));
+    result.push_back(std::move(one));
   }
   return result;
 }
@@ -206,23 +201,21 @@ bool is_conserved(const trajectory_errors_result& found) {
   return found.null_model && found.null_model->mean <= std::max(noise, rounding);
 }
 
-json backdrop_json(const trajectory_errors_result& found) {
+backdrop backdrop_of(const trajectory_errors_result& found) {
   backdrop result{.reference = found.reference};
   if (found.reference_error) result.reference_error = found.reference_error->mean;
   if (!is_conserved(found)) {
     if (found.null_model) result.null_model = found.null_model->mean;
     result.predictable_until = found.predictable_until;
   }
-  return to_json(result);
+  return result;
 }
 
 }  // namespace
 
-/// What a part of the journal says of one metric at one step.
-void comparison::take(std::size_t metric, double step, const group& all, const json& found) {
-  behind_[{metric, step}] = backdrop_from(found.at("behind"));
-  const json& findings = found.at("findings");
-  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = finding_from(findings.at(k));
+void comparison::take(std::size_t metric, double step, const group& all, const measured& found) {
+  behind_[{metric, step}] = found.behind;
+  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = found.findings.at(k);
 }
 
 void comparison::measure_paths(double step, const group& all, journal& kept) {
@@ -233,7 +226,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
   } else {
     shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
   }
-  const json found = kept.once(part, [&] {
+  const auto found = kept.once(part, all_measured_from, [&] {
     std::vector<tabulated> methods;
     for (const row* line : all) methods.push_back(*line->coefficients);
     constexpr double perturbation = 1e-6;
@@ -242,10 +235,9 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .fine_step = fine_step_for(step, methods),
                            .null_model = true,
                            .perturbation = perturbation};
-    json result = json::array();
+    std::vector<measured> result;
     for (const auto& errors : system_->errors(methods, plan, shown_.counter(options_.trajectories))) {
-      result.push_back({{"behind", backdrop_json(errors)},
-                        {"findings", findings_of(errors.methods, options_.trajectories)}});
+      result.push_back({backdrop_of(errors), findings_of(errors.methods, options_.trajectories)});
     }
     return result;
   });
@@ -257,16 +249,17 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
 
 void comparison::measure_acceptance(std::size_t metric, double step, const group& all, journal& kept) {
   shown_.part(fmt::format("acceptance at step {:g}", step));
-  const json found = kept.once(fmt::format("{} at {}", metrics_[metric].text(), step), [&] {
-    json findings = json::array();
+  const std::string part = fmt::format("{} at {}", metrics_[metric].text(), step);
+  const measured found = kept.once(part, measured_from, [&] {
+    measured result;
     for (const row* line : all) {
       const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), options_.hmc_temperature,
                                                 shown_.counter(options_.trajectories));
       finding one{.value = accepted.probability, .groups = means_of_groups(accepted.of_each)};
       one.lose(accepted.diverged_at, options_.trajectories);
-      findings.push_back(to_json(one));
+      result.findings.push_back(std::move(one));
     }
-    return json{{"behind", to_json(backdrop{})}, {"findings", findings}};
+    return result;
   });
   take(metric, step, all, found);
 }

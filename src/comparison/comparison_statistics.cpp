@@ -227,13 +227,12 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   const std::string name = metrics_[metric].text();
   const std::string part = fmt::format("reference of {} at {}", name, step);
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
-  json found{{"behind", kept.once(part, [&] { return to_json(behind_law(metric, step)); })},
-             {"findings", json::array()}};
+  measured found{.behind = kept.once(part, backdrop_from, [&] { return behind_law(metric, step); })};
   for (const row* line : all) {
     const std::string line_part = fmt::format("{} of {} at {}", name, line->method, step);
     if (kept.has(line_part)) shown_.skip(work_of_law(line->evaluations_per_time));
-    found["findings"].push_back(
-        kept.once(line_part, [&] { return to_json(law_of(metric, *line, references_at(metric, step))); }));
+    found.findings.push_back(kept.once(line_part, finding_from,
+                                       [&] { return law_of(metric, *line, references_at(metric, step)); }));
   }
   take(metric, step, all, found);
 }

@@ -32,7 +32,7 @@ inline void fix_parameter(const run_time_family& family, const std::string& text
 }
 
 /// Throws refusal, or std::invalid_argument where a fixed value is out of range.
-inline fit_options options_for(const run_time_family& family, const learn_settings& how, int threads) {
+inline fit_options options_for(const run_time_family& family, const learning_options& how, int threads) {
   fit_options options;
   options.threads = threads;
   options.coordinates = coordinates_named(how.coordinates);

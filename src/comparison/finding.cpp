@@ -107,6 +107,14 @@ void finding::lose(const std::vector<diverged_trajectory>& lost, std::int64_t tr
   reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
 }
 
+distribution_of_errors spread_of(const finding& outcome) {
+  if (outcome.spread) return *outcome.spread;
+  distribution_of_errors none;
+  none.quantiles.fill(std::numeric_limits<double>::quiet_NaN());
+  none.largest.deciding = std::numeric_limits<double>::quiet_NaN();
+  return none;
+}
+
 json to_json(const std::vector<diverged_trajectory>& lost) {
   json result = json::array();
   for (const auto& one : lost) result.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
@@ -177,6 +185,27 @@ backdrop backdrop_from(const json& text) {
                    .floor = taken(text, "floor")};
   if (text.contains("law")) context.law = law_from(text.at("law"));
   return context;
+}
+
+json to_json(const measured& all) {
+  json findings = json::array();
+  for (const finding& one : all.findings) findings.push_back(to_json(one));
+  return {{"behind", to_json(all.behind)}, {"findings", findings}};
+}
+json to_json(const std::vector<measured>& all) {
+  json result = json::array();
+  for (const measured& one : all) result.push_back(to_json(one));
+  return result;
+}
+measured measured_from(const json& text) {
+  measured result{.behind = backdrop_from(text.at("behind"))};
+  for (const auto& one : text.at("findings")) result.findings.push_back(finding_from(one));
+  return result;
+}
+std::vector<measured> all_measured_from(const json& text) {
+  std::vector<measured> result;
+  for (const auto& one : text) result.push_back(measured_from(one));
+  return result;
 }
 
 }  // namespace nysalt::program

@@ -42,6 +42,9 @@ struct finding {
   void lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories);
 };
 
+/// NaN where there is none.
+distribution_of_errors spread_of(const finding& outcome);
+
 /// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
 /// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as
 /// well as by all trajectories, and a journal has room for so many numbers.
@@ -64,6 +67,12 @@ struct backdrop {
   std::optional<drawn_law> law{};             // of the reference
 };
 
+/// All methods at one step by one metric, in the order of their rows.
+struct measured {
+  backdrop behind{};
+  std::vector<finding> findings{};
+};
+
 /// By the index of the metric, and the size of the step.
 using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
 
@@ -71,8 +80,12 @@ json to_json(const std::vector<diverged_trajectory>& lost);
 json to_json(const finding& outcome);
 json to_json(const energy_course& course);
 json to_json(const backdrop& context);
+json to_json(const measured& all);
+json to_json(const std::vector<measured>& all);
 finding finding_from(const json& text);
 energy_course energies_from(const json& text);
 backdrop backdrop_from(const json& text);
+measured measured_from(const json& text);
+std::vector<measured> all_measured_from(const json& text);
 
 }  // namespace nysalt::program

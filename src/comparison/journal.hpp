@@ -30,12 +30,12 @@ class journal {
   bool has(const std::string& part) const { return found_.contains(part); }
   /// Nothing was finished, now or before.
   bool is_empty() const { return found_.empty() && !has_written_; }
-  /// What a part came to, by its name: if it is not there, work() tells, and that is kept. Throws refusal if
-  /// it cannot be written.
-  json once(const std::string& part, const auto& work) {
-    if (const auto at = found_.find(part); at != found_.end()) return at->second;
-    const json result = work();
-    keep(part, result);
+  /// The result of a part, by the name of the part: read(json) of what was kept, or else that of work(), of
+  /// which to_json() is kept. Throws refusal if it cannot be written.
+  auto once(const std::string& part, const auto& read, const auto& work) {
+    if (const auto at = found_.find(part); at != found_.end()) return read(at->second);
+    auto result = work();
+    if (!path_.empty()) keep(part, to_json(result));
     return result;
   }
   /// Takes the file away: all is finished, and written elsewhere. No other rank needs to call it.

@@ -17,7 +17,7 @@
 
 namespace nysalt::program {
 
-void require_sound(const learn_settings& how, const std::string& prefix) {
+void require_sound(const learning_options& how, const std::string& prefix) {
   const std::string trajectories = prefix + "trajectories";
   const std::string horizon = prefix + "horizon";
   require_at_least_one(trajectories.c_str(), how.trajectories);
@@ -104,7 +104,7 @@ std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_pl
 }
 
 learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
-                    const learn_settings& how, const common_settings& common) {
+                    const learning_options& how, const common_settings& common) {
   return {.family = family,
           .where = where,
           .step = step,
@@ -123,39 +123,6 @@ std::vector<double> theta_of(const fit_summary& fit) {
   std::vector<double> theta;
   for (const auto& parameter : fit.parameters) theta.push_back(parameter.value);
   return theta;
-}
-
-json by_name(const fit_summary& fit, double fitted_parameter::*field) {
-  json result = json::object();
-  for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
-  return result;
-}
-
-json fit_json(const fit_summary& fit) {
-  return {{"family", fit.family},
-          {"parameters", by_name(fit, &fitted_parameter::value)},
-          {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
-          {"step", fit.step},
-          {"objective", fit.loss_name},
-          {"loss", fit.loss},
-          {"held_out_loss", fit.is_of_data ? json(fit.held_out_loss) : json(nullptr)},
-          {"one_step_error", fit.one_step_error},
-          {"trajectory_error", fit.trajectory_error},
-          {"samples", fit.samples},
-          {"usable", fit.usable},
-          {"verdict", std::string(to_string(fit.verdict()))},
-          {"rival", fit.rival.empty() ? json(nullptr) : json(fit.rival)},
-          {"rival_loss", fit.rival.empty() ? json(nullptr) : json(fit.rival_loss)},
-          {"rival_loss_noise", fit.rival.empty() ? json(nullptr) : json(fit.rival_noise)},
-          {"trial", to_json(fit.trial)},
-          {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
-          {"seconds", fit.data_seconds + fit.fit_seconds},
-          {"data_seconds", fit.data_seconds},
-          {"fit_seconds", fit.fit_seconds},
-          {"learning_evaluations", fit.learning_evaluations},
-          {"expected_excess", fit.is_of_data ? json(fit.expected_excess) : json(nullptr)},
-          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)},
-          {"deciding_trajectories", fit.is_of_data ? json(fit.deciding_trajectories) : json(nullptr)}};
 }
 
 }  // namespace nysalt::program

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "json.hpp"
+#include "learned_row.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"
 
 namespace nysalt::program {
 
 /// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
-void require_sound(const learn_settings& how, const std::string& prefix);
+void require_sound(const learning_options& how, const std::string& prefix);
 
 /// Families of more than two parameters are learned at half the step and at three quarters before. Throws
 /// refusal for what cannot be learned, before any work is done.
@@ -30,15 +30,9 @@ std::vector<double> theta_of(const fit_summary& fit);
 
 /// Training and held-out seeds are the roles of the user's.
 learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
-                    const learn_settings& how, const common_settings& common);
+                    const learning_options& how, const common_settings& common);
 
 /// Before learning or running; with a burn-in that can take a moment.
 void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown);
-
-/// A field of each parameter, by its name.
-json by_name(const fit_summary& fit, double fitted_parameter::*field);
-
-/// What both commands tell of a fit.
-json fit_json(const fit_summary& fit);
 
 }  // namespace nysalt::program

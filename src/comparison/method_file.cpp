@@ -2,16 +2,15 @@
 #include "method_file.hpp"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <utility>
 
-#include "build_info.hpp"
 #include "catalogue.hpp"
 #include "did_you_mean.hpp"
-#include "learning.hpp"
+#include "document_reader.hpp"
+#include "method_file_format.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/thermostatted.hpp"
@@ -21,21 +20,6 @@
 namespace nysalt::program {
 
 namespace {
-
-constexpr int known_version = 1;
-constexpr int with_placement = 2;  // of a scheme that says where its letters O are
-constexpr int as_curve = 3;        // of a scheme with several steps, perhaps with a placement
-constexpr const char* scheme_format = "nysalt scheme";
-constexpr const char* table_format = "nysalt table";
-
-/// Of every member of a document but the checksum itself, as the document would be written without spaces.
-std::string checksum(json document) {
-  document.erase("checksum");
-  const std::string text = document.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return fmt::format("crc32:{:08x}", crc.checksum());
-}
 
 std::string contents_of(const std::filesystem::path& path) {
   constexpr std::streamsize most = 1 << 20;  // bytes: schemes and tables are far shorter
@@ -51,43 +35,6 @@ std::string contents_of(const std::filesystem::path& path) {
   return text;
 }
 
-/// Members of a JSON object, each of its type, or a refusal that names file and member.
-class reader {
- public:
-  reader(const json& document, std::string file) : document_(document), file_(std::move(file)) {}
-
-  const json& member(const char* key) const {
-    if (!document_.contains(key)) refuse("{}: the member \"{}\" is missing", file_, key);
-    return document_[key];
-  }
-  std::string text(const char* key) const {
-    if (!member(key).is_string()) refuse("{}: \"{}\" must be a text", file_, key);
-    return member(key).get<std::string>();
-  }
-  double number(const char* key) const { return number(member(key), key); }
-  double number(const json& value, const char* key) const {
-    if (!value.is_number() || !std::isfinite(value.get<double>())) {
-      refuse("{}: \"{}\" must hold finite numbers", file_, key);
-    }
-    return value.get<double>();
-  }
-  std::vector<double> numbers(const char* key) const {
-    if (!member(key).is_array()) refuse("{}: \"{}\" must be a list of numbers", file_, key);
-    std::vector<double> result;
-    for (const auto& value : member(key)) result.push_back(number(value, key));
-    return result;
-  }
-  bool flag(const char* key) const {
-    if (!member(key).is_boolean()) refuse("{}: \"{}\" must be true or false", file_, key);
-    return member(key).get<bool>();
-  }
-  const std::string& file() const { return file_; }
-
- private:
-  const json& document_;
-  std::string file_;
-};
-
 /// Runs f; what the library refuses in it gets the file's name.
 auto in_file(const std::string& file, const auto& f) {
   try {
@@ -99,10 +46,10 @@ auto in_file(const std::string& file, const auto& f) {
 
 /// By name: the order of members means nothing in JSON. Each holds one number, or one for each step.
 std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_time_family& family,
-                                           std::size_t steps, bool is_curve, const reader& read) {
+                                           std::size_t steps, bool is_curve, const document_reader& read) {
   if (!parameters.is_object()) refuse("{}: \"parameters\" must be an object", read.file());
   std::vector<Eigen::VectorXd> thetas(steps, Eigen::VectorXd::Zero(family.parameters()));
-  const reader values(parameters, read.file());
+  const document_reader values(parameters, read.file());
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     const char* name = family.parameter_names[static_cast<std::size_t>(k)].c_str();
     if (!is_curve) {
@@ -121,7 +68,7 @@ std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_tim
   return thetas;
 }
 
-placement placement_in(const reader& read) {
+placement placement_in(const document_reader& read) {
   const std::string name = read.text("placement");
   for (const auto known : placements) {
     if (name == to_string(known)) return known;
@@ -130,7 +77,7 @@ placement placement_in(const reader& read) {
 }
 
 /// Nothing where the system tells no energy, and where the loss asked for no data.
-std::optional<energy_range> energies_in(const reader& read) {
+std::optional<energy_range> energies_in(const document_reader& read) {
   if (read.member("energy_range").is_null() || read.text("objective") == "covariance") return {};
   const auto ends = read.numbers("energy_range");
   if (ends.size() != 2 || !(ends[0] <= ends[1])) {
@@ -140,7 +87,7 @@ std::optional<energy_range> energies_in(const reader& read) {
 }
 
 /// One number, or one for each step where they differ.
-std::size_t trajectories_in(const reader& read) {
+std::size_t trajectories_in(const document_reader& read) {
   const auto all = read.member("trajectories").is_array() ? read.numbers("trajectories")
                                                           : std::vector<double>{read.number("trajectories")};
   const bool are_counts = std::ranges::all_of(all, [](double n) { return n >= 1.0 && n <= 1e15; });
@@ -148,7 +95,7 @@ std::size_t trajectories_in(const reader& read) {
   return static_cast<std::size_t>(std::ranges::min(all));
 }
 
-scheme scheme_in(const json& document, const reader& read) {
+scheme scheme_in(const json& document, const document_reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
         "{}: its checksum does not fit its contents, so it was edited or damaged; learn it again, or write "
@@ -170,7 +117,7 @@ scheme scheme_in(const json& document, const reader& read) {
     refuse("{}: it has both \"step\" and \"steps\": one is not meant", read.file());
   }
   if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
-  const reader of_system(read.member("system"), read.file());
+  const document_reader of_system(read.member("system"), read.file());
   const auto trajectories = trajectories_in(read);
   const auto energies = energies_in(read);
   return in_file(read.file(), [&] {
@@ -207,7 +154,7 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
   return listed(texts);
 }
 
-tabulated table_in(const json& document, const reader& read) {
+tabulated table_in(const json& document, const document_reader& read) {
   if (document.contains("placement")) {
     refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
   }
@@ -278,70 +225,6 @@ std::string source_of_system(const json& parameters) {
   return known.dump();
 }
 
-std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
-                        const learn_plan& plan) {
-  const fit_summary& fit = learned.front().fit;
-  const bool is_curve = learned.size() > 1;
-  json of_system = system.parameters();
-  of_system["description"] = system.description();
-  // One value, or a list with one for each step.
-  const auto at_steps = [&](const auto& value_of) {
-    if (!is_curve) return json(value_of(fit));
-    json all = json::array();
-    for (const auto& one : learned) all.push_back(value_of(one.fit));
-    return all;
-  };
-  const auto by_parameter = [&](double fitted_parameter::*value) {
-    json all = json::object();
-    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-      all[fit.parameters[k].name] =
-          at_steps([&](const fit_summary& one) { return one.parameters[k].*value; });
-    }
-    return all;
-  };
-  const auto not_usable =
-      std::find_if(learned.begin(), learned.end(), [](const learned_scheme& one) { return !one.fit.usable; });
-  std::optional<energy_range> energies = learned.front().energies;
-  for (const auto& one : learned) {
-    if (!energies || !one.energies) continue;
-    energies->include(one.energies->low);
-    energies->include(one.energies->high);
-  }
-  const auto differs = [&](const learned_scheme& one) { return one.fit.trajectories != fit.trajectories; };
-  const json trajectories = std::ranges::any_of(learned, differs)
-                                ? at_steps([](const fit_summary& one) { return one.trajectories; })
-                                : json(fit.trajectories);
-  json document{
-      {"format", scheme_format},
-      {"version", is_curve     ? as_curve
-                  : plan.where ? with_placement
-                               : known_version},
-      {"family", fit.family},
-      {"parameters", by_parameter(&fitted_parameter::value)},
-      {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
-      {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
-      {"system", of_system},
-      {"energy_range", nullptr},
-      {"objective", fit.loss_name},
-      {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
-      {"held_out_loss",
-       fit.is_of_data ? at_steps([](const fit_summary& one) { return one.held_out_loss; }) : json(nullptr)},
-      {"usable", not_usable == learned.end()},
-      {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
-      {"coordinates", fit.coordinates},
-      {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
-      {"starts", fit.ensemble},
-      {"trajectories", trajectories},
-      {"horizon", plan.how.horizon_at(learned.back().fit.step)},
-      {"seed", fit.seed},
-      {"held_out_seed", fit.held_out_seed},
-      {"versions", {{"nysalt", version}}}};
-  if (energies) document["energy_range"] = {energies->low, energies->high};
-  if (plan.where) document["placement"] = to_string(*plan.where);
-  document["checksum"] = checksum(document);
-  return text_of(document);
-}
-
 method_file read_method_file(const std::filesystem::path& path) {
   return method_file_in(contents_of(path), path.string());
 }
@@ -365,7 +248,7 @@ method_file method_file_in(const std::string& text, const std::string& file) {
     refuse("{}: this is neither a scheme nor a table: its \"format\" must be \"{}\" or \"{}\"", file,
            scheme_format, table_format);
   }
-  const reader read(document, file);
+  const document_reader read(document, file);
   const double file_version = read.number("version");
   const bool is_scheme = format == scheme_format;
   const bool is_placed = is_scheme && document.contains("placement");

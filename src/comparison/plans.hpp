@@ -36,7 +36,7 @@ struct learn_plan {
   std::string family;
   std::optional<placement> where;  // of the letters O, in a bath
   double step;
-  learn_settings how;
+  learning_options how;
   std::uint64_t seed;
   std::uint64_t held_out_seed;
   int threads;

@@ -96,8 +96,8 @@ class prepared_problem {
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
   /// Throws refusal for what cannot be learned, before any work is done.
-  void require_learnable(const std::string& family, std::optional<placement> where, const learn_settings& how,
-                         double step) const;
+  void require_learnable(const std::string& family, std::optional<placement> where,
+                         const learning_options& how, double step) const;
   /// Trajectories to learn from that fit into memory.
   std::int64_t most_trajectories(const learn_plan& plan) const;
   /// Makes the data. What is made refers to this.

@@ -16,7 +16,7 @@
 namespace nysalt::program {
 
 void prepared_problem::require_learnable(const std::string& name, std::optional<placement> where,
-                                         const learn_settings& how, double step) const {
+                                         const learning_options& how, double step) const {
   const run_time_family family = placed(name, where);
   require_served(family.letters);
   reference().fine_step(step, how.fine_step, noise_parts(family));

@@ -26,6 +26,8 @@ class recommendation {
 
   void learn_and_rank();
 
+  /// The contest at the cost or the error that was asked for, once it is ranked.
+  const contest& asked() const { return by_evaluations_ ? *by_evaluations_ : *by_seconds_; }
   bool has_result() const { return asked().has_result(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
@@ -81,7 +83,6 @@ class recommendation {
   bool is_heavy(const contest& among) const;
   void warn_of_reference(const contest& among);
 
-  const contest& asked() const { return by_evaluations_ ? *by_evaluations_ : *by_seconds_; }
   std::string advice() const;
   std::string advice_of(const contest& among) const;
   std::string advice_on_seconds() const;

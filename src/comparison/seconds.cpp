@@ -13,8 +13,8 @@ namespace nysalt::program {
 namespace {
 
 /// In turns, so that a machine that slows down slows all; each job is long enough for the clock.
-std::vector<timed_job> measured(const prepared_problem& system, const std::vector<timed_method>& methods,
-                                double seconds) {
+std::vector<timed_job> timed(const prepared_problem& system, const std::vector<timed_method>& methods,
+                             double seconds) {
   constexpr double job = 1e-3;
   constexpr std::int64_t most_trajectories = 64;
   std::vector<std::function<void()>> jobs;
@@ -50,7 +50,7 @@ std::vector<timed_job> measured(const prepared_problem& system, const std::vecto
 std::vector<timed_job> seconds_per_time(const prepared_problem& system,
                                         const std::vector<timed_method>& methods, double seconds) {
   std::vector<timed_job> result;
-  on_first(world(), [&] { result = measured(system, methods, seconds); });
+  on_first(world(), [&] { result = timed(system, methods, seconds); });
   broadcast(world(), result);
   return result;
 }

@@ -39,7 +39,7 @@ struct system_settings {
 
 struct learn_command {
   system_settings system;
-  learn_settings learning;
+  learning_options learning;
   /// Which family wins where nothing is known of a system: at equal evaluations, on 16 settings of the eight
   /// bundled systems, its error is 2.0 times that of the best without rotation in the geometric mean, less
   /// than of any other (fg4, fg_chin 2.3; nystrom 160); at equal seconds 1.2 times, and 2.5 times at most. It

@@ -8,8 +8,9 @@
 
 #include "build_info.hpp"
 #include "comparison/catalogue.hpp"
-#include "comparison_output.hpp"
 #include "comparison_pictures.hpp"
+#include "comparison_report.hpp"
+#include "comparison_tables.hpp"
 #include "machine.hpp"
 #include "manifest.hpp"
 #include "nysalt/learning/fit_summary.hpp"
@@ -29,7 +30,7 @@ void add_question(page& report, const comparison& all) {
         "Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
         "steps are equal cost.");
   }
-  report.code(all.common().command);
+  if (!all.common().command.empty()) report.code(all.common().command);
 }
 
 std::string listed_front(const std::vector<const row*>& front) {
@@ -76,7 +77,7 @@ std::string repaid_after(const comparison& all, const cost_at_level& cost,
   });
   double spent = 0.0;
   for (const auto& fit : all.fits()) {
-    if (fit["method"] == cost.method) spent = std::max(spent, fit["learning_evaluations"].get<double>());
+    if (fit.method == cost.method) spent = std::max(spent, fit.evaluations);
   }
   if (best == costs.end() || spent == 0.0 || cost.evaluations.kind != crossing_kind::found) return "-";
   const double saved = best->evaluations.x - cost.evaluations.x;
@@ -164,10 +165,10 @@ void add_energies(page& report, const comparison& all) {
 }
 
 /// "usable", "not usable", or "nothing gained over chin4a".
-std::string verdict_of(const json& fit) {
-  const auto verdict = fit["verdict"].get<std::string>();
-  const bool has_rival = verdict == to_string(nysalt::verdict::nothing_gained) && fit["rival"].is_string();
-  return has_rival ? verdict + " over " + fit["rival"].get<std::string>() : verdict;
+std::string verdict_of(const learned_row& fit) {
+  if (!fit.usable) return std::string(to_string(verdict::not_usable));
+  if (!fit.gains_nothing) return std::string(to_string(verdict::usable));
+  return std::string(to_string(verdict::nothing_gained)) + (fit.rival.empty() ? "" : " over " + fit.rival);
 }
 
 void add_fits(page& report, const comparison& all) {
@@ -177,15 +178,14 @@ void add_fits(page& report, const comparison& all) {
       {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict"});
   for (const auto& fit : all.fits()) {
     std::string parameters;
-    for (const auto& [name, value] : fit["parameters"].items()) {
-      parameters += fmt::format("{}{} = {:.6g}", parameters.empty() ? "" : ", ", name, value.get<double>());
+    for (const auto& [name, value] : fit.parameters) {
+      parameters += fmt::format("{}{} = {:.6g}", parameters.empty() ? "" : ", ", name, value);
     }
-    const auto number = [](const json& x) {
-      return x.is_number() ? fmt::format("{:.3g}", x.get<double>()) : std::string("-");
+    const auto number = [](double x) {
+      return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
     };
-    fits.add({fit["method"].get<std::string>(), number(fit["step"]), parameters,
-              number(fit["one_step_error"]), number(fit["learning_evaluations"]), number(fit["seconds"]),
-              verdict_of(fit)});
+    fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error), number(fit.evaluations),
+              number(fit.seconds), verdict_of(fit)});
   }
   report.table(std::move(fits));
 }
@@ -208,7 +208,7 @@ void add_files(page& report, const comparison& all) {
   table files({"method from a file", "step size", "parameters", "letters", "coefficients"});
   for (const row& line : all.rows()) {
     const bool is_fitted =
-        std::ranges::any_of(all.fits(), [&](const json& fit) { return fit["method"] == line.method; });
+        std::ranges::any_of(all.fits(), [&](const learned_row& fit) { return fit.method == line.method; });
     if (!line.is_learned || is_fitted || !line.coefficients) continue;
     std::string numbers;
     for (const double c : line.coefficients->coefficients()) {

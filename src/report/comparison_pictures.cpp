@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "comparison_output.hpp"
+#include "comparison_tables.hpp"
 #include "work_precision.hpp"
 
 namespace nysalt::program {

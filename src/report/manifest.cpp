@@ -30,6 +30,7 @@ json versions() {
 }
 
 void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more) {
+  if (common.command.empty()) return;
   json manifest{{"file", file.filename().string()},
                 {"command", common.command},
                 {"options", common.options},

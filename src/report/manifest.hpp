@@ -19,6 +19,7 @@ std::filesystem::path manifest_of(std::filesystem::path file);
 json versions();
 
 /// FILE.manifest.json beside FILE: command, seed, versions, compiler, flags, time, and the members of `more`.
+/// Without a command, as of callers of the library, there is no manifest.
 void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more = {});
 
 /// A whole file and its manifest.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "comparison/comparison.hpp"
+#include "report/comparison_report.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -118,7 +118,7 @@ void add_placement(CLI::App& command, std::string& placement) {
                      "of O in a word that has none: end, symmetric or middle [symmetric]");
 }
 
-void add_search(CLI::App& command, learn_settings& how, const std::string& prefix) {
+void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
@@ -128,12 +128,12 @@ void add_search(CLI::App& command, learn_settings& how, const std::string& prefi
   add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
 }
 
-void add_horizon(CLI::App& command, learn_settings& how, const std::string& prefix) {
+void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(command, prefix + "horizon", how.horizon,
              "length of each [0.5, or ten steps if that is longer]");
 }
 
-void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix) {
+void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(command, "--fine-step", how.fine_step,
              "of the reference; must divide the step [omega h <= 5e-3]");
   add_horizon(command, how, prefix);

@@ -24,8 +24,8 @@ std::vector<CLI::Option*> add_system(
 void add_placement(CLI::App& command, std::string& placement);
 
 /// How to search, and what to learn from; some options begin with the prefix, "--" or "--learn-".
-void add_search(CLI::App& command, learn_settings& how, const std::string& prefix);
-void add_horizon(CLI::App& command, learn_settings& how, const std::string& prefix);
-void add_learning(CLI::App& command, learn_settings& how, const std::string& prefix);
+void add_search(CLI::App& command, learning_options& how, const std::string& prefix);
+void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix);
+void add_learning(CLI::App& command, learning_options& how, const std::string& prefix);
 
 }  // namespace nysalt::program

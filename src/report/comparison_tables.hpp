@@ -18,6 +18,9 @@ std::int64_t peak_memory();
 /// What the values of a metric are, as axes say it.
 std::string quantity(const comparison& all, std::size_t metric);
 
+/// The marks of a finding, joined by commas.
+std::string joined_marks(const comparison& all, std::size_t metric, const row& line);
+
 /// The rows of a metric, and what costs nothing: null model and floor.
 table rows_of(const comparison& all, std::size_t metric);
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);
@@ -28,7 +31,4 @@ table equal_cost_table(const comparison& all, std::size_t metric);
 /// One sentence for each mark that is there, and for each row without a value.
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t metric);
 std::vector<std::string> reasons_of(const comparison& all, std::size_t metric);
-/// Every row by every metric.
-std::string csv_of(const comparison& all);
-
 }  // namespace nysalt::program

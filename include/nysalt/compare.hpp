@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+// Methods beside each other on a system of one's own: errors, costs, and the page that reports both.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/comparison_options.hpp"
+#include "nysalt/system_declaration.hpp"
+
+namespace nysalt {
+
+/// One method at one step by one metric.
+struct compared_method {
+  std::string method;           ///< as it was asked for
+  double step;                  ///< size of a whole step
+  std::string metric;           ///< as it was asked for, with the observable
+  bool is_learned;              ///< by this comparison, or in a scheme
+  double evaluations_per_time;  ///< force evaluations of one trajectory per unit time
+  double seconds_per_time;      ///< of one trajectory per unit time, the least that was timed
+  estimate value;         ///< the error (of acceptance the probability) with its standard error; NaN: none
+  std::int64_t diverged;  ///< trajectories that did
+  std::string reason;     ///< why there is no value; else empty
+};
+
+/// What compare() found.
+class comparison {
+ public:
+  class measurement;  ///< how the library holds what was found
+  /// Made by compare().
+  explicit comparison(std::shared_ptr<const measurement> found) : found_(std::move(found)) {}
+
+  /// Every method at every step by every metric.
+  std::vector<compared_method> rows() const;
+  /// The tables that the program prints.
+  std::string text() const;
+  /// A JSON document of all that was found: what `nysalt compare --json` prints.
+  std::string json() const;
+  /// What should be known before the numbers are used, a sentence each.
+  std::vector<std::string> warnings() const;
+  /// Writes report.html, report.md, report.json, rows.csv, and pictures where gnuplot is installed. The
+  /// folder is made if it is not there. Throws std::runtime_error if it cannot be written.
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  std::shared_ptr<const measurement> found_;
+};
+
+/// Errors and costs of methods on a system from starts by its law; in a warm bath of systems with frequency
+/// bands, from the law in the bath. Where the frequency is 0 it is found along 64 starts. The force is
+/// checked against the potential first. Progress is shown on a terminal. Throws std::invalid_argument, naming
+/// the option, for what cannot be, before any work is done. Cost: that of the trajectories, of a reference
+/// some ten times finer, and of a fit for each learned method and step.
+comparison compare(const initial_value_problem& problem, const comparison_options& options,
+                   const execution_options& execution = {});
+
+/// The same, and what was found as a page with tables and pictures in a folder.
+comparison report(const initial_value_problem& problem, comparison_options options,
+                  const std::filesystem::path& folder, const execution_options& execution = {});
+
+}  // namespace nysalt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+// How to learn, to compare and to recommend: plain values, judged when they are used.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nysalt {
+
+/// How work is done, whatever the work is.
+struct execution_options {
+  std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
+  int threads = 1;         ///< results are the same bits for any number
+  bool force = false;      ///< a scheme is taken at another step or system than it was learned for
+};
+
+/// How a family is learned at a step that is given elsewhere.
+struct learning_options {
+  std::optional<double> fine_step{};  ///< of the reference; must divide the step. None: by the frequency
+  std::int64_t trajectories = 100;    ///< to learn from, and as many to judge by
+  std::optional<double> horizon{};    ///< of each trajectory. None: 0.5, or ten steps if that is longer
+  std::string coordinates = "qp";     ///< of the errors: qp, modes or energy
+  std::vector<std::string> fix{};     ///< parameters of the family that are not learned: "name=value"
+  std::string loss = "state";         ///< state:K, energy:K or covariance, see loss_named()
+  std::int64_t random_starts = 0;     ///< of the search, beside those of the family
+
+  /// The horizon at a step, where none is asked for too.
+  double horizon_at(double step) const { return horizon.value_or(std::max(0.5, 10.0 * step)); }
+};
+
+/// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
+using held_methods = std::map<std::string, std::string>;
+
+/// Which methods are compared, on what, and by which errors.
+struct comparison_options {
+  std::vector<std::string> methods{};  ///< names, "learned:FAMILY", paths of files, or names of `held`
+  std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
+  bool equal_cost = false;          ///< steps are per force evaluation, so that rows of a step cost the same
+  std::optional<double> horizon{};  ///< of each trajectory. None: 0.5, or ten of the largest steps
+  std::int64_t trajectories = 400;  ///< to compare on; none of them is learned from
+  std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,
+                                             ///< distribution, acf; path:OBSERVABLE names that of one
+  std::string observable{};                  ///< of path, relative, distribution and acf. Empty: the usual
+  learning_options learning{};               ///< of learned methods
+  held_methods held{};                       ///< methods that are not in files
+  std::string placement{};                   ///< of the letters O in a bath: end, symmetric or middle
+  std::vector<double> levels{};              ///< errors at which costs are compared; empty: those of the data
+  std::vector<double> range{};               ///< low and high end of the histogram; empty: that of the starts
+  std::int64_t bins = 100;                   ///< of the histogram
+  double longest_lag = 1.0;                  ///< of the autocovariance, a time
+  double hmc_temperature = 1.0;              ///< kT of the acceptance, an energy
+  bool energies = false;  ///< errors of the energy are followed along the horizon, for a picture
+};
+
+/// Among which methods one is chosen: at a cost, or at an error.
+struct recommendation_options {
+  std::optional<double> budget{};          ///< force evaluations per unit time; or
+  std::optional<double> budget_seconds{};  ///< seconds per unit time of one trajectory; or
+  std::optional<double> error{};           ///< an error by the metric
+  double horizon = 0.0;                    ///< of each trajectory, positive
+  std::string metric = "state";            ///< as of comparison_options
+  std::string observable{};                ///< of path and relative. Empty: the usual
+  std::int64_t trajectories = 100;         ///< to rank by
+  std::vector<std::string> families{};     ///< that may be learned. Empty: all that suit
+  learning_options learning{};             ///< of these
+  std::string placement{};                 ///< of the letters O in a bath: end, symmetric or middle
+  double hmc_temperature = 1.0;            ///< kT of the acceptance, an energy
+  bool reversible = false;                 ///< symmetric methods alone
+};
+
+}  // namespace nysalt

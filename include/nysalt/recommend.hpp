@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+// Which method to take for a system of one's own: learned families and classical methods at one cost or
+// error.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/comparison_options.hpp"
+#include "nysalt/system_declaration.hpp"
+
+namespace nysalt {
+
+/// What recommend() found.
+class recommendation {
+ public:
+  class contest_result;  ///< how the library holds what was found
+  /// Made by recommend().
+  explicit recommendation(std::shared_ptr<const contest_result> found) : found_(std::move(found)) {}
+
+  /// Whether a method stood.
+  bool has_result() const;
+  /// "learned" or "classical", whose best errs or costs less than the other by more than chance can make;
+  /// "tie"; or "none".
+  std::string verdict() const;
+  /// The name of the best method, as comparison_options::methods take it; empty if there is none.
+  std::string method() const;
+  /// The step of the best method; NaN if there is none.
+  double step() const;
+  /// Ranking and advice, as the program prints them.
+  std::string text() const;
+  /// A JSON document of all that was found: what `nysalt recommend --json` prints.
+  std::string json() const;
+  /// The winner's scheme, as scheme files hold it and comparison_options::held takes it; nothing if none that
+  /// is learned wins.
+  std::optional<std::string> scheme() const;
+  /// What should be known before the advice is taken, a sentence each.
+  std::vector<std::string> warnings() const;
+
+ private:
+  std::shared_ptr<const contest_result> found_;
+};
+
+/// The best of learned families and classical methods at options.budget, budget_seconds or error. Starts and
+/// checks are those of compare(). Throws std::invalid_argument, naming the option, for what cannot be. Cost:
+/// a fit for each family that suits, and a comparison of all that take part.
+recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
+                         const execution_options& execution = {});
+
+}  // namespace nysalt

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "learned_row.hpp"
+
+#include <limits>
+
+#include "stability_margin.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+double number_at(const json& document, const char* name) {
+  const json& value = document.at(name);
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+std::string text_at(const json& document, const char* name) {
+  const json& value = document.at(name);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+}  // namespace
+
+std::vector<double> learned_row::theta() const {
+  std::vector<double> result;
+  for (const auto& [name, value] : parameters) result.push_back(value);
+  return result;
+}
+
+learned_row learned_row_of(const std::string& method, const fit_summary& fit) {
+  learned_row row{.method = method,
+                  .step = fit.step,
+                  .one_step_error = fit.one_step_error,
+                  .evaluations = static_cast<double>(fit.learning_evaluations),
+                  .seconds = fit.data_seconds + fit.fit_seconds,
+                  .usable = fit.usable,
+                  .gains_nothing = fit.verdict() == verdict::nothing_gained,
+                  .rival = fit.rival,
+                  .reason = fit.usable ? std::string() : fit.reason,
+                  .document = {{"method", method}}};
+  for (const auto& parameter : fit.parameters) row.parameters.emplace_back(parameter.name, parameter.value);
+  row.document.update(fit_json(fit));
+  return row;
+}
+
+learned_row learned_row_from(const json& document) {
+  learned_row row{.method = text_at(document, "method"),
+                  .step = number_at(document, "step"),
+                  .one_step_error = number_at(document, "one_step_error"),
+                  .evaluations = number_at(document, "learning_evaluations"),
+                  .seconds = number_at(document, "seconds"),
+                  .usable = document.at("usable").get<bool>(),
+                  .gains_nothing = text_at(document, "verdict") == to_string(verdict::nothing_gained),
+                  .rival = text_at(document, "rival"),
+                  .reason = text_at(document, "reason"),
+                  .document = document};
+  for (const auto& [name, value] : document.at("parameters").items()) {
+    row.parameters.emplace_back(name, value.get<double>());
+  }
+  return row;
+}
+
+json by_name(const fit_summary& fit, double fitted_parameter::*field) {
+  json result = json::object();
+  for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
+  return result;
+}
+
+json fit_json(const fit_summary& fit) {
+  return {{"family", fit.family},
+          {"parameters", by_name(fit, &fitted_parameter::value)},
+          {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
+          {"step", fit.step},
+          {"objective", fit.loss_name},
+          {"loss", fit.loss},
+          {"held_out_loss", fit.is_of_data ? json(fit.held_out_loss) : json(nullptr)},
+          {"one_step_error", fit.one_step_error},
+          {"trajectory_error", fit.trajectory_error},
+          {"samples", fit.samples},
+          {"usable", fit.usable},
+          {"verdict", std::string(to_string(fit.verdict()))},
+          {"rival", fit.rival.empty() ? json(nullptr) : json(fit.rival)},
+          {"rival_loss", fit.rival.empty() ? json(nullptr) : json(fit.rival_loss)},
+          {"rival_loss_noise", fit.rival.empty() ? json(nullptr) : json(fit.rival_noise)},
+          {"trial", to_json(fit.trial)},
+          {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
+          {"seconds", fit.data_seconds + fit.fit_seconds},
+          {"data_seconds", fit.data_seconds},
+          {"fit_seconds", fit.fit_seconds},
+          {"learning_evaluations", fit.learning_evaluations},
+          {"expected_excess", fit.is_of_data ? json(fit.expected_excess) : json(nullptr)},
+          {"excess_share", fit.is_of_data ? json(fit.excess_share()) : json(nullptr)},
+          {"deciding_trajectories", fit.is_of_data ? json(fit.deciding_trajectories) : json(nullptr)}};
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a learned row of a comparison tells of the fit behind it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "json.hpp"
+#include "nysalt/learning/fit_summary.hpp"
+
+namespace nysalt::program {
+
+struct learned_row {
+  std::string method;  // as typed
+  double step = 0.0;
+  std::vector<std::pair<std::string, double>> parameters{};
+  double one_step_error = 0.0;
+  double evaluations = 0.0;  // of data and search
+  double seconds = 0.0;
+  bool usable = false;
+  bool gains_nothing = false;
+  std::string rival{};   // the formula that is as good; empty: none
+  std::string reason{};  // why it is not usable
+  json document{};       // all that results and journals tell of the fit
+
+  std::vector<double> theta() const;
+};
+
+learned_row learned_row_of(const std::string& method, const fit_summary& fit);
+learned_row learned_row_from(const json& document);
+inline json to_json(const learned_row& row) { return row.document; }
+
+/// A field of each parameter, by its name.
+json by_name(const fit_summary& fit, double fitted_parameter::*field);
+
+/// What all commands tell of a fit.
+json fit_json(const fit_summary& fit);
+
+}  // namespace nysalt::program

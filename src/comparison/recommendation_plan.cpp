@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+// Who takes part in a recommendation.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "catalogue.hpp"
+#include "checks.hpp"
+#include "known_word.hpp"
+#include "learning.hpp"
+#include "nysalt/analysis/tail.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "recommendation.hpp"
+#include "seeds.hpp"
+#include "stability_margin.hpp"
+
+namespace nysalt::program {
+
+void recommendation::require_sound_command() const {
+  const int goals =
+      options_.budget.has_value() + options_.budget_seconds.has_value() + options_.error.has_value();
+  if (goals != 1) {
+    refuse(
+        "give one of --budget (force evaluations per unit time), --budget-seconds (per unit time of a "
+        "trajectory) and --error (to stay below)");
+  }
+  if (options_.budget) require_positive("--budget", *options_.budget);
+  if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
+  if (options_.error) require_positive("--error", *options_.error);
+  require_positive("--horizon", options_.horizon);
+  require_at_least_one("--trajectories", options_.trajectories);
+  require_sound(options_.learning, "--learn-");
+  if (options_.error && options_.trajectories < 2) {
+    refuse("--trajectories must be at least 2 with --error, got {}: one says nothing of others",
+           options_.trajectories);
+  }
+  require_positive("--hmc-temperature", options_.hmc_temperature);
+  placement_asked(options_.placement);
+  if (options_.metric == "distribution" || options_.metric == "acf") {
+    refuse(
+        "recommend ranks by errors along trajectories: --metric {} is not among path, state, exchange, "
+        "energy, acceptance",
+        options_.metric);
+  }
+  const double nominal = 1e-3 * options_.horizon;
+  system_->require_measure(
+      metric(), plan_at(nominal, options_.trajectories, seed_for(role::test, common_.seed)), {}, 1);
+}
+
+/// Methods that repeat another at equal cost do not take part, nor letters O where there is no bath.
+void recommendation::plan_classical() {
+  for (const auto& name : method_names()) {
+    if (name.ends_with("_2x")) continue;
+    candidate contender{.source = find_method(name), .where = {}};
+    const bool has_bath = system_->heat_bath().acts();
+    if (contender.source.fixed) {
+      const tabulated& method = *contender.source.fixed;
+      if (!has_bath && method.letters().stochastic_letters > 0) continue;
+      contender.order = method.order;
+      contender.symmetric = method.symmetric;
+      contender.rotates = has_rotation(method.letters());
+    } else {
+      contender.order = contender.source.adaptive->properties.order;
+      contender.symmetric = contender.source.adaptive->properties.symmetric;
+    }
+    consider(std::move(contender));
+  }
+}
+
+void recommendation::plan_families() {
+  const auto names = options_.families.empty() ? family_names() : options_.families;
+  const std::size_t before = all_.size();
+  bool fixes = options_.learning.fix.empty();
+  for (const auto& name : names) {
+    const auto& family = family_named(name);
+    if (!is_fixed_in(family)) continue;
+    fixes = true;
+    candidate contender{.source = find_method("learned:" + name), .where = {}};
+    contender.order = family.order;
+    contender.symmetric = family.symmetric;
+    contender.rotates = has_rotation(family.letters);
+    consider(std::move(contender));
+  }
+  if (!fixes)
+    refuse("--fix {}: no family that is learned here has such parameters", listed(options_.learning.fix));
+  const bool asked = !options_.families.empty() || !options_.learning.fix.empty();
+  if (all_.size() == before && asked) {
+    refuse("{}: {}", left_out_.back().first, left_out_.back().second);
+  }
+}
+
+bool recommendation::is_fixed_in(const run_time_family& family) const {
+  const auto& names = family.parameter_names;
+  return std::ranges::all_of(options_.learning.fix, [&](const std::string& text) {
+    return std::ranges::find(names, text.substr(0, text.find('='))) != names.end();
+  });
+}
+
+/// Takes part, or is left out with the reason why.
+void recommendation::consider(candidate contender) {
+  const std::string name = contender.source.typed;
+  charge(contender.source, *system_);
+  const auto leave_out = [&](const std::string& why) { left_out_.emplace_back(name, why); };
+  if ((options_.reversible || options_.metric == "acceptance") && !contender.symmetric) {
+    return leave_out("it is not reversible");
+  }
+  try {
+    const auto otherwise = placement_asked(options_.placement);
+    contender.step =
+        contender.source.evaluations_per_step / options_.budget.value_or(system_->fastest_rate());
+    if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);
+    if (options_.budget) {
+      plan_at(contender.step, options_.trajectories, 0);
+      if (!contender.is_learned()) {
+        std::vector<std::string> ignored;  // what is not stable is seen to diverge
+        contender.method =
+            coefficients_at(contender.source, *system_, contender.step, false, otherwise, ignored);
+      }
+    } else if (contender.source.fixed) {
+      system_->require_served(contender.source.fixed->letters());
+    }
+    if (contender.is_learned()) {
+      system_->require_learnable(*contender.source.family, contender.where, options_.learning,
+                                 contender.step);
+    }
+    all_.push_back(std::move(contender));
+  } catch (const refusal& problem) {
+    leave_out(problem.what());
+  } catch (const std::invalid_argument& problem) {
+    leave_out(problem.what());
+  }
+}
+
+}  // namespace nysalt::program

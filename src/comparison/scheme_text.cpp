@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+// Schemes as they are written.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/crc.hpp>
+
+#include "method_file.hpp"
+#include "method_file_format.hpp"
+#include "nysalt/version.hpp"
+#include "prepared_problem.hpp"
+
+namespace nysalt::program {
+
+std::string checksum(json document) {
+  document.erase("checksum");
+  const std::string text = document.dump();
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("crc32:{:08x}", crc.checksum());
+}
+
+std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                        const learn_plan& plan) {
+  const fit_summary& fit = learned.front().fit;
+  const bool is_curve = learned.size() > 1;
+  json of_system = system.parameters();
+  of_system["description"] = system.description();
+  // One value, or a list with one for each step.
+  const auto at_steps = [&](const auto& value_of) {
+    if (!is_curve) return json(value_of(fit));
+    json all = json::array();
+    for (const auto& one : learned) all.push_back(value_of(one.fit));
+    return all;
+  };
+  const auto by_parameter = [&](double fitted_parameter::*value) {
+    json all = json::object();
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+      all[fit.parameters[k].name] =
+          at_steps([&](const fit_summary& one) { return one.parameters[k].*value; });
+    }
+    return all;
+  };
+  const auto not_usable =
+      std::find_if(learned.begin(), learned.end(), [](const learned_scheme& one) { return !one.fit.usable; });
+  std::optional<energy_range> energies = learned.front().energies;
+  for (const auto& one : learned) {
+    if (!energies || !one.energies) continue;
+    energies->include(one.energies->low);
+    energies->include(one.energies->high);
+  }
+  const auto differs = [&](const learned_scheme& one) { return one.fit.trajectories != fit.trajectories; };
+  const json trajectories = std::ranges::any_of(learned, differs)
+                                ? at_steps([](const fit_summary& one) { return one.trajectories; })
+                                : json(fit.trajectories);
+  json document{
+      {"format", scheme_format},
+      {"version", is_curve     ? as_curve
+                  : plan.where ? with_placement
+                               : known_version},
+      {"family", fit.family},
+      {"parameters", by_parameter(&fitted_parameter::value)},
+      {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
+      {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
+      {"system", of_system},
+      {"energy_range", nullptr},
+      {"objective", fit.loss_name},
+      {"loss", at_steps([](const fit_summary& one) { return one.loss; })},
+      {"held_out_loss",
+       fit.is_of_data ? at_steps([](const fit_summary& one) { return one.held_out_loss; }) : json(nullptr)},
+      {"usable", not_usable == learned.end()},
+      {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
+      {"coordinates", fit.coordinates},
+      {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
+      {"starts", fit.ensemble},
+      {"trajectories", trajectories},
+      {"horizon", plan.how.horizon_at(learned.back().fit.step)},
+      {"seed", fit.seed},
+      {"held_out_seed", fit.held_out_seed},
+      {"versions", {{"nysalt", version}}}};
+  if (energies) document["energy_range"] = {energies->low, energies->high};
+  if (plan.where) document["placement"] = to_string(*plan.where);
+  document["checksum"] = checksum(document);
+  return text_of(document);
+}
+
+}  // namespace nysalt::program

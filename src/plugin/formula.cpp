@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "formula.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "comparison/number.hpp"
+#include "comparison/refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr std::array functions{"sqrt", "exp",  "expm1", "log",  "sin",  "cos",
+                               "tan",  "atan", "sinh",  "cosh", "tanh", "abs"};
+
+bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// A whole number that depends on the counters of sums: text for the source, and its range.
+struct index {
+  std::string code;
+  std::int64_t least;
+  std::int64_t most;
+};
+
+struct counter_of_sum {
+  std::string name;
+  std::int64_t first;
+  std::int64_t last;
+};
+
+/// Reads the text by recursive descent, and writes C++.
+class translation {
+ public:
+  translation(std::string_view text, const std::vector<variable>& variables,
+              const std::vector<std::string>& parameters)
+      : text_(text), variables_(&variables), parameters_(&parameters) {}
+
+  std::string whole() {
+    std::string code = sum();
+    skip();
+    if (at_ < text_.size()) fail("an operator is expected");
+    return code;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    const std::string found =
+        at_ < text_.size() ? fmt::format("'{}'", std::string(text_.substr(at_, 12))) : "the end of the text";
+    refuse("--potential: {}, found {} at character {}", what, found, at_ + 1);
+  }
+  void skip() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+  }
+  bool takes(char c) {
+    skip();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  void require(char c) {
+    if (!takes(c)) fail(fmt::format("'{}' is expected", c));
+  }
+  /// Each level of parentheses is a level of the call stack here, and in the compiler.
+  struct level {
+    explicit level(translation& of) : depth(&of.depth_) {
+      if (++*depth > 100) of.fail("this is nested too deeply");
+    }
+    ~level() { --*depth; }
+    level(const level&) = delete;
+    level& operator=(const level&) = delete;
+    int* depth;
+  };
+
+  std::string sum() {
+    const level here(*this);
+    std::string code = product();
+    for (;;) {
+      if (takes('+')) {
+        code = "(" + code + " + " + product() + ")";
+      } else if (takes('-')) {
+        code = "(" + code + " - " + product() + ")";
+      } else {
+        return code;
+      }
+    }
+  }
+  std::string product() {
+    std::string code = signed_factor();
+    for (;;) {
+      if (takes('*')) {
+        if (takes('*')) fail("a power is x^2");
+        code = "(" + code + " * " + signed_factor() + ")";
+      } else if (takes('/')) {
+        code = "(" + code + " / " + signed_factor() + ")";
+      } else {
+        return code;
+      }
+    }
+  }
+  std::string signed_factor() {
+    const level here(*this);
+    if (takes('-')) return "(-" + signed_factor() + ")";
+    if (takes('+')) return signed_factor();
+    return power();
+  }
+  /// x^n is repeated multiplication for a whole number n, else x^c for a constant c.
+  std::string power() {
+    const std::string base = primary();
+    if (!takes('^')) return base;
+    const auto from = at_;
+    const bool depended = depends_;
+    depends_ = false;
+    const std::string exponent = signed_factor();  // a^b^c is a^(b^c)
+    if (depends_) {
+      at_ = from;
+      fail("an exponent must not depend on the coordinates: write exp(y*log(x))");
+    }
+    depends_ = depended;
+    int n = 0;
+    std::string digits;
+    for (const char c : exponent) {
+      if (c != '(' && c != ')' && c != ' ') digits += c;
+    }
+    if (digits.ends_with(".0")) digits.resize(digits.size() - 2);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+    const bool is_whole = error == std::errc{} && end == digits.data() + digits.size();
+    if (is_whole && -64 <= n && n <= 64) return fmt::format("power<{}>({})", n, base);
+    return fmt::format("real_power({}, {})", base, exponent);
+  }
+  std::string primary() {
+    skip();
+    if (at_ >= text_.size()) fail("a number, a name or a parenthesis is expected");
+    const char c = text_[at_];
+    if (takes('(')) {
+      std::string code = sum();
+      require(')');
+      return code;
+    }
+    if (is_digit(c) || c == '.') return number();
+    if (begins_name(c)) return named();
+    fail("a number, a name or a parenthesis is expected");
+  }
+  std::string number() {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc{} || !std::isfinite(value)) fail("this is not a finite number");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    if (at_ < text_.size() && is_in_name(text_[at_])) fail("write 2*x, not 2x: an operator is expected");
+    std::string code = fmt::format("{}", value);
+    if (code.find_first_of(".e") == std::string::npos) code += ".0";
+    return code;
+  }
+  std::string name() {
+    skip();
+    const auto from = at_;
+    while (at_ < text_.size() && is_in_name(text_[at_])) ++at_;
+    return std::string(text_.substr(from, at_ - from));
+  }
+  std::string named() {
+    const auto from = at_;
+    const std::string known = name();
+    if (known == "sum") return sum_over();
+    if (std::ranges::find(functions, known) != functions.end()) {
+      require('(');
+      std::string code = "(" + sum() + ")";
+      require(')');
+      return "of_" + known + code;
+    }
+    if (std::ranges::count(*parameters_, known) > 0) return "p_" + known;
+    for (const auto& coordinate : *variables_) {
+      if (coordinate.name == known) return of(coordinate, from);
+    }
+    for (const auto& counter : counters_) {
+      if (counter.name == known) return "static_cast<double>(i_" + known + ")";
+    }
+    if (known == "pi") return "nysalt_pi";
+    at_ = from;
+    fail(fmt::format("'{}' is no function, coordinate (--variables) or parameter (--parameter)", known));
+  }
+  std::string of(const variable& coordinate, std::size_t from) {
+    depends_ = true;
+    if (!coordinate.is_list) return fmt::format("q[{}]", coordinate.first);
+    if (!takes('[')) {
+      at_ = from;
+      fail(fmt::format("'{0}' is a list: write {0}[1]", coordinate.name));
+    }
+    const index which = index_sum();
+    require(']');
+    if (which.least < 1 || which.most > coordinate.count) {
+      at_ = from;
+      fail(fmt::format("the coordinates are {0}[1] to {0}[{1}], and this goes from {2} to {3}",
+                       coordinate.name, coordinate.count, which.least, which.most));
+    }
+    return fmt::format("q[{} + {}]", coordinate.first - 1, which.code);
+  }
+  /// sum(i, first, last, term): the bounds are whole numbers, of counters outside of the sum too.
+  std::string sum_over() {
+    const level here(*this);
+    require('(');
+    skip();
+    const auto from = at_;
+    const std::string counter = name();
+    const bool is_free = is_name(counter) && counter != "sum" && counter != "pi" &&
+                         std::ranges::find(functions, counter) == functions.end() &&
+                         std::ranges::count(*parameters_, counter) == 0 &&
+                         std::ranges::count(counters_, counter, &counter_of_sum::name) == 0 &&
+                         std::ranges::count(*variables_, counter, &variable::name) == 0;
+    if (!is_free) {
+      at_ = from;
+      fail("sum(i, first, last, term) needs a counter with a name of its own");
+    }
+    require(',');
+    const index first = index_sum();
+    require(',');
+    const index last = index_sum();
+    require(',');
+    depends_ = true;  // of the coordinates' type, whatever it sums
+    counters_.push_back({counter, first.least, std::max(first.least, last.most)});
+    const std::string term = sum();
+    counters_.pop_back();
+    require(')');
+    return fmt::format(
+        "[&] {{ T total(0.0); for (std::int64_t i_{0} = {1}; i_{0} <= {2}; ++i_{0}) total = total + {3}; "
+        "return total; }}()",
+        counter, first.code, last.code, term);
+  }
+  index index_sum() {
+    constexpr std::int64_t far = 1'000'000'000;  // beyond it ranges could overflow
+    index total = index_factor();
+    for (;;) {
+      if (total.least < -far || total.most > far) fail("this index goes too far");
+      if (takes('+')) {
+        const index more = index_factor();
+        total = {fmt::format("({} + {})", total.code, more.code), total.least + more.least,
+                 total.most + more.most};
+      } else if (takes('-')) {
+        const index less = index_factor();
+        total = {fmt::format("({} - {})", total.code, less.code), total.least - less.most,
+                 total.most - less.least};
+      } else {
+        return total;
+      }
+    }
+  }
+  index index_factor() {
+    const level here(*this);
+    skip();
+    if (takes('(')) {
+      index inner = index_sum();
+      require(')');
+      return inner;
+    }
+    if (at_ < text_.size() && is_digit(text_[at_])) {
+      std::int64_t value = 0;
+      const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+      if (error != std::errc{} || value > most_coordinates) fail("this number is too large for an index");
+      at_ = static_cast<std::size_t>(end - text_.data());
+      return {fmt::format("{}", value), value, value};
+    }
+    const auto from = at_;
+    const std::string known = name();
+    for (const auto& counter : counters_) {
+      if (counter.name == known) return {"i_" + known, counter.first, counter.last};
+    }
+    at_ = from;
+    fail("an index is made of whole numbers, counters of sums, + and -");
+  }
+
+  std::string_view text_;
+  const std::vector<variable>* variables_;
+  const std::vector<std::string>* parameters_;
+  std::vector<counter_of_sum> counters_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  bool depends_ = false;  // something that was read is a coordinate
+};
+
+}  // namespace
+
+bool is_name(std::string_view text) {
+  return !text.empty() && begins_name(text.front()) && std::ranges::all_of(text, is_in_name);
+}
+
+std::vector<std::string> functions_of_formulas() { return {functions.begin(), functions.end()}; }
+
+bool is_name_of_grammar(std::string_view name) {
+  return name == "sum" || name == "pi" || std::ranges::find(functions, name) != functions.end();
+}
+
+std::string translated(std::string_view text, const std::vector<variable>& variables,
+                       const std::vector<std::string>& parameters) {
+  return translation(text, variables, parameters).whole();
+}
+
+}  // namespace nysalt::program

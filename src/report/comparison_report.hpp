@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is told of a comparison: on a terminal, to machines, and on a page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "comparison/comparison.hpp"
+
+namespace nysalt::program {
+
+/// The results of a comparison for machines, and for people.
+json document_of(const comparison& all);
+std::string readable(const comparison& all);
+/// Report, table and pictures in a folder. Returns warnings of pictures that could not be drawn.
+std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);
+/// Every row by every metric.
+std::string csv_of(const comparison& all);
+
+}  // namespace nysalt::program

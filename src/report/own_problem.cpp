@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "own_problem.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "comparison/checks.hpp"
+#include "comparison/user_system_checks.hpp"
+
+namespace nysalt::program {
+
+std::unique_ptr<prepared_problem> prepared(initial_value_problem problem) {
+  const std::string name = describe(problem.system);
+  const nysalt::bath in = problem.system.bath();
+  const bool is_warm = in.acts() && in.has_temperature() && in.temperature() > 0.0;
+  const start where = is_warm && has_frequency_bands(problem.system) ? start::gibbs : start::law;
+  examine(problem, name);
+  return std::make_unique<prepared_problem>(std::move(problem), std::vector<named_value>{{"name", name}},
+                                            surroundings{in, where});
+}
+
+common_settings settings_of(const execution_options& execution) {
+  common_settings settings;
+  static_cast<execution_options&>(settings) = execution;
+  require_sound(settings);
+  return settings;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a caller of the library hands over, made ready as the program makes its systems ready.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+
+#include "comparison/argument_names.hpp"
+#include "comparison/prepared_problem.hpp"
+#include "comparison/refusal.hpp"
+#include "nysalt/comparison_options.hpp"
+
+namespace nysalt::program {
+
+/// Examined, and with the starts of its bath where there is one. Throws refusal.
+std::unique_ptr<prepared_problem> prepared(initial_value_problem problem);
+
+/// With a whole seed and some threads. Throws refusal.
+common_settings settings_of(const execution_options& execution);
+
+/// What work() returns; a refusal becomes std::invalid_argument, in terms of C++.
+auto with_cpp_messages(const auto& work) {
+  try {
+    return work();
+  } catch (const refusal& problem) {
+    throw std::invalid_argument(with_arguments(problem.what(), in_cpp));
+  }
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSL-1.0
+// Comparisons, recommendations and pages of systems that callers of the library bring.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/compare.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/recommend.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+/// Two bonds of a Morse potential in a row, one mass at rest: V = sum (1 - exp(-r))^2.
+struct morse_pair {
+  static constexpr int dimension = 2;
+  double sign = 1.0;  // -1: a force that is not -grad V
+
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    using std::exp;
+    const T a = 1.0 - exp(-q[0]);
+    const T b = 1.0 - exp(q[0] - q[1]);
+    return a * a + b * b;
+  }
+  template <class T>
+  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    using std::exp;
+    const T a = 2.0 * (1.0 - exp(-q[0])) * exp(-q[0]);
+    const T b = 2.0 * (1.0 - exp(q[0] - q[1])) * exp(q[0] - q[1]);
+    f[0] = (b - a) * sign;
+    f[1] = -b * sign;
+  }
+};
+
+initial_value_problem morse(double sign = 1.0) {
+  const vector<double, 2> rest(0.0, 0.0);
+  return {.system = morse_pair{sign}, .starts = normal_around<2>({rest, rest}, 0.1, 0.2)};
+}
+
+comparison_options quick() {
+  return {.methods = {"verlet", "pefrl", "learned:nystrom"},
+          .steps = {0.1, 0.2},
+          .equal_cost = true,
+          .horizon = 4.0,
+          .trajectories = 8,
+          .metrics = {"state", "energy"},
+          .learning = {.trajectories = 8, .horizon = 4.0}};
+}
+
+std::string refused(const initial_value_problem& problem, const comparison_options& options,
+                    const execution_options& execution = {}) {
+  try {
+    compare(problem, options, execution);
+  } catch (const std::invalid_argument& problem_told) {
+    return problem_told.what();
+  }
+  return {};
+}
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_method_has_a_row_at_every_step_by_every_metric) {
+  const auto found = compare(morse(), quick());
+  BOOST_TEST(found.rows().size() == 12U);
+  for (const auto& row : found.rows()) {
+    BOOST_TEST_CONTEXT(row.method << " at " << row.step << " by " << row.metric) {
+      BOOST_TEST(row.reason == "");
+      BOOST_TEST(row.value.mean > 0.0);
+      BOOST_TEST(row.value.standard_error > 0.0);
+      BOOST_TEST(row.seconds_per_time > 0.0);
+      // Of equal cost: 1/step evaluations, and one more for the start of 4 units of time.
+      const double nominal = row.evaluations_per_time > 7.5 ? 0.1 : 0.2;
+      BOOST_TEST(std::abs(row.evaluations_per_time - 1.0 / nominal) <= 0.25 + 1e-9);
+      BOOST_TEST(row.is_learned == row.method.starts_with("learned:"));
+    }
+  }
+  BOOST_TEST(has(found.text(), "learned:nystrom"));
+  BOOST_TEST(has(found.json(), "\"rows\""));
+}
+
+BOOST_AUTO_TEST_CASE(errors_are_the_same_bits_for_any_number_of_threads) {
+  const auto one = compare(morse(), quick()).rows();
+  const auto three = compare(morse(), quick(), {.threads = 3}).rows();
+  BOOST_TEST(one.size() == three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) BOOST_TEST(one[i].value.mean == three[i].value.mean);
+  const auto other = compare(morse(), quick(), {.seed = 2}).rows();
+  BOOST_TEST(one[0].value.mean != other[0].value.mean);
+}
+
+BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
+  const auto folder = std::filesystem::temp_directory_path() / "nysalt_own_system_report";
+  std::filesystem::remove_all(folder);
+  auto options = quick();
+  options.steps = {0.2};
+  options.methods = {"verlet", "pefrl"};
+  report(morse(), options, folder / "page");
+  for (const char* file : {"report.html", "report.md", "report.json", "rows.csv"}) {
+    BOOST_TEST(std::filesystem::file_size(folder / "page" / file) > 100U);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "page")) {
+    BOOST_TEST(!has(entry.path().string(), "manifest"));  // there is no command that made it
+  }
+  std::filesystem::remove_all(folder);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_in_terms_of_the_options) {
+  BOOST_TEST(has(refused(morse(-1.0), quick()), "force"));
+  const auto changed = [](const auto& change) {
+    auto options = quick();
+    change(options);
+    return refused(morse(), options);
+  };
+  BOOST_TEST(has(changed([](auto& o) { o.methods = {"verlett"}; }), "verlett"));
+  BOOST_TEST(has(changed([](auto& o) { o.steps = {-0.1}; }), "steps must be"));
+  BOOST_TEST(has(changed([](auto& o) { o.learning.trajectories = 0; }), "learning.trajectories must be"));
+  BOOST_TEST(has(changed([](auto& o) { o.metrics = {"exchange"}; }), "exchange"));
+  BOOST_TEST(has(refused(morse(), quick(), {.threads = 0}), "threads must be"));
+  for (const auto& text : {changed([](auto& o) { o.steps = {}; }), changed([](auto& o) { o.horizon = 0.01; }),
+                           changed([](auto& o) { o.levels = {0.0}; })}) {
+    BOOST_TEST(text != "");
+    BOOST_TEST(!has(text, "--"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {
+  const auto found = recommend(morse(), {.budget = 10.0,
+                                         .horizon = 4.0,
+                                         .trajectories = 16,
+                                         .families = {"nystrom"},
+                                         .learning = {.trajectories = 8, .horizon = 4.0}});
+  BOOST_TEST(found.has_result());
+  BOOST_TEST(found.method() != "");
+  // A budget of 10 evaluations: a word of s evaluations takes steps of s/10.
+  BOOST_TEST(std::abs(10.0 * found.step() - std::round(10.0 * found.step())) < 1e-9);
+  BOOST_TEST(has(found.text(), found.method()));
+  BOOST_TEST((found.verdict() == "learned") == found.scheme().has_value());
+  BOOST_CHECK_THROW(recommend(morse(), {.horizon = 4.0}), std::invalid_argument);
+}
