@@ -11,7 +11,6 @@
 #include "../src/comparison/learning.hpp"
 #include "../src/comparison/method_source.hpp"
 #include "../src/comparison/sampled_run.hpp"
-#include "../src/comparison/stretches.hpp"
 #include "../src/program/output/planned_run.hpp"
 #include "arrays.hpp"
 #include "commands.hpp"

@@ -13,21 +13,33 @@ namespace nysalt::program {
 
 namespace {
 
-template <class Number>
-void send(const communicator& ranks, const std::vector<Number>& numbers, int to) {
-  if (!numbers.empty()) ranks.send(std::as_bytes(std::span(numbers)), to);
+template <class Item>
+void send(const communicator& ranks, const std::vector<Item>& items, int to) {
+  if (!items.empty()) ranks.send(std::as_bytes(std::span(items)), to);
 }
-template <class Number>
-std::vector<Number> receive(const communicator& ranks, std::int64_t count, int from) {
-  std::vector<Number> numbers(static_cast<std::size_t>(count));
-  if (count > 0) ranks.receive(std::as_writable_bytes(std::span(numbers)), from);
-  return numbers;
+template <class Item>
+std::vector<Item> receive(const communicator& ranks, std::int64_t count, int from) {
+  std::vector<Item> items(static_cast<std::size_t>(count));
+  if (count > 0) ranks.receive(std::as_writable_bytes(std::span(items)), from);
+  return items;
 }
 
-constexpr std::int64_t not_lost = -1;
-std::int64_t number_of(std::optional<std::int64_t> lost) { return lost.value_or(not_lost); }
-std::optional<std::int64_t> loss_of(std::int64_t number) {
-  return number == not_lost ? std::nullopt : std::optional(number);
+/// A record without its values.
+struct record_head {
+  std::int64_t first;
+  std::int64_t values;  // how many
+  std::optional<std::int64_t> diverged_at;
+};
+
+void send_runs(const communicator& ranks, const saved_runs& runs, int to) {
+  send(ranks, std::vector{runs.step, std::int64_t{std::ssize(runs.numbers)}}, to);
+  send(ranks, runs.diverged_at, to);
+  send(ranks, runs.numbers, to);
+}
+saved_runs receive_runs(const communicator& ranks, std::int64_t count, int from) {
+  const auto head = receive<std::int64_t>(ranks, 2, from);
+  const auto diverged_at = receive<std::optional<std::int64_t>>(ranks, count, from);
+  return {head[0], receive<double>(ranks, head[1], from), diverged_at};
 }
 
 }  // namespace
@@ -40,8 +52,7 @@ std::int64_t shared_wave::first_of(int rank) const {
   return first_ + std::min(count_, first_of_part(blocks, rank, ranks_->size()) * lanes_);
 }
 
-void shared_wave::hand_over(const std::vector<record>& own,
-                            const std::function<void(std::int64_t, const record&)>& take) const {
+void shared_wave::hand_over(const std::vector<record>& own, const record_taker& take) const {
   std::exception_ptr problem;  // others send what they have all the same
   const auto hand_on = [&](std::int64_t m, const record& one) {
     if (problem || (one.values.empty() && !one.diverged_at)) return;
@@ -54,18 +65,14 @@ void shared_wave::hand_over(const std::vector<record>& own,
   if (ranks_->is_first()) {
     for (std::size_t i = 0; i < own.size(); ++i) hand_on(first_ + static_cast<std::int64_t>(i), own[i]);
     for (int r = 1; r < ranks_->size(); ++r) {
-      const std::int64_t count_of_rank = first_of(r + 1) - first_of(r);
-      const auto heads = receive<std::int64_t>(*ranks_, 3 * count_of_rank, r);
-      for (std::int64_t i = 0; i < count_of_rank; ++i) {
-        const std::int64_t* head = heads.data() + 3 * i;
-        hand_on(first_of(r) + i, {head[0], receive<double>(*ranks_, head[1], r), loss_of(head[2])});
+      std::int64_t m = first_of(r);
+      for (const auto& head : receive<record_head>(*ranks_, first_of(r + 1) - m, r)) {
+        hand_on(m++, {head.first, receive<double>(*ranks_, head.values, r), head.diverged_at});
       }
     }
   } else {
-    std::vector<std::int64_t> heads;
-    for (const auto& one : own) {
-      heads.insert(heads.end(), {one.first, std::ssize(one.values), number_of(one.diverged_at)});
-    }
+    std::vector<record_head> heads;
+    for (const auto& one : own) heads.push_back({one.first, std::ssize(one.values), one.diverged_at});
     send(*ranks_, heads, 0);
     for (const auto& one : own) send(*ranks_, one.values, 0);
   }
@@ -76,51 +83,29 @@ void shared_wave::hand_over(const std::vector<record>& own,
 
 saved_runs shared_wave::gather(saved_runs own) const {
   if (!ranks_->is_first()) {
-    std::vector<std::int64_t> losses;
-    for (const auto& one : own.diverged_at) losses.push_back(number_of(one));
-    losses.push_back(std::ssize(own.numbers));
-    send(*ranks_, losses, 0);
-    send(*ranks_, own.numbers, 0);
+    send_runs(*ranks_, own, 0);
     return {};
   }
-  saved_runs all = std::move(own);
   for (int r = 1; r < ranks_->size(); ++r) {
-    auto losses = receive<std::int64_t>(*ranks_, first_of(r + 1) - first_of(r) + 1, r);
-    const auto numbers = receive<double>(*ranks_, losses.back(), r);
-    losses.pop_back();
-    for (const std::int64_t one : losses) all.diverged_at.push_back(loss_of(one));
-    all.numbers.insert(all.numbers.end(), numbers.begin(), numbers.end());
+    const saved_runs part = receive_runs(*ranks_, first_of(r + 1) - first_of(r), r);
+    own.diverged_at.insert(own.diverged_at.end(), part.diverged_at.begin(), part.diverged_at.end());
+    own.numbers.insert(own.numbers.end(), part.numbers.begin(), part.numbers.end());
   }
-  return all;
+  return own;
 }
 
 saved_runs shared_wave::scatter(const saved_runs& all) const {
-  if (ranks_->is_alone()) return all;
-  saved_runs own{all.step, {}, {}};
-  broadcast(*ranks_, own.step);
-  std::int64_t each = ranks_->is_first() ? std::ssize(all.numbers) / count_ : 0;
-  broadcast(*ranks_, each);
-  for (int r = 0; r < ranks_->size(); ++r) {
-    const std::int64_t count_of_rank = first_of(r + 1) - first_of(r);
-    std::vector<std::int64_t> losses;
-    std::vector<double> numbers;
-    if (ranks_->is_first()) {
-      const auto from = first_of(r) - first_;
-      for (std::int64_t i = 0; i < count_of_rank; ++i) {
-        losses.push_back(number_of(all.diverged_at[static_cast<std::size_t>(from + i)]));
-      }
-      numbers.assign(all.numbers.begin() + from * each, all.numbers.begin() + (from + count_of_rank) * each);
-      if (r > 0) send(*ranks_, losses, r);
-      if (r > 0) send(*ranks_, numbers, r);
-    } else if (ranks_->rank() == r) {
-      losses = receive<std::int64_t>(*ranks_, count_of_rank, 0);
-      numbers = receive<double>(*ranks_, count_of_rank * each, 0);
-    }
-    if (ranks_->rank() != r) continue;
-    for (const std::int64_t one : losses) own.diverged_at.push_back(loss_of(one));
-    own.numbers = std::move(numbers);
-  }
-  return own;
+  if (!ranks_->is_first()) return receive_runs(*ranks_, count(), 0);
+  const auto part_of = [&](int r) {
+    const std::int64_t begin = first_of(r) - first_;
+    const std::int64_t end = first_of(r + 1) - first_;
+    const std::int64_t each = std::ssize(all.numbers) / count_;
+    return saved_runs{all.step,
+                      {all.numbers.begin() + begin * each, all.numbers.begin() + end * each},
+                      {all.diverged_at.begin() + begin, all.diverged_at.begin() + end}};
+  };
+  for (int r = 1; r < ranks_->size(); ++r) send_runs(*ranks_, part_of(r), r);
+  return part_of(0);
 }
 
 }  // namespace nysalt::program

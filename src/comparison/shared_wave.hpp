@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "sampled_plan.hpp"
+#include "sampled_run.hpp"
 
 namespace nysalt::program {
 
@@ -23,8 +22,7 @@ class shared_wave {
 
   /// take(m, record) at rank 0, in the order of the trajectories, of each that has samples or is lost. One
   /// trajectory of another rank is in its memory at a time. What take() throws is thrown at all ranks.
-  void hand_over(const std::vector<record>& own,
-                 const std::function<void(std::int64_t, const record&)>& take) const;
+  void hand_over(const std::vector<record>& own, const record_taker& take) const;
   /// All of them at rank 0, elsewhere nothing.
   saved_runs gather(saved_runs own) const;
   /// Of all, which rank 0 has, each gets its own.

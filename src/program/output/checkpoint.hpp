@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "comparison/json.hpp"
-#include "comparison/sampled_plan.hpp"
+#include "comparison/sampled_run.hpp"
 #include "nysalt/detail/divergence.hpp"
 #include "unfinished_file.hpp"
 

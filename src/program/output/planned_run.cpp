@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "planned_run.hpp"
-#include "program/systems.hpp"
 
 #include <algorithm>
 #include <span>
@@ -8,7 +7,10 @@
 #include "comparison/checks.hpp"
 #include "comparison/stability_margin.hpp"
 #include "comparison/world.hpp"
+#include "hdf5_layout.hpp"
 #include "nysalt/detail/together.hpp"
+#include "program/systems.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -43,6 +45,36 @@ planned_run::planned_run(const run_command& command, const common_settings& comm
 
 trajectories_plan planned_run::plan() const {
   return {command_.step, steps_, command_.trajectories, seed_for(role::test, common_.seed), common_.threads};
+}
+
+json planned_run::question() const {
+  return {{"system", system_->parameters()},
+          {"starts", system_->starts()},
+          {"letters", method_->letters().letters()},
+          {"coefficients", method_->coefficients()},
+          {"step", command_.step},
+          {"steps", steps_},
+          {"trajectories", command_.trajectories},
+          {"observables", command_.observables},
+          {"sample_every", command_.sample_every},
+          {"seed", common_.seed}};
+}
+
+json planned_run::about() const {
+  json result{{"format", "nysalt run"}, {"format_version", 1}};
+  json libraries = versions();
+  result["nysalt"] = libraries["nysalt"];
+  libraries.erase("nysalt");
+  libraries["HDF5"] = hdf5_version();
+  result["libraries"] = libraries;
+  result["description"] = system_->description();
+  result["method"] = command_.method;
+  result.update(question());
+  result["observables"] = listed(command_.observables);
+  result["units"] =
+      "those of the system's Hamiltonian, in which nothing is scaled; t = step number * step; kinetic "
+      "temperatures are energies (kT)";
+  return result;
 }
 
 std::vector<std::string> planned_run::warnings_of_starts() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "comparison/json.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "program/settings.hpp"
@@ -23,8 +24,13 @@ class planned_run {
   const run_command& command() const { return command_; }
   prepared_problem& system() const { return *system_; }
   const tabulated& method() const { return *method_; }
-  std::int64_t steps() const { return steps_; }
   trajectories_plan plan() const;
+
+  /// All that decides the bytes of the output, for a run that may be stopped and gone on with.
+  json question() const;
+  /// What a file of arrays tells of itself: the same, in words too, with versions and units; nothing that
+  /// changes from time to time, from machine to machine, or with the number of threads or ranks.
+  json about() const;
 
   /// What is to be said of the method as it is; then also of its steps from these starts, which must be
   /// prepared.

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+// What takes the samples of a run: rows of a table, or arrays.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "comparison/json.hpp"
+#include "comparison/sampled_run.hpp"
+#include "unfinished_file.hpp"
+
+namespace nysalt::program {
+
+/// Of all trajectories of a run, at steps 0, every, 2 every, ...
+struct sampled_shape {
+  std::int64_t trajectories;
+  std::int64_t samples;  // of each
+  std::vector<std::string> observables;
+  double step;
+  std::int64_t every;
+};
+
+/// The observables along trajectory 0, as they are drawn.
+struct first_trajectory {
+  std::vector<double> t;
+  std::vector<std::vector<double>> values;  // of each observable
+};
+
+class sample_writer {
+ public:
+  explicit sample_writer(sampled_shape shape) : shape_(std::move(shape)) {}
+  virtual ~sample_writer() = default;
+
+  /// Before the first record of a run that begins.
+  virtual void begin() {}
+  /// More samples of a trajectory, in the order in which a system hands them over.
+  virtual void take(std::int64_t trajectory, const record& segment) = 0;
+  /// What was taken is handed on.
+  virtual void flush() {}
+
+  /// Writes into a new file all that is known ahead. The writer may refer to it, here and below. Throws
+  /// refusal if there is no room for what will come.
+  virtual void lay_out(unfinished_file&) {}
+  /// Goes on in a file that was left by another run; false if it is not as that one wrote it.
+  virtual bool go_on(unfinished_file& file, const file_sum& written) = 0;
+  /// What a checkpoint knows of a file of such samples, finished or not; nothing if it is none.
+  virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
+  /// Of a finished file, of every so many samples. Throws refusal if it cannot be read.
+  virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;
+  /// Adds to a document what it says of the samples.
+  virtual void describe(json&) const {}
+
+ protected:
+  sampled_shape shape_;
+};
+
+}  // namespace nysalt::program
