@@ -15,7 +15,7 @@
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
-#include "shared_wave.hpp"
+#include "shared_batch.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -41,9 +41,9 @@ std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional
 
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
-void run_in_waves(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
-                  const sampled_plan& plan, const record_taker& take, const counter& progress,
-                  const communicator& ranks) {
+void run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
+                    const sampled_plan& plan, const record_taker& take, const counter& progress,
+                    const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
   const model& system = made.system;
   std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
@@ -53,19 +53,19 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
   };
   const trajectories_plan& all = plan.trajectories;
   const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
-  using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
+  using batch = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
   const std::int64_t samples = longest_stretch(all.steps, plan.stretch) / plan.every + 1;
   const std::int64_t numbers = samples * std::ssize(plan.observables) + 3 * size(system);
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
-  std::int64_t under_way = std::ssize(plan.from.wave.diverged_at);
+  std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
   broadcast(ranks, first);
   broadcast(ranks, under_way);
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : std::min(at_a_time, all.count - first);
-    const shared_wave shared(first, count, lanes_in<P>, ranks);
-    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.wave) : saved_runs();
-    std::optional<wave> runs;  // a rank may have none
+    const shared_batch shared(first, count, lanes_in<P>, ranks);
+    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.batch) : saved_runs();
+    std::optional<batch> runs;  // a rank may have none
     together(ranks, [&] {
       if (shared.count() == 0) return;
       if (under_way > 0) {
@@ -87,8 +87,8 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
         if (!progress) return;
         const double of_stretch = static_cast<double>(done) / static_cast<double>(shared.count());
         const double steps = static_cast<double>(step) + of_stretch * static_cast<double>(end - step);
-        const double of_wave = static_cast<double>(count) * steps / static_cast<double>(all.steps);
-        const double of_all = static_cast<double>(first) + of_wave;
+        const double of_batch = static_cast<double>(count) * steps / static_cast<double>(all.steps);
+        const double of_all = static_cast<double>(first) + of_batch;
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
       together(ranks, [&] {
@@ -98,9 +98,9 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
         const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));
         if (lost && *lost > before) records[i].diverged_at = lost;
       }
-      shared.hand_over(records, take);
+      shared.deliver(records, take);
       if (!plan.stretch || end == all.steps) continue;
-      const standing at{first, shared.gather(runs ? runs->save() : saved_runs())};
+      const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
       on_first(ranks, [&] { plan.reached(at); });
     }
     first += count;
@@ -114,9 +114,9 @@ void run_from(const initial_states& starts, const initial_value_problem& made, c
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
   const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {
-    run_in_waves<double>(made, starts, method, plan, take, progress, world());
+    run_in_batches<double>(made, starts, method, plan, take, progress, world());
   } else {
-    run_in_waves<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
+    run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
   }
 }
 
@@ -145,7 +145,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
   sampled.stretch = short_stretch(system.dimension());
-  sampled.reached = [](const standing&) {};
+  sampled.reached = [](const run_progress&) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
   const auto take = [&](std::int64_t m, const record& segment) {

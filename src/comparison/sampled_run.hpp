@@ -28,11 +28,11 @@ using record_taker = std::function<void(std::int64_t, const record&)>;
 
 /// How far a run is: trajectories before `first` are finished; those after it are as they were saved, and if
 /// none were, they have not begun.
-struct standing {
+struct run_progress {
   std::int64_t first = 0;
-  saved_runs wave = {};
+  saved_runs batch = {};
 
-  bool is_new() const { return first == 0 && wave.diverged_at.empty(); }
+  bool is_new() const { return first == 0 && batch.diverged_at.empty(); }
 };
 
 /// What is sampled along the trajectories of a plan.
@@ -42,8 +42,8 @@ struct sampled_plan {
   std::int64_t every = 1;
   std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
   // Of rank 0 alone:
-  standing from = {};
-  std::function<void(const standing&)> reached = {};  // told after each stretch, if there are stretches
+  run_progress from = {};
+  std::function<void(const run_progress&)> reached = {};  // told after each stretch, if there are stretches
 };
 
 /// Steps that take some tenths of a second in all lanes: for who wants to look in now and then.
@@ -55,10 +55,10 @@ inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64
   return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
 }
 
-/// Hands records over at rank 0, wave by wave of as many trajectories as fit into memory; in a wave stretch
-/// by stretch, and in that in the order of the trajectories. A stretch ends at the first multiple of 64 at or
-/// beyond each multiple of its length: there divergence is looked for anyway, so that cutting the run changes
-/// nothing in it. Rank 0's plan says where to begin. Progress is told in thousandths. Collective.
+/// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
+/// stretch by stretch, and in that in the order of the trajectories. A stretch ends at the first multiple of
+/// 64 at or beyond each multiple of its length: there divergence is looked for anyway, so that cutting the
+/// run changes nothing in it. Rank 0's plan says where to begin. Progress is told in thousandths. Collective.
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
          const record_taker& take, const counter& progress);
 

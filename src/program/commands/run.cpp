@@ -141,9 +141,9 @@ bool agreed(bool at_first) {
 
 int run(const run_command& asked, const common_settings& common) {
   const planned_run planned(asked, common);
-  const run_command& command = planned.command();
-  prepared_problem& system = planned.system();
-  const trajectories_plan plan = planned.plan();
+  const run_command& command = planned.command;
+  prepared_problem& system = *planned.system;
+  const trajectories_plan& plan = planned.plan;
   on_first(world(), [&] { require_files(command); });
   require_room(command, plan.steps, common.json && command.output.empty(), common.threads);
 
@@ -156,21 +156,17 @@ int run(const run_command& asked, const common_settings& common) {
   warn_of_threads(common);
   if (!was_finished || common.json) prepare_starts(system, common, shown);
   shown.clear();
-  std::vector<std::string> warnings = planned.warnings();
+  std::vector<std::string> warnings = planned.warnings;
   if (!was_finished) {
     for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
     if (!common.json) {  // only now: a refusal is one line
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
-    on_first(world(), [&] {
-      output->begin();
-      sampled.from = output->from();
-      sampled.reached = [&](const standing& at) { output->reached(at); };
-    });
+    on_first(world(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
-    run(system, planned.method(), sampled, take, shown.counter(1000));
+    run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
   }
 
@@ -194,7 +190,7 @@ int run(const run_command& asked, const common_settings& common) {
     document["steps"] = plan.steps;
     document["seed"] = common.seed;
     if (!was_finished || common.json)
-      document["evaluations"] = system.count_evaluations(planned.method(), plan);
+      document["evaluations"] = system.count_evaluations(*planned.method, plan);
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     document["warnings"] = warnings;
     if (common.json) {

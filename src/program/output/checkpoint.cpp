@@ -32,8 +32,8 @@ std::string last_line(std::string_view before) {
 }
 
 json head_of(const checkpoint& state) {
-  json wave = json::array();
-  for (const auto& step : state.at.wave.diverged_at) wave.push_back(step ? json(*step) : json(nullptr));
+  json batch = json::array();
+  for (const auto& step : state.at.batch.diverged_at) batch.push_back(step ? json(*step) : json(nullptr));
   json diverged = json::array();
   for (const auto& one : state.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
   return {{"format", format},
@@ -41,8 +41,8 @@ json head_of(const checkpoint& state) {
           {"nysalt", version},
           {"question", state.question},
           {"first", state.at.first},
-          {"step", state.at.wave.step},
-          {"wave", wave},
+          {"step", state.at.batch.step},
+          {"wave", batch},
           {"diverged", diverged},
           {"output", state.output},
           {"length", state.written.length},
@@ -62,9 +62,9 @@ checkpoint state_of(const json& head) {
   checkpoint state;
   state.question = head.at("question");
   state.at.first = count(head.at("first"));
-  state.at.wave.step = count(head.at("step"));
+  state.at.batch.step = count(head.at("step"));
   for (const auto& step : head.at("wave")) {
-    state.at.wave.diverged_at.push_back(step.is_null() ? std::nullopt : std::optional(count(step)));
+    state.at.batch.diverged_at.push_back(step.is_null() ? std::nullopt : std::optional(count(step)));
   }
   for (const auto& one : head.at("diverged")) {
     state.lost.push_back({count(one.at("trajectory")), count(one.at("step"))});
@@ -82,13 +82,13 @@ checkpoint state_of(const json& head) {
 void require_sound(const checkpoint& state) {
   const std::int64_t trajectories = count(state.question.at("trajectories"));
   const std::int64_t steps = count(state.question.at("steps"));
-  const auto& [step, numbers, wave] = state.at.wave;
+  const auto& [step, numbers, batch] = state.at.batch;
   const bool is_of_it = std::ranges::all_of(state.lost, [&](const diverged_trajectory& one) {
     return one.trajectory < trajectories && one.step <= steps;
   });
   const bool is_no_cut = step % steps_between_checks != 0 && step != steps;
-  if (state.at.first > trajectories - std::ssize(wave) || step > steps || is_no_cut || !is_of_it ||
-      numbers.size() % std::max<std::size_t>(wave.size(), 1) != 0) {
+  if (state.at.first > trajectories - std::ssize(batch) || step > steps || is_no_cut || !is_of_it ||
+      numbers.size() % std::max<std::size_t>(batch.size(), 1) != 0) {
     throw std::out_of_range("checkpoint");
   }
 }
@@ -96,7 +96,7 @@ void require_sound(const checkpoint& state) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state) {
-  const auto numbers = std::as_bytes(std::span(state.at.wave.numbers));
+  const auto numbers = std::as_bytes(std::span(state.at.batch.numbers));
   std::string text = head_of(state).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size());
   text += last_line(text);
@@ -128,8 +128,8 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
     checkpoint state = state_of(head);
     const auto bytes = before.substr(before.find('\n') + 1);
     if (bytes.size() % sizeof(double) != 0) throw std::out_of_range("numbers");
-    state.at.wave.numbers.resize(bytes.size() / sizeof(double));
-    bytes.copy(reinterpret_cast<char*>(state.at.wave.numbers.data()), bytes.size());
+    state.at.batch.numbers.resize(bytes.size() / sizeof(double));
+    bytes.copy(reinterpret_cast<char*>(state.at.batch.numbers.data()), bytes.size());
     require_sound(state);
     return state;
   } catch (const std::exception&) {

@@ -6,8 +6,6 @@
 
 #include "comparison/refusal.hpp"
 #include "program/output.hpp"
-#include "sample_arrays.hpp"
-#include "sample_table.hpp"
 
 namespace nysalt::program {
 
@@ -21,18 +19,18 @@ bool is_there(const std::filesystem::path& file) {
 }  // namespace
 
 run_output::run_output(const planned_run& planned, bool as_json)
-    : output_(planned.command().output),
-      checkpoint_(planned.command().checkpoint),
-      is_of_arrays_(sample_arrays::is_of(output_)) {
-  const run_command& command = planned.command();
-  const sampled_shape shape{command.trajectories, planned.plan().steps / command.sample_every + 1,
+    : output_(planned.command.output),
+      checkpoint_(planned.command.checkpoint),
+      is_of_arrays_(is_of_arrays(output_)) {
+  const run_command& command = planned.command;
+  const sampled_shape shape{command.trajectories, planned.plan.steps / command.sample_every + 1,
                             command.observables, command.step, command.sample_every};
   if (is_of_arrays_) {
-    samples_ = std::make_unique<sample_arrays>(output_, shape, planned.about());
+    samples_ = array_writer(output_, shape, planned.about());
   } else if (output_.empty() && as_json) {
-    samples_ = std::make_unique<sample_table>(shape, nullptr);
+    samples_ = table_writer(shape, nullptr);
   } else {
-    samples_ = std::make_unique<sample_table>(shape, [this](std::string_view text) {
+    samples_ = table_writer(shape, [this](std::string_view text) {
       if (part_) return part_->write(text);
       if (table_) return table_->write(text);
       print(text);
@@ -95,14 +93,16 @@ void run_output::go_on(const json& question) {
       part.string());
 }
 
-void run_output::save(const standing& at) {
+void run_output::save(const run_progress& at) {
   state_.at = at;
   if (!is_of_arrays_) state_.written = part_->written();
   write_checkpoint(checkpoint_, state_);
 }
 
-void run_output::begin() {
-  if (from().is_new()) samples_->begin();
+void run_output::begin(sampled_plan& plan) {
+  if (state_.at.is_new()) samples_->begin();
+  plan.from = state_.at;
+  plan.reached = [this](const run_progress& at) { reached(at); };
 }
 
 void run_output::take(std::int64_t trajectory, const record& segment) {
@@ -110,11 +110,11 @@ void run_output::take(std::int64_t trajectory, const record& segment) {
   if (segment.diverged_at) state_.lost.push_back({trajectory, *segment.diverged_at});
 }
 
-void run_output::reached(const standing& at) {
+void run_output::reached(const run_progress& at) {
   if (checkpoint_.empty()) return;
   samples_->flush();
   // Of one trajectory alone what is written is in order, wherever it is cut.
-  if (at.wave.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
+  if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
   part_->put_on_disk();
   warn_of_version(state_, checkpoint_);  // only now: the run has taken what it was given
   state_.version.clear();

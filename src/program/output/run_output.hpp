@@ -10,7 +10,7 @@
 #include "checkpoint.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "planned_run.hpp"
-#include "sample_writer.hpp"
+#include "samples.hpp"
 #include "unfinished_file.hpp"
 
 namespace nysalt::program {
@@ -34,15 +34,12 @@ class run_output {
   bool is_finished() const { return state_.finished; }
   /// Whether the output of a finished run is not what the run wrote any more.
   bool was_changed() const { return samples_->sum_in(output_) != state_.written; }
-  /// How far the run is.
-  const standing& from() const { return state_.at; }
   const std::vector<diverged_trajectory>& lost() const { return state_.lost; }
 
-  /// Before the first record is taken.
-  void begin();
+  /// Before the first record is taken: the plan begins where the run is, and makes checkpoints, if there are
+  /// any.
+  void begin(sampled_plan& plan);
   void take(std::int64_t trajectory, const record& segment);
-  /// All before is taken: a checkpoint, if there are any.
-  void reached(const standing& at);
   /// All was taken: the output takes its name.
   void commit();
   /// And what belongs to the output is there too.
@@ -56,7 +53,8 @@ class run_output {
  private:
   void make_part(const json& question);
   void go_on(const json& question);
-  void save(const standing& at);
+  void reached(const run_progress& at);
+  void save(const run_progress& at);
 
   std::string output_;
   std::filesystem::path checkpoint_;  // empty if there are none

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "sample_table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -17,67 +16,79 @@
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "program/comma_list.hpp"
+#include "samples.hpp"
 
 namespace nysalt::program {
 
-sample_table::sample_table(sampled_shape shape, std::function<void(std::string_view)> write)
-    : sample_writer(std::move(shape)), write_(std::move(write)) {}
-
-void sample_table::begin() {
-  if (write_) write_(fmt::format("trajectory,step,t,{}\n", fmt::join(shape_.observables, ",")));
-}
-
-void sample_table::take(std::int64_t trajectory, const record& segment) {
-  constexpr std::size_t enough = std::size_t{1} << 20U;
-  const std::size_t width = shape_.observables.size();
-  for (std::size_t i = 0; i < segment.values.size(); i += width) {
-    const std::int64_t n = segment.first + static_cast<std::int64_t>(i / width) * shape_.every;
-    const double t = static_cast<double>(n) * shape_.step;
-    const auto values = std::span(segment.values).subspan(i, width);
-    if (write_) {
-      text_ += fmt::format("{},{},{}", trajectory, n, t);
-      for (const double x : values) text_ += std::isfinite(x) ? fmt::format(",{}", x) : std::string(",");
-      text_ += '\n';
-      if (text_.size() > enough) hand_on();
-    } else {
-      json& row = rows_.emplace_back(json{trajectory, n, t});
-      for (const double x : values) row.push_back(x);
-    }
-  }
-  hand_on();
-}
-
-void sample_table::hand_on() {
-  if (write_ && !text_.empty()) write_(text_);
-  text_.clear();
-}
-
-void sample_table::describe(json& document) const {
-  document["columns"] = {"trajectory", "step", "t"};
-  for (const auto& name : shape_.observables) document["columns"].push_back(name);
-  if (!write_) document["rows"] = rows_;
-}
-
-first_trajectory sample_table::read_first(const std::filesystem::path& file, std::int64_t every) const {
-  std::ifstream table(file);
-  std::string row;
-  std::getline(table, row);
-  first_trajectory result{{}, std::vector<std::vector<double>>(shape_.observables.size())};
-  for (std::int64_t n = 0; std::getline(table, row) && row.starts_with("0,"); ++n) {
-    if (n % every != 0) continue;
-    const auto fields = split_at_commas(row);
-    const auto number = [&](std::size_t k) {
-      const auto value = k < fields.size() ? number_from(fields[k]) : std::nullopt;
-      return value.value_or(std::numeric_limits<double>::quiet_NaN());
-    };
-    result.t.push_back(number(2));
-    for (std::size_t k = 0; k < result.values.size(); ++k) result.values[k].push_back(number(3 + k));
-  }
-  if (result.t.empty()) refuse("{} cannot be read again to be drawn", file.string());
-  return result;
-}
-
 namespace {
+
+class sample_table final : public sample_writer {
+ public:
+  sample_table(sampled_shape shape, std::function<void(std::string_view)> write)
+      : sample_writer(std::move(shape)), write_(std::move(write)) {}
+
+  void begin() override {
+    if (write_) write_(fmt::format("trajectory,step,t,{}\n", fmt::join(shape_.observables, ",")));
+  }
+
+  void take(std::int64_t trajectory, const record& segment) override {
+    constexpr std::size_t enough = std::size_t{1} << 20U;
+    const std::size_t width = shape_.observables.size();
+    for (std::size_t i = 0; i < segment.values.size(); i += width) {
+      const std::int64_t n = segment.first + static_cast<std::int64_t>(i / width) * shape_.every;
+      const double t = static_cast<double>(n) * shape_.step;
+      const auto values = std::span(segment.values).subspan(i, width);
+      if (write_) {
+        text_ += fmt::format("{},{},{}", trajectory, n, t);
+        for (const double x : values) text_ += std::isfinite(x) ? fmt::format(",{}", x) : std::string(",");
+        text_ += '\n';
+        if (text_.size() > enough) write_gathered();
+      } else {
+        json& row = rows_.emplace_back(json{trajectory, n, t});
+        for (const double x : values) row.push_back(x);
+      }
+    }
+    write_gathered();
+  }
+
+  bool go_on(unfinished_file& file, const file_sum& written) override { return file.cut_after(written); }
+  std::optional<file_sum> sum_in(const std::filesystem::path& file) const override { return sum_of(file); }
+
+  first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const override {
+    std::ifstream table(file);
+    std::string row;
+    std::getline(table, row);
+    first_trajectory result{{}, std::vector<std::vector<double>>(shape_.observables.size())};
+    for (std::int64_t n = 0; std::getline(table, row) && row.starts_with("0,"); ++n) {
+      if (n % every != 0) continue;
+      const auto fields = split_at_commas(row);
+      const auto number = [&](std::size_t k) {
+        const auto value = k < fields.size() ? number_from(fields[k]) : std::nullopt;
+        return value.value_or(std::numeric_limits<double>::quiet_NaN());
+      };
+      result.t.push_back(number(2));
+      for (std::size_t k = 0; k < result.values.size(); ++k) result.values[k].push_back(number(3 + k));
+    }
+    if (result.t.empty()) refuse("{} cannot be read again to be drawn", file.string());
+    return result;
+  }
+
+  void describe(json& document) const override {
+    document["columns"] = {"trajectory", "step", "t"};
+    for (const auto& name : shape_.observables) document["columns"].push_back(name);
+    if (!write_) document["rows"] = rows_;
+  }
+
+ private:
+  void write_gathered() {
+    if (!text_.empty()) write_(text_);
+    text_.clear();
+  }
+
+  std::function<void(std::string_view)> write_;
+  std::string text_;
+  json rows_ = json::array();
+};
 
 /// Neighbouring rows of one trajectory.
 struct piece {
@@ -100,6 +111,11 @@ std::vector<piece> pieces_of(std::string_view text, std::size_t begin) {
 }
 
 }  // namespace
+
+std::unique_ptr<sample_writer> table_writer(sampled_shape shape,
+                                            std::function<void(std::string_view)> write) {
+  return std::make_unique<sample_table>(std::move(shape), std::move(write));
+}
 
 void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to) {
   namespace ipc = boost::interprocess;

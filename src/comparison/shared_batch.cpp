@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "shared_wave.hpp"
+#include "shared_batch.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -44,17 +44,17 @@ saved_runs receive_runs(const communicator& ranks, std::int64_t count, int from)
 
 }  // namespace
 
-shared_wave::shared_wave(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks)
+shared_batch::shared_batch(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks)
     : first_(first), count_(count), lanes_(lanes), ranks_(&ranks) {}
 
-std::int64_t shared_wave::first_of(int rank) const {
+std::int64_t shared_batch::first_of(int rank) const {
   const std::int64_t blocks = (count_ + lanes_ - 1) / lanes_;
   return first_ + std::min(count_, first_of_part(blocks, rank, ranks_->size()) * lanes_);
 }
 
-void shared_wave::hand_over(const std::vector<record>& own, const record_taker& take) const {
+void shared_batch::deliver(const std::vector<record>& own, const record_taker& take) const {
   std::exception_ptr problem;  // others send what they have all the same
-  const auto hand_on = [&](std::int64_t m, const record& one) {
+  const auto deliver_one = [&](std::int64_t m, const record& one) {
     if (problem || (one.values.empty() && !one.diverged_at)) return;
     try {
       take(m, one);
@@ -63,11 +63,11 @@ void shared_wave::hand_over(const std::vector<record>& own, const record_taker& 
     }
   };
   if (ranks_->is_first()) {
-    for (std::size_t i = 0; i < own.size(); ++i) hand_on(first_ + static_cast<std::int64_t>(i), own[i]);
+    for (std::size_t i = 0; i < own.size(); ++i) deliver_one(first_ + static_cast<std::int64_t>(i), own[i]);
     for (int r = 1; r < ranks_->size(); ++r) {
       std::int64_t m = first_of(r);
       for (const auto& head : receive<record_head>(*ranks_, first_of(r + 1) - m, r)) {
-        hand_on(m++, {head.first, receive<double>(*ranks_, head.values, r), head.diverged_at});
+        deliver_one(m++, {head.first, receive<double>(*ranks_, head.values, r), head.diverged_at});
       }
     }
   } else {
@@ -81,7 +81,7 @@ void shared_wave::hand_over(const std::vector<record>& own, const record_taker& 
   });
 }
 
-saved_runs shared_wave::gather(saved_runs own) const {
+saved_runs shared_batch::gather(saved_runs own) const {
   if (!ranks_->is_first()) {
     send_runs(*ranks_, own, 0);
     return {};
@@ -94,7 +94,7 @@ saved_runs shared_wave::gather(saved_runs own) const {
   return own;
 }
 
-saved_runs shared_wave::scatter(const saved_runs& all) const {
+saved_runs shared_batch::scatter(const saved_runs& all) const {
   if (!ranks_->is_first()) return receive_runs(*ranks_, count(), 0);
   const auto part_of = [&](int r) {
     const std::int64_t begin = first_of(r) - first_;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// What takes the samples of a run: rows of a table, or arrays.
+// Samples of a run on their way out: as rows of a table or of the JSON document, or as arrays.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,5 +60,20 @@ class sample_writer {
  protected:
   sampled_shape shape_;
 };
+
+/// Lines of CSV go to `write`; if it is empty, rows are kept for the document.
+std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<void(std::string_view)> write);
+/// Writes the lines of one table of samples into another: its head, and the rows by the trajectory that each
+/// begins with; those of one trajectory keep their order. Memory: 24 bytes for each stretch of a trajectory.
+/// Throws std::runtime_error if it cannot be read or written; then an older file is as it was.
+void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Whether the ending of its name says that a file is one of arrays: .h5, .hdf5 or .npy.
+bool is_of_arrays(const std::filesystem::path& file);
+/// Every number of a file of arrays has its place from the first moment, where it is put when it is known;
+/// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file. Throws refusal where there is
+/// no HDF5, or such a file would be too large.
+std::unique_ptr<sample_writer> array_writer(const std::filesystem::path& file, sampled_shape shape,
+                                            const json& about);
 
 }  // namespace nysalt::program
