@@ -97,19 +97,6 @@ struct piece {
   std::size_t end;
 };
 
-std::vector<piece> pieces_of(std::string_view text, std::size_t begin) {
-  std::vector<piece> all;
-  while (begin < text.size()) {
-    std::int64_t trajectory = 0;
-    std::from_chars(text.data() + begin, text.data() + text.size(), trajectory);
-    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-    if (all.empty() || all.back().trajectory != trajectory) all.push_back({trajectory, begin, begin});
-    all.back().end = end;
-    begin = end;
-  }
-  return all;
-}
-
 }  // namespace
 
 std::unique_ptr<sample_writer> table_writer(sampled_shape shape,
@@ -124,7 +111,15 @@ void put_by_trajectory(const std::filesystem::path& from, const std::filesystem:
     const ipc::mapped_region region(file, ipc::read_only);
     const std::string_view text(static_cast<const char*>(region.get_address()), region.get_size());
     const std::size_t head = std::min(text.find('\n'), text.size() - 1) + 1;
-    auto pieces = pieces_of(text, head);
+    std::vector<piece> pieces;
+    for (std::size_t begin = head, end = head; begin < text.size(); begin = end) {
+      std::int64_t trajectory = 0;
+      std::from_chars(text.data() + begin, text.data() + text.size(), trajectory);
+      end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+      if (pieces.empty() || pieces.back().trajectory != trajectory)
+        pieces.push_back({trajectory, begin, end});
+      pieces.back().end = end;
+    }
     std::ranges::stable_sort(pieces, {}, &piece::trajectory);
     atomic_file out(to, "sorted");  // a kill leaves one such file at most, which the next run writes again
     out.write(text.substr(0, head));

@@ -97,9 +97,16 @@ bool unfinished_file::cut_after(const file_sum& beginning) {
 }
 
 void unfinished_file::write(std::string_view text) {
-  put(length_, std::as_bytes(std::span(text)));
+  constexpr std::size_t enough = std::size_t{1} << 20U;
+  gathered_ += text;
   length_ += text.size();
   sum_.process_bytes(text.data(), text.size());
+  if (gathered_.size() > enough) write_gathered();
+}
+
+void unfinished_file::write_gathered() {
+  put(length_ - gathered_.size(), std::as_bytes(std::span(gathered_)));
+  gathered_.clear();
 }
 
 void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
@@ -113,6 +120,7 @@ void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
 }
 
 void unfinished_file::put_on_disk() {
+  write_gathered();
   if (fsync(file_.number) != 0) fail();
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +48,8 @@ class unfinished_file {
   /// Goes on after the beginning of a file: what follows that is cut off. False if the file is shorter, or
   /// begins otherwise.
   bool cut_after(const file_sum& beginning);
-  /// At the end of the file. Throws refusal if the text cannot be written, as put() does.
+  /// At the end of the file, some megabytes at a time. Throws refusal if the text cannot be written, as put()
+  /// does.
   void write(std::string_view text);
   /// Bytes at a place of their own, where nothing is written to the end.
   void put(std::uint64_t at, std::span<const std::byte> bytes);
@@ -67,12 +69,14 @@ class unfinished_file {
     int number = -1;
     ~descriptor();
   };
+  void write_gathered();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   std::filesystem::path part_;
   bool is_kept_;
   descriptor file_;
+  std::string gathered_;  // of the end, not written yet
   std::uint64_t length_ = 0;
   boost::crc_32_type sum_;
 };
