@@ -54,5 +54,9 @@ if(TARGET nysalt::nysalt)
   string(STRIP "${definitions} ${native}" flags)
   add_pkg_config(nysalt "${PROJECT_DESCRIPTION}" "nysalt-core = ${PROJECT_VERSION}" "${flags}"
     "-L\${libdir} -lnysalt" "-lceres -ltbb -lfmt")
+  if(TARGET nysalt::report)
+    add_pkg_config(nysalt-report "${PROJECT_DESCRIPTION}: comparisons and reports" "nysalt = ${PROJECT_VERSION}" ""
+      "-L\${libdir} -lnysalt_report -lnysalt -lfmt -ltbb" "")
+  endif()
   add_pkg_config(nysalt-learn "${PROJECT_DESCRIPTION}: the learner" "nysalt = ${PROJECT_VERSION}" "" "" "")
 endif()

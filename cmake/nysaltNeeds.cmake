@@ -8,6 +8,7 @@ set(nysalt_nysalt_needs core fmt TBB Ceres)  # to be linked with: no header of o
 set(nysalt_shared_needs core)
 set(nysalt_learn_needs nysalt)
 set(nysalt_report_needs nysalt fmt TBB)  # to be linked with, as above
+set(nysalt_report_library_needs nlohmann_json)  # to compile it
 set(nysalt_odeint_needs core Boost)
 set(nysalt_mpi_needs nysalt MPI)
 set(nysalt_library_needs core Boost fmt TBB Ceres)  # to compile it
@@ -23,6 +24,8 @@ nysalt_describe(Boost Boost::headers 1.74 "Boost 1.74, its headers (Debian: libb
 nysalt_describe(fmt fmt::fmt 9 "fmt 9 (Debian: libfmt-dev, or set fmt_DIR)")
 nysalt_describe(TBB TBB::tbb 2021 "oneTBB 2021 (Debian: libtbb-dev, or set TBB_DIR)")
 nysalt_describe(Ceres Ceres::ceres 2.1 "Ceres 2.1 (Debian: libceres-dev, or set Ceres_DIR)")
+nysalt_describe(nlohmann_json nlohmann_json::nlohmann_json 3.11
+  "nlohmann-json 3.11 (Debian: nlohmann-json3-dev, or set nlohmann_json_DIR)")
 nysalt_describe(MPI MPI::MPI_CXX 3.1 "an MPI 3.1 for C++ (Debian: libopenmpi-dev, or set MPI_HOME)")
 
 # What is linked for a package.

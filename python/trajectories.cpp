@@ -11,7 +11,6 @@
 #include "../src/comparison/learning.hpp"
 #include "../src/comparison/method_source.hpp"
 #include "../src/comparison/sampled_run.hpp"
-#include "../src/comparison/stretches.hpp"
 #include "../src/program/output/planned_run.hpp"
 #include "arrays.hpp"
 #include "commands.hpp"
@@ -46,8 +45,8 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   const auto command = run_of(asked, system.settings);
   std::unique_ptr<program::planned_run> planned;
   compute(system.calls_python(), [&] { planned = std::make_unique<program::planned_run>(command, common); });
-  const auto& observables = planned->command().observables;
-  const auto plan = planned->plan();
+  const auto& observables = planned->command.observables;
+  const auto plan = planned->plan;
   const std::int64_t every = command.sample_every;
   const std::int64_t samples = plan.steps / every + 1;
   const std::vector<std::int64_t> shape{plan.count, samples, std::ssize(observables)};
@@ -65,31 +64,31 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   std::int64_t evaluations = 0;
   compute(system.calls_python(), [&] {
     program::progress shown;
-    auto& planned_system = planned->system();
+    auto& planned_system = *planned->system;
     prepare_starts(planned_system, common, shown);
-    warnings = planned->warnings();
+    warnings = planned->warnings;
     for (const auto& text : planned->warnings_of_starts()) warnings.push_back(text);
     const program::sampled_plan sampled{.trajectories = plan,
                                         .observables = observables,
                                         .every = every,
                                         .stretch = program::short_stretch(planned_system.dimension()),
-                                        .reached = [](const program::standing&) {}};
+                                        .reached = [](const program::run_progress&) {}};
     const auto take = [&](std::int64_t m, const program::record& one) {
       const std::int64_t row = m * samples + one.first / every;
       std::ranges::copy(one.values, to.begin() + row * std::ssize(observables));
       if (one.diverged_at) lost[m] = *one.diverged_at;
     };
     std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
-    program::run(planned_system, planned->method(), sampled, take, shown.counter(1000));
-    evaluations = planned_system.count_evaluations(planned->method(), plan);
+    program::run(planned_system, *planned->method, sampled, take, shown.counter(1000));
+    evaluations = planned_system.count_evaluations(*planned->method, plan);
   });
   py::dict result;
   result["t"] = t;
   result["values"] = values;
   result["diverged"] = diverged;
   result["observables"] = list_of(observables);
-  result["system"] = planned->system().description();
-  result["starts"] = planned->system().starts();
+  result["system"] = planned->system->description();
+  result["starts"] = planned->system->starts();
   result["steps"] = plan.steps;
   result["evaluations"] = evaluations;
   result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

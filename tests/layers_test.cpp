@@ -113,9 +113,9 @@ std::set<std::string> needs_of(const texts& files, const std::string& path) {
   return needs_of(files, path, seen);
 }
 
-texts read_headers() {
+texts files_below(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  const fs::path root = fs::path(NYSALT_SOURCE_DIR) / "include" / "nysalt";
+  const fs::path root = fs::path(NYSALT_SOURCE_DIR) / folder;
   texts files;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     if (!entry.is_regular_file()) continue;
@@ -124,6 +124,32 @@ texts read_headers() {
     files[fs::relative(entry.path(), root).generic_string()] = text.str();
   }
   return files;
+}
+
+texts read_headers() { return files_below("include/nysalt"); }
+
+/// The folders of src, from the lowest to the highest.
+const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program", "reproduction"};
+
+/// Every source that includes one of a higher folder, in words. What is named by a path from src begins with the
+/// folder; files of the same folder are named without it.
+std::vector<std::string> upward_includes(const texts& sources) {
+  static const std::regex ours(R"re(#\s*include\s*"(?:\.\./)*([a-z_]+)/[^"]+")re");
+  const auto height = [](const std::string& folder) {
+    const auto at = std::ranges::find(folders, folder);
+    return at == folders.end() ? -1 : static_cast<int>(at - folders.begin());
+  };
+  std::vector<std::string> found;
+  for (const auto& [path, text] : sources) {
+    const std::string folder = path.substr(0, path.find('/'));
+    if (path.ends_with(".cpp") || path.ends_with(".hpp")) {
+      if (height(folder) < 0) found.push_back(path + " belongs to no folder");
+      for (const auto& other : found_in(text, ours)) {
+        if (height(other) > height(folder)) found.push_back(path + " includes files of " + other);
+      }
+    }
+  }
+  return found;
 }
 
 const std::string head = "// SPDX-License-Identifier: BSL-1.0\n#pragma once\n";
@@ -154,6 +180,15 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
   BOOST_TEST(one_breach({{"scalar.hpp", head + "#include \"nysalt/gone.hpp\"\n"}}, "not there"));
   BOOST_TEST(one_breach({{"scalar.hpp", "#pragma once\n"}}, "licence"));
   BOOST_TEST(one_breach({{"scalar.hpp", "// SPDX-License-Identifier: BSL-1.0\n"}}, "pragma"));
+}
+
+BOOST_AUTO_TEST_CASE(sources_include_downwards) {
+  const auto sources = files_below("src");
+  BOOST_TEST(sources.size() > 200U);
+  for (const auto& breach : upward_includes(sources)) BOOST_ERROR(breach);
+  BOOST_TEST(upward_includes({{"report/a.cpp", "#include \"program/output.hpp\"\n"}}).size() == 1U);
+  BOOST_TEST(upward_includes({{"program/commands/a.cpp", "#include \"../output.hpp\"\n"}}).empty());
+  BOOST_TEST(upward_includes({{"attic/a.cpp", ""}}).size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(what_steps_needs_eigen_alone) {

@@ -15,8 +15,7 @@
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
-#include "shared_wave.hpp"
-#include "stretches.hpp"
+#include "shared_batch.hpp"
 #include "world.hpp"
 
 namespace nysalt::program {
@@ -33,11 +32,18 @@ std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_
   return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;
 }
 
+/// Step 64 k ends the stretch of the multiples of its length in (64 (k - 1), 64 k].
+std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
+  const std::int64_t length = std::min(asked.value_or(steps), steps);
+  const std::int64_t next = (step / length + 1) * length;
+  return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
+}
+
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
-void run_in_waves(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
-                  const sampled_plan& plan, const std::function<void(std::int64_t, const record&)>& take,
-                  const counter& progress, const communicator& ranks) {
+void run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
+                    const sampled_plan& plan, const record_taker& take, const counter& progress,
+                    const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
   const model& system = made.system;
   std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
@@ -47,20 +53,19 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
   };
   const trajectories_plan& all = plan.trajectories;
   const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
-  using wave = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
-  const stretches run_stretches(all.steps, plan.stretch);
-  const std::int64_t numbers =
-      (run_stretches.longest() / plan.every + 1) * std::ssize(plan.observables) + 3 * size(system);
+  using batch = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
+  const std::int64_t samples = longest_stretch(all.steps, plan.stretch) / plan.every + 1;
+  const std::int64_t numbers = samples * std::ssize(plan.observables) + 3 * size(system);
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
-  std::int64_t under_way = std::ssize(plan.from.wave.diverged_at);
+  std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
   broadcast(ranks, first);
   broadcast(ranks, under_way);
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : std::min(at_a_time, all.count - first);
-    const shared_wave shared(first, count, lanes_in<P>, ranks);
-    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.wave) : saved_runs();
-    std::optional<wave> runs;  // a rank may have none
+    const shared_batch shared(first, count, lanes_in<P>, ranks);
+    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.batch) : saved_runs();
+    std::optional<batch> runs;  // a rank may have none
     together(ranks, [&] {
       if (shared.count() == 0) return;
       if (under_way > 0) {
@@ -70,8 +75,8 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
       }
     });
     for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
-      end = run_stretches.end_after(step);
-      const std::int64_t before = under_way > 0 || step > 0 ? step : -1;
+      end = end_of_stretch(step, all.steps, plan.stretch);
+      const std::int64_t before = step > 0 ? step : -1;
       std::vector<record> records(static_cast<std::size_t>(shared.count()));
       for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
       const auto keep = [&](std::int64_t m, std::int64_t, std::span<const double> values) {
@@ -82,8 +87,8 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
         if (!progress) return;
         const double of_stretch = static_cast<double>(done) / static_cast<double>(shared.count());
         const double steps = static_cast<double>(step) + of_stretch * static_cast<double>(end - step);
-        const double of_wave = static_cast<double>(count) * steps / static_cast<double>(all.steps);
-        const double of_all = static_cast<double>(first) + of_wave;
+        const double of_batch = static_cast<double>(count) * steps / static_cast<double>(all.steps);
+        const double of_all = static_cast<double>(first) + of_batch;
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
       together(ranks, [&] {
@@ -93,9 +98,9 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
         const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));
         if (lost && *lost > before) records[i].diverged_at = lost;
       }
-      shared.hand_over(records, take);
+      shared.deliver(records, take);
       if (!plan.stretch || end == all.steps) continue;
-      const standing at{first, shared.gather(runs ? runs->save() : saved_runs())};
+      const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
       on_first(ranks, [&] { plan.reached(at); });
     }
     first += count;
@@ -105,21 +110,20 @@ void run_in_waves(const initial_value_problem& made, const initial_states& start
 }
 
 void run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
-              const sampled_plan& plan, const std::function<void(std::int64_t, const record&)>& take,
-              const counter& progress) {
+              const sampled_plan& plan, const record_taker& take, const counter& progress) {
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
   const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {
-    run_in_waves<double>(made, starts, method, plan, take, progress, world());
+    run_in_batches<double>(made, starts, method, plan, take, progress, world());
   } else {
-    run_in_waves<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
+    run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
   }
 }
 
 }  // namespace
 
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
-         const std::function<void(std::int64_t, const record&)>& take, const counter& progress) {
+         const record_taker& take, const counter& progress) {
   run_from(system.prepared_starts(), system.definition(), method, plan, take, progress);
 }
 
@@ -130,8 +134,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   std::vector<phase_point<double, dynamic>> states;
   for (std::size_t m = 0; m < count; ++m) {
     const auto part = [&](std::span<double> of) {
-      return Eigen::VectorXd(
-          Eigen::Map<const Eigen::VectorXd>(of.subspan(m * n, n).data(), system.dimension()));
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(of.data() + m * n, system.dimension()));
     };
     states.push_back({part(q), part(p)});
     if (!is_finite(states.back())) {
@@ -142,16 +145,15 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
   sampled.stretch = short_stretch(system.dimension());
-  sampled.reached = [](const standing&) {};
+  sampled.reached = [](const run_progress&) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
   const auto take = [&](std::int64_t m, const record& segment) {
-    const auto sample =
-        std::ssize(segment.values) / std::ssize(sampled.observables) - 1;  // the last sample of the segment
-    if (segment.first + sample * plan.steps < plan.steps) return;
-    const auto from = segment.values.end() - std::ssize(sampled.observables);
-    std::copy_n(from, n, q.begin() + m * static_cast<std::ptrdiff_t>(n));
-    std::copy_n(from + static_cast<std::ptrdiff_t>(n), n, p.begin() + m * static_cast<std::ptrdiff_t>(n));
+    const std::int64_t last = std::ssize(segment.values) / (2 * system.dimension()) - 1;  // of its samples
+    if (segment.first + last * plan.steps < plan.steps) return;
+    const auto state = std::span(segment.values).last(2 * n);
+    std::ranges::copy(state.first(n), q.begin() + m * system.dimension());
+    std::ranges::copy(state.last(n), p.begin() + m * system.dimension());
   };
   run_from(nysalt::listed<dynamic>(std::move(states)), system.definition(), method, sampled, take, progress);
 }

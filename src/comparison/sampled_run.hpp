@@ -2,20 +2,65 @@
 // Sampled trajectories, as many at a time as fit into memory.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "nysalt/detail/divergence.hpp"
+#include "nysalt/ensemble_run.hpp"
+#include "plans.hpp"
 #include "prepared_problem.hpp"
-#include "sampled_plan.hpp"
 
 namespace nysalt::program {
 
-/// Hands records over at rank 0, wave by wave of as many trajectories as fit into memory; in a wave stretch
-/// by stretch, and in that in the order of the trajectories. Rank 0's plan says where to begin. Progress is
-/// told in thousandths. Collective.
+/// Samples of a trajectory: values of all observables at steps first, first + every, ...
+struct record {
+  std::int64_t first = 0;
+  std::vector<double> values = {};
+  std::optional<std::int64_t> diverged_at = {};  // beyond `first`
+};
+/// Told of more samples of a trajectory, by its number.
+using record_taker = std::function<void(std::int64_t, const record&)>;
+
+/// How far a run is: trajectories before `first` are finished; those after it are as they were saved, and if
+/// none were, they have not begun.
+struct run_progress {
+  std::int64_t first = 0;
+  saved_runs batch = {};
+
+  bool is_new() const { return first == 0 && batch.diverged_at.empty(); }
+};
+
+/// What is sampled along the trajectories of a plan.
+struct sampled_plan {
+  trajectories_plan trajectories;
+  std::vector<std::string> observables;
+  std::int64_t every = 1;
+  std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
+  // Of rank 0 alone:
+  run_progress from = {};
+  std::function<void(const run_progress&)> reached = {};  // told after each stretch, if there are stretches
+};
+
+/// Steps that take some tenths of a second in all lanes: for who wants to look in now and then.
+constexpr std::int64_t short_stretch(std::int64_t dimension) {
+  return std::max<std::int64_t>(steps_between_checks, 20'000'000 / dimension);
+}
+/// The steps of a stretch of a run of so many, at most.
+inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64_t> length) {
+  return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
+}
+
+/// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
+/// stretch by stretch, and in that in the order of the trajectories. A stretch ends at the first multiple of
+/// 64 at or beyond each multiple of its length: there divergence is looked for anyway, so that cutting the
+/// run changes nothing in it. Rank 0's plan says where to begin. Progress is told in thousandths. Collective.
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
-         const std::function<void(std::int64_t, const record&)>& take, const counter& progress);
+         const record_taker& take, const counter& progress);
 
 /// Takes given states, instead of starts, to the end of a plan: each of dimension() numbers, one trajectory
 /// after the other. With the bits of run(); where that is lost all of q and p become NaN. Throws refusal for

@@ -10,7 +10,6 @@
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
-#include "comparison/sampled_run.hpp"
 #include "comparison/seeds.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "program/settings.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "comparison/prepared_problem.hpp"
-#include "comparison/sampled_plan.hpp"
+#include "comparison/sampled_run.hpp"
 #include "comparison/settings.hpp"
 #include "curves.hpp"
 #include "exhibit.hpp"

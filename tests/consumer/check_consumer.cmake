@@ -92,7 +92,7 @@ if(NOT files STREQUAL others)
   message(FATAL_ERROR "without a library, what is installed depends on what is found:\n${files}\n${others}")
 endif()
 require_match("${files}" "/nysalt/core\\.hpp;.*/nysalt-core\\.cmake;.*/nysalt-odeint\\.cmake;.*/nysalt-core\\.pc")
-require_no_match("${files}" "libnysalt|nysalt-(nysalt|shared|learn|mpi)|/nysalt/(nysalt|learn)\\.hpp")
+require_no_match("${files}" "libnysalt|nysalt-(nysalt|shared|learn|report|mpi)|/nysalt/(nysalt|learn|compare)\\.hpp")
 foreach(file IN LISTS files)
   file(READ ${FOLDER}/of_eigen/${file} text)
   file(READ ${FOLDER}/installed/${file} other)
@@ -156,6 +156,8 @@ configure(learn)
 build_and_run(learn)
 inspect(learn)
 require_match("${libraries}" "libceres")
+configure(report)
+build_and_run(report)
 
 # A program for another processor, with other lanes, does not link, and the linker says why.
 if(PROCESSOR MATCHES "x86_64|AMD64")
@@ -226,7 +228,7 @@ require_no_match("${sentences}" "nysalt::(nysalt|shared|learn|odeint|mpi) brings
 configure(link_interface -D COMPONENTS=learn)
 require_match("${sentences}" "nysalt::nysalt brings")
 require_no_match("${sentences}" "nysalt::(shared|odeint|mpi) brings")
-refuses("nysalt has no component 'lern': there are core, nysalt, shared, learn, odeint, mpi" link_interface
+refuses("nysalt has no component 'lern': there are core, nysalt, shared, learn, report, odeint, mpi" link_interface
   -D COMPONENTS=lern)
 refuses("component learner is now called learn, and its target nysalt::learn" link_interface
   -D COMPONENTS=learner)

@@ -13,11 +13,9 @@
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
-#include "comparison/stretches.hpp"
 #include "nysalt/detail/together.hpp"
-#include "program/output/destination.hpp"
 #include "program/output/planned_run.hpp"
-#include "program/output/run_question.hpp"
+#include "program/output/run_output.hpp"
 #include "report/manifest.hpp"
 #include "report/plot.hpp"
 
@@ -30,7 +28,7 @@ namespace {
 void require_room(const run_command& command, std::int64_t steps, bool whole_document, int threads) {
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
-  const std::int64_t at_once = stretches(steps, command.every).longest();
+  const std::int64_t at_once = longest_stretch(steps, command.every);
   const auto samples = static_cast<double>(at_once / command.sample_every + 1);
   const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
@@ -41,7 +39,7 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
 /// 2000 points.
-void draw_run(const run_command& command, const destination& output, std::int64_t steps,
+void draw_run(const run_command& command, const run_output& output, std::int64_t steps,
               const common_settings& common) {
   const std::size_t columns = command.observables.size();
   const auto trajectory = output.read_first((steps / command.sample_every + 1) / 2000 + 1);
@@ -89,19 +87,6 @@ void require_files(const run_command& command) {
   }
 }
 
-json document(const run_command& command, const prepared_problem& system, const destination& output,
-              const json& diverged) {
-  json result{{"system", system.description()},
-              {"method", command.method},
-              {"step", command.step},
-              {"trajectories", command.trajectories},
-              {"sample_every", command.sample_every},
-              {"starts", system.starts()},
-              {"diverged", diverged}};
-  output.describe(result);
-  return result;
-}
-
 /// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
 json more_of_manifest(const run_command& command, std::int64_t steps, const json& diverged) {
   if (std::filesystem::path(command.output).extension() != ".npy") return {};
@@ -123,17 +108,18 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
   return all;
 }
 
-void tell(const run_command& command, const json& result, bool was_finished) {
+/// In words, instead of the document.
+void tell(const run_command& command, const json& document, bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
     print(fmt::format("{} is finished already: nothing was done\n", command.output));
   } else if (!command.output.empty()) {
     print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",
-                      command.trajectories, result["steps"].get<std::int64_t>(),
-                      result["evaluations"].get<std::int64_t>(), result["seconds"].get<double>(),
+                      command.trajectories, document["steps"].get<std::int64_t>(),
+                      document["evaluations"].get<std::int64_t>(), document["seconds"].get<double>(),
                       command.output));
   }
-  const json& diverged = result["diverged"];
+  const json& diverged = document["diverged"];
   for (std::size_t i = 0; i < std::min(diverged.size(), enough); ++i) {
     const json& one = diverged[i];
     warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one["trajectory"].get<std::int64_t>(),
@@ -143,18 +129,6 @@ void tell(const run_command& command, const json& result, bool was_finished) {
     warn(fmt::format("and {} more of {} trajectories diverged: --json names them", diverged.size() - enough,
                      command.trajectories));
   }
-}
-
-/// The output and what belongs to it take their names.
-void put_in_place(const run_command& command, destination& output, std::int64_t steps,
-                  const common_settings& common) {
-  output.commit();
-  if (!command.output.empty()) {
-    const json diverged = with_times(output.lost(), command.step);
-    write_manifest(command.output, common, more_of_manifest(command, steps, diverged));
-  }
-  if (command.plot) draw_run(command, output, steps, common);
-  output.finish();
 }
 
 /// What rank 0 decides, all know.
@@ -167,57 +141,62 @@ bool agreed(bool at_first) {
 
 int run(const run_command& asked, const common_settings& common) {
   const planned_run planned(asked, common);
-  const run_command& command = planned.command();
-  prepared_problem& system = planned.system();
-  const tabulated& method = planned.method();
-  const std::int64_t steps = planned.steps();
+  const run_command& command = planned.command;
+  prepared_problem& system = *planned.system;
+  const trajectories_plan& plan = planned.plan;
   on_first(world(), [&] { require_files(command); });
-  require_room(command, steps, common.json && command.output.empty(), common.threads);
+  require_room(command, plan.steps, common.json && command.output.empty(), common.threads);
 
   const auto began = std::chrono::steady_clock::now();
-  const json question = question_of(command, system, method, steps, common.seed);
-  require_agreement("methods", question.dump(-1, ' ', false, json::error_handler_t::replace));
+  require_agreement("methods", planned.question().dump(-1, ' ', false, json::error_handler_t::replace));
   progress shown;
-  std::optional<destination> output;  // at rank 0
-  on_first(world(), [&] {             // from now on the run can be gone on with
-    output.emplace(command, steps, common.json, question,
-                   about_run(command, system, method, steps, common.seed));
-  });
+  std::optional<run_output> output;  // at rank 0; from now on the run can be gone on with
+  on_first(world(), [&] { output.emplace(planned, common.json); });
   const bool was_finished = agreed(output && output->is_finished());
   warn_of_threads(common);
   if (!was_finished || common.json) prepare_starts(system, common, shown);
-  const trajectories_plan plan = planned.plan();
   shown.clear();
-  std::vector<std::string> warnings = planned.warnings();
+  std::vector<std::string> warnings = planned.warnings;
   if (!was_finished) {
     for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
     if (!common.json) {  // only now: a refusal is one line
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
-    on_first(world(), [&] {
-      output->begin();
-      sampled.from = output->from();
-      sampled.reached = [&](const standing& at) { output->reached(at); };
-    });
+    on_first(world(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
-    run(system, method, sampled, take, shown.counter(1000));
+    run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
-    on_first(world(), [&] { put_in_place(command, *output, steps, common); });
   }
 
   on_first(world(), [&] {
-    json result = document(command, system, *output, with_times(output->lost(), command.step));
-    result["steps"] = steps;
-    result["seed"] = common.seed;
-    if (!was_finished || common.json) result["evaluations"] = system.count_evaluations(method, plan);
-    result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    result["warnings"] = warnings;
+    const json diverged = with_times(output->lost(), command.step);
+    if (!was_finished) {
+      output->commit();
+      if (!command.output.empty())
+        write_manifest(command.output, common, more_of_manifest(command, plan.steps, diverged));
+      if (command.plot) draw_run(command, *output, plan.steps, common);
+      output->finish();
+    }
+    json document{{"system", system.description()},
+                  {"method", command.method},
+                  {"step", command.step},
+                  {"trajectories", command.trajectories},
+                  {"sample_every", command.sample_every},
+                  {"starts", system.starts()},
+                  {"diverged", diverged}};
+    output->describe(document);
+    document["steps"] = plan.steps;
+    document["seed"] = common.seed;
+    if (!was_finished || common.json)
+      document["evaluations"] = system.count_evaluations(*planned.method, plan);
+    document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    document["warnings"] = warnings;
     if (common.json) {
-      print(text_of(result));
+      print(text_of(document));
     } else {
-      tell(command, result, was_finished);
+      tell(command, document, was_finished);
     }
     if (was_finished && output->was_changed()) {
       warn(fmt::format("{} is not as the run left it: it was changed since", command.output));

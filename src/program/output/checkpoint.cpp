@@ -4,19 +4,17 @@
 #include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "build_info.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "program/output.hpp"
-#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -33,94 +31,74 @@ std::string last_line(std::string_view before) {
   return fmt::format("\ncrc32 {:08x}\n", sum.checksum());
 }
 
-[[noreturn]] void refuse_broken(const std::filesystem::path& file) {
-  refuse("{} is not whole, or was edited: take an older copy, or remove it and begin anew", file.string());
-}
-
-/// The line that a checkpoint begins with; discarded if it is none.
-json head_of(std::string_view text) {
-  const json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
-  if (!head.is_object() || head.value("format", json()) != format) return json(json::value_t::discarded);
-  return head;
+json head_of(const checkpoint& state) {
+  json batch = json::array();
+  for (const auto& step : state.at.batch.diverged_at) batch.push_back(step ? json(*step) : json(nullptr));
+  json diverged = json::array();
+  for (const auto& one : state.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
+  return {{"format", format},
+          {"version", format_version},
+          {"nysalt", version},
+          {"question", state.question},
+          {"first", state.at.first},
+          {"step", state.at.batch.step},
+          {"wave", batch},
+          {"diverged", diverged},
+          {"output", state.output},
+          {"length", state.written.length},
+          {"sum", state.written.crc},
+          {"in_order", state.in_order},
+          {"finished", state.finished}};
 }
 
 /// Of json's own conversions, that of a large double is undefined.
-std::int64_t whole(const json& value) {
-  if (!value.is_number_integer()) throw std::invalid_argument("not a whole number");
-  return value.get<std::int64_t>();
+std::int64_t count(const json& value) {
+  const auto number = value.get_ref<const json::number_integer_t&>();
+  if (number < 0) throw std::out_of_range("a count is negative");
+  return number;
 }
 
-std::int64_t count_in(const json& head, const char* name, std::int64_t most) {
-  const std::int64_t value = whole(head.at(name));
-  if (value < 0 || value > most) throw std::out_of_range(name);
-  return value;
-}
-
-checkpoint from(const json& head, std::string_view bytes) {
-  constexpr std::int64_t most = std::int64_t{1} << 53U;
+checkpoint state_of(const json& head) {
   checkpoint state;
   state.question = head.at("question");
-  state.at.first = count_in(head, "first", most);
-  state.at.wave.step = count_in(head, "step", most);
+  state.at.first = count(head.at("first"));
+  state.at.batch.step = count(head.at("step"));
   for (const auto& step : head.at("wave")) {
-    std::optional<std::int64_t> lost;
-    if (!step.is_null()) lost = whole(step);
-    state.at.wave.diverged_at.push_back(lost);
+    state.at.batch.diverged_at.push_back(step.is_null() ? std::nullopt : std::optional(count(step)));
   }
   for (const auto& one : head.at("diverged")) {
-    state.lost.push_back({count_in(one, "trajectory", most), count_in(one, "step", most)});
-  }
-  const std::int64_t trajectories = whole(state.question.at("trajectories"));
-  const std::int64_t steps = whole(state.question.at("steps"));
-  const std::int64_t step = state.at.wave.step;
-  const auto is_of_it = [&](const diverged_trajectory& one) {
-    return one.trajectory < trajectories && one.step <= steps;
-  };
-  if (state.at.first + std::ssize(state.at.wave.diverged_at) > trajectories || step > steps ||
-      (step % steps_between_checks != 0 && step != steps) || !std::ranges::all_of(state.lost, is_of_it)) {
-    throw std::out_of_range("first");
+    state.lost.push_back({count(one.at("trajectory")), count(one.at("step"))});
   }
   state.output = head.value("output", std::string());
-  state.written.length = static_cast<std::uint64_t>(count_in(head, "length", std::int64_t{1} << 62U));
-  state.written.crc = static_cast<std::uint32_t>(count_in(head, "sum", 0xffffffff));
+  state.written.length = static_cast<std::uint64_t>(count(head.at("length")));
+  state.written.crc = static_cast<std::uint32_t>(count(head.at("sum")));
   state.in_order = head.at("in_order").get<bool>();
   state.finished = head.at("finished").get<bool>();
   state.version = head.at("nysalt").get<std::string>();
-  auto& numbers = state.at.wave.numbers;
-  numbers.resize(bytes.size() / sizeof(double));
-  const std::size_t wave = std::max<std::size_t>(state.at.wave.diverged_at.size(), 1);
-  if (numbers.size() * sizeof(double) != bytes.size() || numbers.size() % wave != 0) {
-    throw std::out_of_range("numbers");
-  }
-  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());  // of none there is no address
   return state;
+}
+
+/// Throws std::exception for what cannot be of one run.
+void require_sound(const checkpoint& state) {
+  const std::int64_t trajectories = count(state.question.at("trajectories"));
+  const std::int64_t steps = count(state.question.at("steps"));
+  const auto& [step, numbers, batch] = state.at.batch;
+  const bool is_of_it = std::ranges::all_of(state.lost, [&](const diverged_trajectory& one) {
+    return one.trajectory < trajectories && one.step <= steps;
+  });
+  const bool is_no_cut = step % steps_between_checks != 0 && step != steps;
+  if (state.at.first > trajectories - std::ssize(batch) || step > steps || is_no_cut || !is_of_it ||
+      numbers.size() % std::max<std::size_t>(batch.size(), 1) != 0) {
+    throw std::out_of_range("checkpoint");
+  }
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state) {
-  json wave = json::array();
-  for (const auto& step : state.at.wave.diverged_at) wave.push_back(step ? json(*step) : json(nullptr));
-  json diverged = json::array();
-  for (const auto& one : state.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
-  const json head{{"format", format},
-                  {"version", format_version},
-                  {"nysalt", version},
-                  {"question", state.question},
-                  {"first", state.at.first},
-                  {"step", state.at.wave.step},
-                  {"wave", wave},
-                  {"diverged", diverged},
-                  {"output", state.output},
-                  {"length", state.written.length},
-                  {"sum", state.written.crc},
-                  {"in_order", state.in_order},
-                  {"finished", state.finished}};
-  const auto& numbers = state.at.wave.numbers;
-  std::string text = head.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-  const std::size_t at = text.size();
-  text.resize(at + numbers.size() * sizeof(double));
-  if (!numbers.empty()) std::memcpy(text.data() + at, numbers.data(), numbers.size() * sizeof(double));
+  const auto numbers = std::as_bytes(std::span(state.at.batch.numbers));
+  std::string text = head_of(state).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size());
   text += last_line(text);
   atomic_file out(file, "next");  // one process writes checkpoints: a kill leaves one such file at most
   out.write(text);
@@ -134,8 +112,8 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
   }
   std::ifstream input(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(input), {}};
-  const json head = head_of(text);
-  if (head.is_discarded()) {
+  const json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  if (!head.is_object() || head.value("format", json()) != format) {
     refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
   }
   const json file_version = head.value("version", json());
@@ -143,15 +121,19 @@ checkpoint read_checkpoint(const std::filesystem::path& file) {
     refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
            file.string(), file_version.dump(), format_version);
   }
-  const std::size_t last_length = last_line("").size();
-  if (text.size() < last_length) refuse_broken(file);
-  const auto before = std::string_view(text).substr(0, text.size() - last_length);
-  if (!text.ends_with(last_line(before))) refuse_broken(file);
+  const std::size_t end = text.size() - std::min(text.size(), last_line("").size());
+  const auto before = std::string_view(text).substr(0, end);
   try {
+    if (!text.ends_with(last_line(before))) throw std::out_of_range("crc32");
+    checkpoint state = state_of(head);
     const auto bytes = before.substr(before.find('\n') + 1);
-    return from(head, bytes);
-  } catch (const std::exception&) {  // the sum is right, and what it is the sum of is not ours
-    refuse_broken(file);
+    if (bytes.size() % sizeof(double) != 0) throw std::out_of_range("numbers");
+    state.at.batch.numbers.resize(bytes.size() / sizeof(double));
+    bytes.copy(reinterpret_cast<char*>(state.at.batch.numbers.data()), bytes.size());
+    require_sound(state);
+    return state;
+  } catch (const std::exception&) {
+    refuse("{} is not whole, or was edited: take an older copy, or remove it and begin anew", file.string());
   }
 }
 
@@ -159,8 +141,7 @@ void require_question(const checkpoint& state, const json& question, const std::
   if (state.question == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {
-    if (state.question.is_object() && state.question.contains(name) && state.question[name] == value)
-      continue;
+    if (state.question.value(name, json()) == value) continue;
     changed += changed.empty() ? name : ", " + name;
   }
   refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "comparison/json.hpp"
-#include "comparison/sampled_plan.hpp"
+#include "comparison/sampled_run.hpp"
 #include "nysalt/detail/divergence.hpp"
 #include "unfinished_file.hpp"
 
@@ -19,7 +19,7 @@ namespace nysalt::program {
 struct checkpoint {
   json question;       // all that decides the bytes of the output
   std::string output;  // the name of its file, wherever that is
-  standing at;
+  run_progress at;
   std::vector<diverged_trajectory> lost;  // so far, as they were found
   file_sum written;                       // of the unfinished output; in the end of the finished one
   bool in_order = true;                   // the unfinished output is what the finished one will be

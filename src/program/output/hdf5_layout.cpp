@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
-#include <utility>
 
 namespace nysalt::program {
 
@@ -20,17 +19,17 @@ static_assert(std::endian::native == std::endian::little,
 
 namespace {
 
+void require_done(std::int64_t result) {
+  if (result < 0) throw std::runtime_error("HDF5 failed");
+}
+
 /// An object that the library knows by a number, closed when the handle goes.
 class handle {
  public:
-  handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("HDF5 failed");
-  }
-  handle(handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
-  handle& operator=(handle&&) = delete;
-  ~handle() {
-    if (id_ >= 0) close_(id_);
-  }
+  handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) { require_done(id); }
+  handle(const handle&) = delete;
+  handle& operator=(const handle&) = delete;
+  ~handle() { close_(id_); }
   operator hid_t() const { return id_; }
 
  private:
@@ -38,40 +37,25 @@ class handle {
   herr_t (*close_)(hid_t);
 };
 
-void require_done(herr_t result) {
-  if (result < 0) throw std::runtime_error("HDF5 failed");
-}
-
-handle properties(hid_t of_class) { return {H5Pcreate(of_class), H5Pclose}; }
-
 /// To be called first.
 void set_up_library() {
   H5dont_atexit();  // after a full disk the library would try again at exit, and crash
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
 }
 
-/// Of a file that this process may have locked itself; the version of the format is always the same.
-handle access() {
-  handle list = properties(H5P_FILE_ACCESS);
-  require_done(H5Pset_file_locking(list, false, true));
-  require_done(H5Pset_libver_bounds(list, H5F_LIBVER_V18, H5F_LIBVER_V18));
-  return list;
-}
-
-hid_t type_of(const hdf5_dataset& dataset) { return dataset.is_of_integers ? H5T_STD_I64LE : H5T_IEEE_F64LE; }
+/// How files are opened, which this process may have locked itself; the version of the format is always the
+/// same.
+class file_access : public handle {
+ public:
+  file_access() : handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {
+    require_done(H5Pset_file_locking(*this, false, true));
+    require_done(H5Pset_libver_bounds(*this, H5F_LIBVER_V18, H5F_LIBVER_V18));
+  }
+};
 
 void add_attribute(hid_t file, const std::string& name, hid_t type, hid_t space, const void* value) {
   const handle attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   require_done(H5Awrite(attribute, type, value));
-}
-
-void add_text(hid_t file, const std::string& name, const std::string& text) {
-  const handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  require_done(H5Tset_size(type, H5T_VARIABLE));  // which Python reads as str
-  require_done(H5Tset_cset(type, H5T_CSET_UTF8));
-  const handle one(H5Screate(H5S_SCALAR), H5Sclose);
-  const char* begin = text.c_str();
-  add_attribute(file, name, type, one, static_cast<const void*>(&begin));
 }
 
 void add_attribute(hid_t file, const std::string& name, const json& value) {
@@ -89,39 +73,29 @@ void add_attribute(hid_t file, const std::string& name, const json& value) {
     const handle all(H5Screate_simple(1, &count, nullptr), H5Sclose);
     add_attribute(file, name, H5T_IEEE_F64LE, all, numbers.data());
   } else {
-    const bool is_text = value.is_string();
-    add_text(file, name,
-             is_text ? value.get<std::string>() : value.dump(-1, ' ', false, json::error_handler_t::replace));
+    const handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    require_done(H5Tset_size(type, H5T_VARIABLE));  // which Python reads as str
+    require_done(H5Tset_cset(type, H5T_CSET_UTF8));
+    const std::string text = value.is_string() ? value.get<std::string>()
+                                               : value.dump(-1, ' ', false, json::error_handler_t::replace);
+    const char* begin = text.c_str();
+    add_attribute(file, name, type, one, static_cast<const void*>(&begin));
   }
 }
 
-void add_dataset(hid_t file, const hdf5_dataset& dataset) {
-  const std::vector<hsize_t> shape(dataset.shape.begin(), dataset.shape.end());
+void add_dataset(hid_t file, const dataset& added) {
+  const std::vector<hsize_t> shape(added.shape.begin(), added.shape.end());
   const handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   // One piece: a trajectory is read at once, and one time of all for a page of the disk each; pieces that
   // were good for both would need an index, which a killed run might leave behind in disorder.
-  const handle how = properties(H5P_DATASET_CREATE);
+  const handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   require_done(H5Pset_layout(how, H5D_CONTIGUOUS));
   require_done(H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY));
   require_done(H5Pset_fill_time(how, H5D_FILL_TIME_NEVER));
   require_done(H5Pset_obj_track_times(how, false));
-  const handle made(
-      H5Dcreate2(file, dataset.name.c_str(), type_of(dataset), space, H5P_DEFAULT, how, H5P_DEFAULT),
-      H5Dclose);
-}
-
-std::uint64_t place_of(hid_t file, const hdf5_dataset& dataset) {
-  const handle found(H5Dopen2(file, dataset.name.c_str(), H5P_DEFAULT), H5Dclose);
-  const handle type(H5Dget_type(found), H5Tclose);
-  const handle space(H5Dget_space(found), H5Sclose);
-  std::vector<hsize_t> shape(dataset.shape.size());
-  const bool is_it = H5Tequal(type, type_of(dataset)) > 0 &&
-                     H5Sget_simple_extent_ndims(space) == static_cast<int>(shape.size()) &&
-                     H5Sget_simple_extent_dims(space, shape.data(), nullptr) >= 0 &&
-                     std::ranges::equal(shape, dataset.shape);
-  const haddr_t place = H5Dget_offset(found);
-  if (!is_it || place == HADDR_UNDEF) throw std::runtime_error("another dataset");
-  return place;
+  const hid_t type = added.is_of_integers ? H5T_STD_I64LE : H5T_IEEE_F64LE;
+  const handle made(H5Dcreate2(file, added.name.c_str(), type, space, H5P_DEFAULT, how, H5P_DEFAULT),
+                    H5Dclose);
 }
 
 }  // namespace
@@ -130,23 +104,27 @@ bool has_hdf5() { return true; }
 
 std::string hdf5_version() { return fmt::format("{}.{}.{}", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE); }
 
-void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset>& datasets,
+void make_hdf5(const std::filesystem::path& file, const std::vector<dataset>& datasets,
                const json& attributes) {
   set_up_library();
-  const handle how = properties(H5P_FILE_CREATE);
+  const handle how(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   require_done(H5Pset_obj_track_times(how, false));
-  const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, access()), H5Fclose);
+  const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, file_access()), H5Fclose);
   for (const auto& [name, value] : attributes.items()) add_attribute(made, name, value);
   for (const auto& one : datasets) add_dataset(made, one);
   require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));  // to close the file may fail unheard
 }
 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
-                                          const std::vector<hdf5_dataset>& datasets) {
+                                          const std::vector<dataset>& datasets) {
   set_up_library();
-  const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access()), H5Fclose);
+  const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
   std::vector<std::uint64_t> places;
-  for (const auto& one : datasets) places.push_back(place_of(opened, one));
+  for (const auto& one : datasets) {
+    const handle found(H5Dopen2(opened, one.name.c_str(), H5P_DEFAULT), H5Dclose);
+    places.push_back(H5Dget_offset(found));
+    if (places.back() == HADDR_UNDEF) throw std::runtime_error("a dataset without a place");
+  }
   return places;
 }
 
@@ -154,11 +132,9 @@ std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
 
 bool has_hdf5() { return false; }
 std::string hdf5_version() { return ""; }
-void make_hdf5(const std::filesystem::path&, const std::vector<hdf5_dataset>&, const json&) {
-  throw std::logic_error("built without HDF5");
-}
-std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path&, const std::vector<hdf5_dataset>&) {
-  throw std::logic_error("built without HDF5");
+void make_hdf5(const std::filesystem::path&, const std::vector<dataset>&, const json&) {}
+std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path&, const std::vector<dataset>&) {
+  return {};
 }
 
 #endif

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,20 +18,25 @@ bool has_hdf5();
 /// Empty without HDF5.
 std::string hdf5_version();
 
-struct hdf5_dataset {
+/// Numbers of eight bytes.
+struct dataset {
   std::string name;
   std::vector<std::uint64_t> shape;
-  bool is_of_integers = false;  // of 64 bits; else double
+  bool is_of_integers = false;  // else double
+
+  std::uint64_t count() const {
+    return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies());
+  }
 };
 
 /// Makes a file with these datasets, whose numbers are not written yet, and attributes: texts, numbers, lists
 /// of doubles; anything else as JSON. Equal calls make equal bytes. Throws std::runtime_error if it cannot.
-void make_hdf5(const std::filesystem::path& file, const std::vector<hdf5_dataset>& datasets,
+void make_hdf5(const std::filesystem::path& file, const std::vector<dataset>& datasets,
                const json& attributes);
 
-/// Where the numbers of each dataset begin, in bytes. Throws std::runtime_error if the file is not of these
+/// Where the numbers of each dataset begin, in bytes. Throws std::runtime_error if the file has no such
 /// datasets.
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
-                                          const std::vector<hdf5_dataset>& datasets);
+                                          const std::vector<dataset>& datasets);
 
 }  // namespace nysalt::program

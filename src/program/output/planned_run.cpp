@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "planned_run.hpp"
-#include "program/systems.hpp"
 
 #include <algorithm>
 #include <span>
@@ -8,7 +7,10 @@
 #include "comparison/checks.hpp"
 #include "comparison/stability_margin.hpp"
 #include "comparison/world.hpp"
+#include "hdf5_layout.hpp"
 #include "nysalt/detail/together.hpp"
+#include "program/systems.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -23,39 +25,64 @@ void require_observables(const run_command& command, const prepared_problem& sys
   }
 }
 
-std::int64_t steps_of(const run_command& command) {
+trajectories_plan plan_of(const run_command& command, const common_settings& common) {
   require_positive("--step", command.step);
   require_at_least_one("--trajectories", command.trajectories);
   require_at_least_one("--sample-every", command.sample_every);
-  return steps_within("--horizon", command.horizon, command.step);
+  const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
+  return {command.step, steps, command.trajectories, seed_for(role::test, common.seed), common.threads};
 }
 
 }  // namespace
 
-planned_run::planned_run(const run_command& command, const common_settings& common)
-    : command_(command), common_(common), system_(make_system(command.system)), steps_(steps_of(command)) {
-  if (command_.observables.empty()) command_.observables = {system_->default_observable()};
-  require_observables(command_, *system_);
-  together(world(), [&] { source_ = find_method(command_.method, command_.held); });
-  method_ = coefficients_at(source_, *system_, command_.step, common.force,
-                            placement_asked(command_.placement), warnings_);
-}
-
-trajectories_plan planned_run::plan() const {
-  return {command_.step, steps_, command_.trajectories, seed_for(role::test, common_.seed), common_.threads};
+planned_run::planned_run(const run_command& asked, const common_settings& common)
+    : command(asked), system(make_system(asked.system)), plan(plan_of(asked, common)), seed(common.seed) {
+  if (command.observables.empty()) command.observables = {system->default_observable()};
+  require_observables(command, *system);
+  together(world(), [&] { source = find_method(command.method, command.held); });
+  method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
+                           warnings);
 }
 
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
-  const auto trajectories = plan();
   for (const auto& text :
-       {stability_warning(command_.method, *method_, *system_, trajectories.step, trajectories.seed),
-        failed_trial(command_.method, *method_, *system_, trajectories.step, trajectories.steps,
-                     trajectories.seed, trajectories.threads),
-        warning_of_energies(source_, *system_, trajectories)}) {
+       {stability_warning(command.method, *method, *system, plan.step, plan.seed),
+        failed_trial(command.method, *method, *system, plan.step, plan.steps, plan.seed, plan.threads),
+        warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);
   }
   return found;
+}
+
+json planned_run::question() const {
+  return {{"system", system->parameters()},
+          {"starts", system->starts()},
+          {"letters", method->letters().letters()},
+          {"coefficients", method->coefficients()},
+          {"step", command.step},
+          {"steps", plan.steps},
+          {"trajectories", command.trajectories},
+          {"observables", command.observables},
+          {"sample_every", command.sample_every},
+          {"seed", seed}};
+}
+
+json planned_run::about() const {
+  json result{{"format", "nysalt run"}, {"format_version", 1}};
+  json libraries = versions();
+  result["nysalt"] = libraries["nysalt"];
+  libraries.erase("nysalt");
+  libraries["HDF5"] = hdf5_version();
+  result["libraries"] = libraries;
+  result["description"] = system->description();
+  result["method"] = command.method;
+  result.update(question());
+  result["observables"] = listed(command.observables);
+  result["units"] =
+      "those of the system's Hamiltonian, in which nothing is scaled; t = step number * step; kinetic "
+      "temperatures are energies (kT)";
+  return result;
 }
 
 }  // namespace nysalt::program

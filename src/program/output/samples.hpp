@@ -1,45 +1,79 @@
 // SPDX-License-Identifier: BSL-1.0
-// The samples of a run on their way out: rows of a table, or of the JSON document.
+// Samples of a run on their way out: as rows of a table or of the JSON document, or as arrays.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <span>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "comparison/json.hpp"
-#include "sample_sink.hpp"
+#include "comparison/sampled_run.hpp"
+#include "unfinished_file.hpp"
 
 namespace nysalt::program {
 
-class samples final : public sample_sink {
- public:
-  using sink = std::function<void(std::string_view)>;
-
-  /// Lines of CSV go to `lines`; if it is empty, rows are kept for the document.
-  samples(std::vector<std::string> observables, double step, std::int64_t every, sink lines);
-
-  /// Writes the first line, with the names of the columns.
-  void begin() override;
-  void take(std::int64_t trajectory, const record& segment) override;
-
-  json columns() const;
-  const json& rows() const { return rows_; }
-
- private:
-  void hand_on();
-  void add(std::int64_t trajectory, std::int64_t n, std::span<const double> values);
-
-  std::vector<std::string> observables_;
-  double step_;
-  std::int64_t every_;
-  sink lines_;
-  std::string text_;
-  json rows_ = json::array();
+/// Of all trajectories of a run, at steps 0, every, 2 every, ...
+struct sampled_shape {
+  std::int64_t trajectories;
+  std::int64_t samples;  // of each
+  std::vector<std::string> observables;
+  double step;
+  std::int64_t every;
 };
 
-/// From a table of samples, of every so many of its rows. Throws refusal if the table cannot be read.
-first_trajectory read_first_trajectory(const std::string& table, std::int64_t every, std::size_t observables);
+/// The observables along trajectory 0, as they are drawn.
+struct first_trajectory {
+  std::vector<double> t;
+  std::vector<std::vector<double>> values;  // of each observable
+};
+
+class sample_writer {
+ public:
+  explicit sample_writer(sampled_shape shape) : shape_(std::move(shape)) {}
+  virtual ~sample_writer() = default;
+
+  /// Before the first record of a run that begins.
+  virtual void begin() {}
+  /// More samples of a trajectory, in the order in which a system hands them over.
+  virtual void take(std::int64_t trajectory, const record& segment) = 0;
+  /// What was taken is handed on.
+  virtual void flush() {}
+
+  /// Writes into a new file all that is known ahead. The writer may refer to it, here and below. Throws
+  /// refusal if there is no room for what will come.
+  virtual void lay_out(unfinished_file&) {}
+  /// Goes on in a file that was left by another run; false if it is not as that one wrote it.
+  virtual bool go_on(unfinished_file& file, const file_sum& written) = 0;
+  /// What a checkpoint knows of a file of such samples, finished or not; nothing if it is none.
+  virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
+  /// Of a finished file, of every so many samples. Throws refusal if it cannot be read.
+  virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;
+  /// Adds to a document what it says of the samples.
+  virtual void describe(json&) const {}
+
+ protected:
+  sampled_shape shape_;
+};
+
+/// Lines of CSV go to `write`; if it is empty, rows are kept for the document.
+std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<void(std::string_view)> write);
+/// Writes the lines of one table of samples into another: its head, and the rows by the trajectory that each
+/// begins with; those of one trajectory keep their order. Memory: 24 bytes for each stretch of a trajectory.
+/// Throws std::runtime_error if it cannot be read or written; then an older file is as it was.
+void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Whether the ending of its name says that a file is one of arrays: .h5, .hdf5 or .npy.
+bool is_of_arrays(const std::filesystem::path& file);
+/// Every number of a file of arrays has its place from the first moment, where it is put when it is known;
+/// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file. Throws refusal where there is
+/// no HDF5, or such a file would be too large.
+std::unique_ptr<sample_writer> array_writer(const std::filesystem::path& file, sampled_shape shape,
+                                            const json& about);
 
 }  // namespace nysalt::program

@@ -5,11 +5,10 @@
 #include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,53 +25,58 @@ struct byte_range {
   std::uint64_t first;
   std::uint64_t end;
 };
-/// The CRC-32 leaves out some ranges, which do not overlap, in their order. Nothing if the file
-/// cannot be read.
+/// The CRC-32 leaves out some ranges, which do not overlap, in their order. Nothing if the file cannot be
+/// read.
 std::optional<file_sum> sum_of(const std::filesystem::path& file,
                                const std::vector<byte_range>& left_out = {});
 
-/// FILE.part, which becomes FILE when it is finished. One process alone can hold the file.
+/// FILE.part, which becomes FILE when it is finished. One process alone can hold the file. One that was made
+/// here goes with its writer, until it is kept.
 class unfinished_file {
  public:
+  enum class origin { made, left_by_another };
   static std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
-  /// Begins the file. Throws refusal if there is one, which a run that was stopped may need, if another
-  /// process writes the file, or the file cannot be made.
-  explicit unfinished_file(const std::filesystem::path& file);
-  /// Goes on after the beginning of the file; what follows that is cut off. Throws refusal if the file is not
-  /// there, shorter, or begins otherwise, too.
-  unfinished_file(const std::filesystem::path& file, const file_sum& beginning);
-  /// Goes on in the midst of the file, whatever it holds. Throws refusal if the file is not there.
-  static unfinished_file left_by_another(const std::filesystem::path& file);
+  /// Throws refusal if another process writes the file, or it cannot be opened; to make one, if there is one,
+  /// which a run that was stopped may need; to go on with one, if there is none.
+  unfinished_file(const std::filesystem::path& file, origin from);
+  ~unfinished_file();
+  unfinished_file(const unfinished_file&) = delete;
+  unfinished_file& operator=(const unfinished_file&) = delete;
 
-  std::filesystem::path part() const { return part_of(path_); }
-  /// At the end of the file. Throws refusal if the text cannot be written.
+  const std::filesystem::path& part() const { return part_; }
+  /// Goes on after the beginning of a file: what follows that is cut off. False if the file is shorter, or
+  /// begins otherwise.
+  bool cut_after(const file_sum& beginning);
+  /// At the end of the file, some megabytes at a time. Throws refusal if the text cannot be written, as put()
+  /// does.
   void write(std::string_view text);
-  /// Bytes at a place of their own, where nothing was written to the end. Throws refusal if the bytes cannot
-  /// be written.
+  /// Bytes at a place of their own, where nothing is written to the end.
   void put(std::uint64_t at, std::span<const std::byte> bytes);
   /// Puts on the disk what was written.
   void put_on_disk();
+  /// From the beginning to the end, so far.
   file_sum written() const { return {length_, sum_.checksum()}; }
 
+  void keep() { is_kept_ = true; }
   /// FILE.part becomes FILE. Throws refusal if that cannot be.
   void finish();
   /// FILE was made of FILE.part in another way.
   void remove();
 
  private:
-  struct close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+  struct descriptor {
+    int number = -1;
+    ~descriptor();
   };
-
-  unfinished_file() = default;
-  void open(bool anew);
-  void require_same_file(int descriptor) const;
-  void require_beginning(const file_sum& beginning);
+  void write_gathered();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
-  std::unique_ptr<std::FILE, close> file_;
+  std::filesystem::path part_;
+  bool is_kept_;
+  descriptor file_;
+  std::string gathered_;  // of the end, not written yet
   std::uint64_t length_ = 0;
   boost::crc_32_type sum_;
 };

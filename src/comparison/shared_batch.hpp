@@ -3,19 +3,18 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "sampled_plan.hpp"
+#include "sampled_run.hpp"
 
 namespace nysalt::program {
 
 /// Trajectories first .. first + count - 1. Each rank has consecutive ones, in whole blocks of as many as are
 /// stepped together, rank 0 the first; one may have none. All but first() and count() is collective.
-class shared_wave {
+class shared_batch {
  public:
-  shared_wave(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks);
+  shared_batch(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks);
 
   /// Of this rank.
   std::int64_t first() const { return first_of(ranks_->rank()); }
@@ -23,8 +22,7 @@ class shared_wave {
 
   /// take(m, record) at rank 0, in the order of the trajectories, of each that has samples or is lost. One
   /// trajectory of another rank is in its memory at a time. What take() throws is thrown at all ranks.
-  void hand_over(const std::vector<record>& own,
-                 const std::function<void(std::int64_t, const record&)>& take) const;
+  void deliver(const std::vector<record>& own, const record_taker& take) const;
   /// All of them at rank 0, elsewhere nothing.
   saved_runs gather(saved_runs own) const;
   /// Of all, which rank 0 has, each gets its own.

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "run_output.hpp"
+
+#include <string_view>
+#include <system_error>
+
+#include "comparison/refusal.hpp"
+#include "program/output.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+}  // namespace
+
+run_output::run_output(const planned_run& planned, bool as_json)
+    : output_(planned.command.output),
+      checkpoint_(planned.command.checkpoint),
+      is_of_arrays_(is_of_arrays(output_)) {
+  const run_command& command = planned.command;
+  const sampled_shape shape{command.trajectories, planned.plan.steps / command.sample_every + 1,
+                            command.observables, command.step, command.sample_every};
+  if (is_of_arrays_) {
+    samples_ = array_writer(output_, shape, planned.about());
+  } else if (output_.empty() && as_json) {
+    samples_ = table_writer(shape, nullptr);
+  } else {
+    samples_ = table_writer(shape, [this](std::string_view text) {
+      if (part_) return part_->write(text);
+      if (table_) return table_->write(text);
+      print(text);
+    });
+  }
+  if (command.resume) {
+    go_on(planned.question());
+  } else if (is_of_arrays_ || !checkpoint_.empty()) {
+    make_part(planned.question());
+  } else if (!output_.empty()) {
+    table_.emplace(output_);
+  }
+}
+
+run_output::~run_output() {
+  std::error_code ignored;
+  if (is_fresh_) std::filesystem::remove(checkpoint_, ignored);
+}
+
+void run_output::make_part(const json& question) {
+  if (is_there(checkpoint_) && !read_checkpoint(checkpoint_).finished) {
+    refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
+           checkpoint_.string());
+  }
+  part_.emplace(output_, unfinished_file::origin::made);
+  samples_->lay_out(*part_);
+  if (checkpoint_.empty()) return;
+  state_.question = question;
+  state_.output = std::filesystem::path(output_).filename();
+  if (is_of_arrays_) state_.written = samples_->sum_in(part_->part()).value_or(file_sum());
+  part_->put_on_disk();
+  save({});
+  is_fresh_ = true;
+}
+
+void run_output::go_on(const json& question) {
+  state_ = read_checkpoint(checkpoint_);
+  require_question(state_, question, checkpoint_);
+  if (!state_.output.empty() && state_.output != std::filesystem::path(output_).filename()) {
+    refuse("{} is of a run with the --output {}, not {}", checkpoint_.string(), state_.output, output_);
+  }
+  const auto part = unfinished_file::part_of(output_);
+  if (state_.finished) {
+    if (!is_there(output_)) {
+      refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
+             checkpoint_.string(), output_);
+    }
+    // The run was stopped right before it took away what it had sorted.
+    if (!state_.in_order && is_there(part)) std::filesystem::remove(part);
+    return;
+  }
+  const bool is_whole = state_.at.first == question.at("trajectories");
+  const bool may_have_name = is_whole && state_.in_order && !is_there(part);
+  if (may_have_name && samples_->sum_in(output_) == state_.written) return;
+  part_.emplace(output_, unfinished_file::origin::left_by_another);
+  if (samples_->go_on(*part_, state_.written)) return;
+  refuse(
+      "{} is not what the run to resume left there: it was edited or cut; remove the checkpoint to begin "
+      "anew",
+      part.string());
+}
+
+void run_output::save(const run_progress& at) {
+  state_.at = at;
+  if (!is_of_arrays_) state_.written = part_->written();
+  write_checkpoint(checkpoint_, state_);
+}
+
+void run_output::begin(sampled_plan& plan) {
+  if (state_.at.is_new()) samples_->begin();
+  plan.from = state_.at;
+  plan.reached = [this](const run_progress& at) { reached(at); };
+}
+
+void run_output::take(std::int64_t trajectory, const record& segment) {
+  samples_->take(trajectory, segment);
+  if (segment.diverged_at) state_.lost.push_back({trajectory, *segment.diverged_at});
+}
+
+void run_output::reached(const run_progress& at) {
+  if (checkpoint_.empty()) return;
+  samples_->flush();
+  // Of one trajectory alone what is written is in order, wherever it is cut.
+  if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
+  part_->put_on_disk();
+  warn_of_version(state_, checkpoint_);  // only now: the run has taken what it was given
+  state_.version.clear();
+  part_->keep();
+  is_fresh_ = false;
+  save(at);
+}
+
+void run_output::commit() {
+  if (table_) table_->commit();
+  if (!part_) return;
+  samples_->flush();
+  if (state_.in_order) {
+    part_->finish();
+  } else {
+    put_by_trajectory(part_->part(), output_);
+  }
+}
+
+void run_output::finish() {
+  if (checkpoint_.empty()) return;
+  state_.finished = true;
+  state_.written = samples_->sum_in(output_).value_or(file_sum());
+  write_checkpoint(checkpoint_, state_);
+  if (part_ && !state_.in_order) part_->remove();
+}
+
+void run_output::describe(json& document) const {
+  samples_->describe(document);
+  if (!output_.empty()) document["output"] = output_;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSL-1.0
+// Where the samples of a run go.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "checkpoint.hpp"
+#include "nysalt/atomic_file.hpp"
+#include "planned_run.hpp"
+#include "samples.hpp"
+#include "unfinished_file.hpp"
+
+namespace nysalt::program {
+
+/// Where the records of a run go: into a file, into one that the run can go on with if it is stopped, onto
+/// standard output; or into the document, where there is one. A file that did not take its name does not
+/// stay, unless there is a checkpoint from which the run goes on with it.
+class run_output {
+ public:
+  /// Makes the file, or, if the run is to resume, goes on where its checkpoint says. Throws refusal if the
+  /// file cannot be made; for a checkpoint that is none, not whole or of another run; to resume, if there is
+  /// none or the output under way is not what it knows; to begin, if there is one of a run that was stopped.
+  /// In a table what follows the checkpoint is cut off. In a file of arrays it is written again, and only
+  /// what is not in the arrays must be as it was.
+  run_output(const planned_run& planned, bool as_json);
+  /// Of a run that reached nothing, as it was refused after all, nothing stays.
+  ~run_output();
+  run_output(const run_output&) = delete;
+  run_output& operator=(const run_output&) = delete;
+
+  bool is_finished() const { return state_.finished; }
+  /// Whether the output of a finished run is not what the run wrote any more.
+  bool was_changed() const { return samples_->sum_in(output_) != state_.written; }
+  const std::vector<diverged_trajectory>& lost() const { return state_.lost; }
+
+  /// Before the first record is taken: the plan begins where the run is, and makes checkpoints, if there are
+  /// any.
+  void begin(sampled_plan& plan);
+  void take(std::int64_t trajectory, const record& segment);
+  /// All was taken: the output takes its name.
+  void commit();
+  /// And what belongs to the output is there too.
+  void finish();
+
+  /// Of what was written, of every so many samples.
+  first_trajectory read_first(std::int64_t every) const { return samples_->read_first(output_, every); }
+  /// Adds to a document where the samples are, or themselves.
+  void describe(json& document) const;
+
+ private:
+  void make_part(const json& question);
+  void go_on(const json& question);
+  void reached(const run_progress& at);
+  void save(const run_progress& at);
+
+  std::string output_;
+  std::filesystem::path checkpoint_;  // empty if there are none
+  bool is_of_arrays_;
+  checkpoint state_;
+  bool is_fresh_ = false;                // begun here, and no checkpoint but the first
+  std::optional<unfinished_file> part_;  // of arrays, or with a checkpoint; none once it has its name
+  std::optional<atomic_file> table_;     // without a checkpoint
+  std::unique_ptr<sample_writer> samples_;
+};
+
+}  // namespace nysalt::program
