@@ -154,7 +154,7 @@ template <class Kind>
 using rows = decltype(chosen_rows<Kind>(std::make_index_sequence<std::size(classical_table)>()));
 
 /// Of those for baths one, as what it is without: its conservative part.
-using classical_methods = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, baoab>>;
+using classical_types = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, baoab>>;
 using families =
     std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
 using gradient_methods = rows<with_letter<'G'>>;
@@ -175,7 +175,7 @@ struct members_of_list<std::tuple<F...>> : std::type_identity<std::tuple<member<
 template <class List>
 using members_of = typename members_of_list<List>::type;
 
-using methods = joined<fitted_methods, classical_methods, members_of<families>, gradient_methods,
+using methods = joined<fitted_methods, classical_types, members_of<families>, gradient_methods,
                        members_of<gradient_families>, rotating_methods, members_of<rotating_families>>;
 
 /// A theta well inside the ranges and near the start, where coefficients are of moderate size.
