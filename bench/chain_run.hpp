@@ -6,7 +6,7 @@
 #include <span>
 
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 
 namespace nysalt::bench {

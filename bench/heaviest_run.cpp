@@ -15,7 +15,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "races.hpp"

@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "ensemble_run.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/model.hpp"

@@ -4,7 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;

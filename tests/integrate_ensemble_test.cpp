@@ -9,7 +9,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "support/in_lanes.hpp"
 #include "support/ranks_as_threads.hpp"

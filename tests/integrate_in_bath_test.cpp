@@ -7,7 +7,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"

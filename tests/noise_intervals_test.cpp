@@ -8,11 +8,8 @@
 
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "support/refusal.hpp"
 
 using namespace nysalt;

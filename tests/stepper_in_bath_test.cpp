@@ -6,9 +6,8 @@
 #include <set>
 #include <tuple>
 
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "support/noises.hpp"

@@ -4,7 +4,7 @@
 
 #include "laws/models.hpp"
 #include "laws/run_laws.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/counter_noise.hpp"

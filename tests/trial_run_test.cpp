@@ -5,8 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -41,6 +41,7 @@ class run_time_family {
           return std::vector<double>(c.begin(), c.end());
         }),
         jacobian_([family](const Eigen::VectorXd& theta) { return jacobian_of(family, theta); }) {
+    if constexpr (requires { F::source; }) source = F::source;
     const auto family_ranges = F::ranges();
     ranges.assign(family_ranges.begin(), family_ranges.end());
     const auto first = F::start();
@@ -66,6 +67,7 @@ class run_time_family {
   run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
 
   std::string name;
+  std::string source;                        ///< key in docs/bibliography.bib; empty if it is nobody's
   std::vector<std::string> parameter_names;  ///< one for each parameter
   std::vector<parameter_range> ranges;       ///< where each may lie
   std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest

@@ -11,35 +11,25 @@
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/chin.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/impulse.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/mclachlan_atela.hpp"
-#include "nysalt/methods/omelyan.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/methods/predescu.hpp"
 #include "nysalt/methods/s_aia.hpp"
-#include "nysalt/methods/takahashi_imada.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "prepared_problem.hpp"
 
 namespace nysalt::program {
 
 namespace {
 template <class... F>
-std::vector<run_time_family> as_data() {
+std::vector<run_time_family> families_of() {
   return {run_time_family(F{})...};
 }
 }  // namespace
 
 const std::vector<run_time_family>& families() {
-  static const auto all = as_data<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free,
-                                  aba4_free, fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+  static const auto all =
+      families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free,
+                  fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
   return all;
 }
 
@@ -61,14 +51,7 @@ run_time_family placed(std::string_view name, std::optional<placement> where) {
   return where ? thermostatted(plain, *where) : plain;
 }
 
-std::string_view source_of_family(std::string_view name) {
-  family_named(name);
-  if (name == "nystrom") return "okunbor_skeel_1992";
-  if (name == "fg_chin") return "chin_1997";
-  if (name == "fg4" || name == "r_fg4") return "takahashi_imada_1984";  // the gradient kick
-  if (name.starts_with("r_")) return "tuckerman_berne_martyna_1992";
-  return {};
-}
+std::string_view source_of_family(std::string_view name) { return family_named(name).source; }
 
 tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
   const auto& family = family_named(name);
@@ -83,35 +66,11 @@ tabulated family_member(const std::string& name, const std::vector<double>& para
 }
 
 const std::vector<classical_method>& classical_methods() {
-  static const std::vector<classical_method> all{
-      {tabulated(verlet{}), "verlet_1967"},
-      {tabulated(verlet_aba{}), "verlet_1967"},
-      {tabulated(verlet_2x{}), "verlet_1967"},
-      {tabulated(mclachlan2{}), "mclachlan_1995"},
-      {tabulated(bcss2{}), "blanes_casas_sanz_serna_2014"},
-      {tabulated(bcss3{}), "blanes_casas_sanz_serna_2014"},
-      {tabulated(bcss4{}), "blanes_casas_sanz_serna_2014"},
-      {tabulated(predescu3{}), "predescu_and_others_2012"},
-      {tabulated(forest_ruth{}), "forest_ruth_1990"},
-      {tabulated(pefrl{}), "omelyan_mryglod_folk_2002"},
-      {tabulated(vefrl{}), "omelyan_mryglod_folk_2002"},
-      {tabulated(omelyan5v{}), "omelyan_mryglod_folk_2003"},
-      {tabulated(omelyan5p{}), "omelyan_mryglod_folk_2003"},
-      {tabulated(mclachlan_atela4{}), "mclachlan_atela_1992"},
-      {tabulated(mclachlan5{}), "mclachlan_1995"},
-      {tabulated(blanes_moan_s6{}), "blanes_moan_2002"},
-      {tabulated(srkn6b{}), "blanes_moan_2002"},
-      {tabulated(srkn11b{}), "blanes_moan_2002"},
-      {tabulated(srkn14a{}), "blanes_moan_2002"},
-      {tabulated(takahashi_imada{}), "takahashi_imada_1984"},
-      {tabulated(chin4a{}), "chin_1997"},
-      {tabulated(omelyan_fg4{}), "omelyan_mryglod_folk_2003"},
-      {tabulated(impulse{}), "tuckerman_berne_martyna_1992"},
-      {tabulated(baoab{}), "leimkuhler_matthews_2013"},
-      {tabulated(baoab_2x{}), "leimkuhler_matthews_2013"},
-      {tabulated(aboba{}), "leimkuhler_matthews_2013"},
-      {tabulated(obabo{}), "bussi_parrinello_2007"},
-  };
+  static const auto all = [] {
+    std::vector<classical_method> rows;
+    for (const auto& row : classical_table) rows.push_back({as_data(row), row.source});
+    return rows;
+  }();
   return all;
 }
 
@@ -120,10 +79,9 @@ namespace {
 std::optional<double> frequency_to_fit(const prepared_problem& system) { return system.frequency_to_fit(); }
 
 template <class M>
-adaptive_method adaptive(std::string_view source,
-                         std::optional<double> (*frequency)(const prepared_problem&)) {
+adaptive_method adaptive(std::optional<double> (*frequency)(const prepared_problem&)) {
   return {M::name(),
-          source,
+          M::source,
           run_time_word(typename M::word{}),
           {M::order, M::symmetric, M::requires_quadratic_kinetic},
           frequency,
@@ -132,14 +90,14 @@ adaptive_method adaptive(std::string_view source,
 
 template <Family F, Method M>
 adaptive_method fitted() {
-  return adaptive<phase_fitted<F, M>>("van_de_vyver_2007", frequency_to_fit);
+  return adaptive<phase_fitted<F, M>>(frequency_to_fit);
 }
 
 }  // namespace
 
 const std::vector<adaptive_method>& adaptive_methods() {
   static const std::vector<adaptive_method> all{
-      adaptive<s_aia2>("nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024", highest_frequency),
+      adaptive<s_aia2>(highest_frequency),
       fitted<fg_chin, chin4a>(),
       fitted<fg4, omelyan_fg4>(),
       fitted<aba<4>, pefrl>(),

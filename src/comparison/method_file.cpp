@@ -13,6 +13,7 @@
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"
 #include "stability.hpp"
@@ -78,7 +79,9 @@ placement placement_in(const document_reader& read) {
 
 /// Nothing where the system tells no energy, and where the loss asked for no data.
 std::optional<energy_range> energies_in(const document_reader& read) {
-  if (read.member("energy_range").is_null() || read.text("objective") == "covariance") return {};
+  if (read.member("energy_range").is_null()) return {};
+  const auto loss = find_loss(read.text("objective"));
+  if (loss && !loss->kind->asks_data()) return {};
   const auto ends = read.numbers("energy_range");
   if (ends.size() != 2 || !(ends[0] <= ends[1])) {
     refuse("{}: \"energy_range\" must hold the least and the largest energy", read.file());

@@ -36,16 +36,17 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
     }
   }
   const auto options = options_for(family, how, 1);
-  const bool of_law = options.loss.of == loss_choice::kind::covariance;
+  const loss_kind& loss = *options.loss.kind;
   const double horizon = how.horizon_at(step);
-  if (!of_law && static_cast<double>(options.loss.steps) * step > horizon * (1.0 + 1e-9)) {
+  if (loss.asks_data() && static_cast<double>(options.loss.steps) * step > horizon * (1.0 + 1e-9)) {
     refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
            options.loss.steps, step, horizon);
   }
-  if (of_law && !has_modes(made_.system))
-    refuse("the covariance loss needs modes, which {} does not declare", description());
-  if (of_law && !made_.system.bath().has_temperature()) {
-    refuse("the covariance loss is that of a law: it needs a bath, --friction with --temperature or --sigma");
+  if (loss.needs_modes && !has_modes(made_.system))
+    refuse("the {} loss needs modes, which {} does not declare", loss.name, description());
+  if (loss.needs_bath && !made_.system.bath().has_temperature()) {
+    refuse("the {} loss is that of a law: it needs a bath, --friction with --temperature or --sigma",
+           loss.name);
   }
 }
 

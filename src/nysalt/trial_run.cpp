@@ -8,7 +8,7 @@
 
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

@@ -79,8 +79,9 @@ lesson::lesson(const learn_command& command, const common_settings& common)
   require_sound(command.learning, "--");
   if (command.enough) {
     require_positive("--enough", *command.enough);
-    if (loss_named(command.learning.loss).of == loss_choice::kind::covariance) {
-      refuse("--enough says how many trajectories to learn from, and the covariance loss asks none");
+    const loss_kind& loss = *loss_named(command.learning.loss).kind;
+    if (!loss.asks_data()) {
+      refuse("--enough says how many trajectories to learn from, and the {} loss asks none", loss.name);
     }
   }
   method_source source;

@@ -15,8 +15,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba_free.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

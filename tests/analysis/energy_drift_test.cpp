@@ -11,7 +11,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/energy_drift.hpp"
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 

@@ -15,7 +15,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 

@@ -14,7 +14,7 @@
 #include "nysalt/analysis/total_variation.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 
 using namespace nysalt;

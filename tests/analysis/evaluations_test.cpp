@@ -5,11 +5,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/refusal.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/henon_heiles.hpp"

@@ -12,7 +12,7 @@
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/pendulum.hpp"

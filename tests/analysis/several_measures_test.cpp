@@ -17,7 +17,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

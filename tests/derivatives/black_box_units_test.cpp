@@ -12,7 +12,7 @@
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
-#include "nysalt/methods/chin.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/stepper.hpp"
 
 using namespace nysalt;

@@ -11,7 +11,7 @@
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/stability_margin.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/methods/bcss.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -4,7 +4,7 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

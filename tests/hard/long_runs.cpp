@@ -8,7 +8,7 @@
 #include "energy_story.hpp"
 #include "hard_case.hpp"
 #include "nysalt/lanes.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/scalars/compensated.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "words.hpp"

@@ -7,7 +7,7 @@
 #include "energy_story.hpp"
 #include "hard_case.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/phi4_chain.hpp"

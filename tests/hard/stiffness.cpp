@@ -8,7 +8,7 @@
 #include "hard_case.hpp"
 #include "nysalt/derivatives/magnification.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/methods/impulse.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

@@ -8,16 +8,8 @@
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/chin.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/mclachlan_atela.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
-#include "nysalt/methods/takahashi_imada.hpp"
-#include "nysalt/methods/verlet.hpp"
 
 namespace nysalt::hard {
 

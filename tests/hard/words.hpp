@@ -7,9 +7,7 @@
 
 #include "energy_story.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt::hard {
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the laws are tried on. A new system or method is one line here (and its name in a list).
+// What the laws are tried on. A new system or family is one line here (and its name in a list); classical
+// methods are the rows of classical_table.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -19,22 +23,10 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/chin.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/impulse.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/mclachlan_atela.hpp"
-#include "nysalt/methods/omelyan.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/methods/predescu.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/takahashi_imada.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
@@ -130,24 +122,50 @@ using various_systems =
     std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
                two_split_weights, a_split_ring, a_differentiable_box, a_fast_one, a_faster_one>;
 
+template <class... List>
+using joined = decltype(std::tuple_cat(std::declval<List>()...));
+
+template <std::size_t Row>
+consteval auto name_of_row() {
+  constexpr std::string_view name = classical_table[Row].name;
+  char text[name.size() + 1]{};
+  std::copy(name.begin(), name.end(), text);
+  return detail::method_name<name.size() + 1>(text);
+}
+
+struct of_kicks_and_drifts {
+  constexpr bool operator()(std::string_view letters) const {
+    return letters.find_first_not_of("AB") == std::string_view::npos;
+  }
+};
+template <char Letter>
+struct with_letter {
+  constexpr bool operator()(std::string_view letters) const {
+    return letters.find(Letter) != std::string_view::npos;
+  }
+};
+
+template <class Kind, std::size_t... Row>
+auto chosen_rows(std::index_sequence<Row...>)
+    -> joined<std::conditional_t<Kind()(classical_table[Row].letters),
+                                 std::tuple<classical<name_of_row<Row>()>>, std::tuple<>>...>;
+/// The rows of classical_table whose letters are of that kind.
+template <class Kind>
+using rows = decltype(chosen_rows<Kind>(std::make_index_sequence<std::size(classical_table)>()));
+
 /// Of those for baths one, as what it is without: its conservative part.
-using classical_methods =
-    std::tuple<verlet, verlet_aba, verlet_2x, mclachlan2, bcss2, bcss3, bcss4, predescu3, s_aia2, forest_ruth,
-               pefrl, vefrl, mclachlan_atela4, mclachlan5, omelyan5v, omelyan5p, blanes_moan_s6, srkn6b,
-               srkn11b, srkn14a, baoab>;
+using classical_types = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, baoab>>;
 using families =
     std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
-using gradient_methods = std::tuple<takahashi_imada, chin4a, omelyan_fg4>;
+using gradient_methods = rows<with_letter<'G'>>;
 using gradient_families = std::tuple<fg_chin, fg4>;
 using fitted_methods =
     std::tuple<phase_fitted<fg_chin, chin4a>, phase_fitted<fg4, omelyan_fg4>, phase_fitted<aba<4>, pefrl>,
                phase_fitted<bab<4>, vefrl>, phase_fitted<aba<5>, mclachlan5>, phase_fitted<bab<5>, omelyan5v>,
                phase_fitted<bab<6>, srkn6b>>;
-using rotating_methods = std::tuple<impulse>;
+using rotating_methods = rows<with_letter<'R'>>;
 using rotating_families = std::tuple<r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>;
 
-template <class... List>
-using joined = decltype(std::tuple_cat(std::declval<List>()...));
 using all_families = joined<families, gradient_families, rotating_families>;
 
 template <class List>
@@ -157,7 +175,7 @@ struct members_of_list<std::tuple<F...>> : std::type_identity<std::tuple<member<
 template <class List>
 using members_of = typename members_of_list<List>::type;
 
-using methods = joined<fitted_methods, classical_methods, members_of<families>, gradient_methods,
+using methods = joined<fitted_methods, classical_types, members_of<families>, gradient_methods,
                        members_of<gradient_families>, rotating_methods, members_of<rotating_families>>;
 
 /// A theta well inside the ranges and near the start, where coefficients are of moderate size.

@@ -21,8 +21,11 @@ using noisy_systems = std::tuple<a_warm_fpu, a_warm_free_chain>;
 
 /// Any word, with a whole step shared equally by the letters of each kind.
 template <Flow... L>
-struct shared_equally : langevin_splitting {
+struct shared_equally {
   using word = nysalt::word<L...>;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
   static std::string name() { return "the word " + word::letters(); }
   static std::array<double, word::length> coefficients() {
     const std::string letters = word::letters();
@@ -40,7 +43,8 @@ using nystrom_middle = member<thermostatted_family<nystrom, placement::middle>>;
 
 /// Letters O in the middle, at one end, at both, several, and next to each other.
 using noisy_methods =
-    std::tuple<baoab, obabo, aboba, nystrom_symmetric, nystrom_middle, shared_equally<kick, drift, kick, O>,
-               shared_equally<O, kick, drift>, shared_equally<O, kick, O, O, drift, O>>;
+    joined<rows<with_letter<'O'>>,
+           std::tuple<nystrom_symmetric, nystrom_middle, shared_equally<kick, drift, kick, O>,
+                      shared_equally<O, kick, drift>, shared_equally<O, kick, O, O, drift, O>>>;
 
 }  // namespace nysalt::test

@@ -59,7 +59,7 @@ void check_recovery(double reach) {
     for (double& x : theta) x += random.uniform(-reach, reach);
     const auto sets = made_by(fine_steps(h, member<F>(theta)));
     // The loss has other minima, of which some are very low: several starts find the one that is zero.
-    for (const loss_choice& loss : {loss_choice{}, loss_choice{loss_choice::kind::state, 3}}) {
+    for (const loss_choice& loss : {loss_choice{}, loss_named("state:3")}) {
       const auto found = learn(family, galaxy, sets.data, sets.held_out, {.loss = loss, .random_starts = 4});
       const double allowed = recovery_error(sets, family, column_of(theta));
       const double off = (found.theta - column_of(theta)).cwiseAbs().maxCoeff();
@@ -143,6 +143,6 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_the_family_is_refused) {
   BOOST_TEST(refused(four, {.start = Eigen::Vector3d(0.1, 9.0, 0.2)}, {"aba4", "b1", "9"}));
   BOOST_TEST(refused(four, {.fixed = {0.1, 0.2}}, {"aba4", "3 parameters"}));
   BOOST_TEST(refused(four, {.random_starts = -1}, {"random_starts", "-1"}));
-  BOOST_TEST(refused(four, {.loss = {loss_choice::kind::state, 6}}, {"6 steps", "longer horizon"}));
-  BOOST_TEST(refused(four, {.loss = {loss_choice::kind::covariance}}, {"covariance", "henon_heiles"}));
+  BOOST_TEST(refused(four, {.loss = loss_named("state:6")}, {"6 steps", "longer horizon"}));
+  BOOST_TEST(refused(four, {.loss = loss_named("covariance")}, {"covariance", "henon_heiles"}));
 }

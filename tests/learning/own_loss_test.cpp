@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit
   const auto data = data_of(1);
   const auto held_out = data_of(2);
   const metric measure(galaxy, data, coordinates::qp);
-  const loss_choice three_steps{loss_choice::kind::state, 3};
+  const loss_choice three_steps = loss_named("state:3");
   const auto usual =
       learn(nystrom{}, galaxy, data, held_out, {.loss = three_steps, .classical_starts = false});
   const auto learned_with = [&](const auto& loss, int threads = 1) {
@@ -104,8 +104,7 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
   const metric measure(galaxy, data, coordinates::qp);
   const auto problem =
       make_learning_problem(family, galaxy, data, data_of(2), {}, state_after_three(measure));
-  const auto usual =
-      make_learning_problem(family, galaxy, data, data_of(2), {.loss = {loss_choice::kind::state, 3}});
+  const auto usual = make_learning_problem(family, galaxy, data, data_of(2), {.loss = loss_named("state:3")});
   const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
   const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = 3});
   const auto by_residual = residual_gradients(loss, theta);
@@ -131,8 +130,7 @@ BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
   const auto own = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure, 2.0));
   BOOST_TEST(own.judge(theta) == own.held_out.sum(own.held_out_losses(theta)));
   BOOST_TEST(own.judge(theta) != own.loss_at_end(theta));
-  const auto usual =
-      make_learning_problem(family, galaxy, data, held_out, {.loss = {loss_choice::kind::state, 3}});
+  const auto usual = make_learning_problem(family, galaxy, data, held_out, {.loss = loss_named("state:3")});
   BOOST_TEST(usual.judge(theta) == usual.loss_at_end(theta));
   BOOST_TEST(usual.judge(theta) != usual.held_out.sum(usual.held_out_losses(theta)));
 }

@@ -10,6 +10,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learn.hpp"
+#include "nysalt/methods/palindromic.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

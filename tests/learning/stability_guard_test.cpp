@@ -15,7 +15,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 

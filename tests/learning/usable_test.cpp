@@ -8,7 +8,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/linear_chain.hpp"

@@ -8,8 +8,7 @@
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
@@ -109,16 +108,15 @@ BOOST_AUTO_TEST_CASE(what_is_handed_out_is_not_worse_than_a_member_that_was_know
   }();
   const run_time_family family{bab<3>{}};
   constexpr double step = 1.5 / 40.0;
-  const auto found =
-      fit_of(family, target, law, exact_linear(target), step, 1.5,
-             {.loss = {.of = loss_choice::kind::energy, .steps = 40}, .planned_steps = 40}, 20);
+  const auto found = fit_of(family, target, law, exact_linear(target), step, 1.5,
+                            {.loss = loss_named("energy:40"), .planned_steps = 40}, 20);
   BOOST_TEST_CONTEXT(found.summary.full()) {
     BOOST_TEST(found.summary.usable);
     const auto loss_of = [&](const Eigen::VectorXd& theta) {
       const auto data = make_flow_map_data(target, law, exact_linear(target),
                                            {.step = step, .horizon = 1.5, .trajectories = 20, .seed = 2});
       return fit_of(family, target, law, exact_linear(target), step, 1.5,
-                    {.loss = {.of = loss_choice::kind::energy, .steps = 40},
+                    {.loss = loss_named("energy:40"),
                      .start = theta,
                      .fixed = {theta[0], theta[1]},
                      .planned_steps = 40},

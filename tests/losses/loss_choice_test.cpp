@@ -8,19 +8,32 @@
 
 using namespace nysalt;
 using nysalt::test::refuses;
-using kind = loss_choice::kind;
 
 BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
-  BOOST_TEST((loss_named("state") == loss_choice{kind::state, 1}));
+  const auto is = [](const char* text, std::string_view name, int steps) {
+    const loss_choice loss = loss_named(text);
+    return loss.kind->name == name && loss.steps == steps;
+  };
+  BOOST_TEST(is("state", "state", 1));
   BOOST_TEST((loss_named("state") == loss_choice{}));
-  BOOST_TEST((loss_named("state:5") == loss_choice{kind::state, 5}));
-  BOOST_TEST((loss_named("energy") == loss_choice{kind::energy, 1}));
-  BOOST_TEST((loss_named("energy:10") == loss_choice{kind::energy, 10}));
-  BOOST_TEST((loss_named("covariance") == loss_choice{kind::covariance, 1}));
+  BOOST_TEST(is("state:5", "state", 5));
+  BOOST_TEST(is("energy", "energy", 1));
+  BOOST_TEST(is("energy:10", "energy", 10));
+  BOOST_TEST(is("covariance", "covariance", 1));
   BOOST_TEST((loss_named("state:5") != loss_named("state:6")));
   for (const char* name : {"state:1", "state:5", "energy:10", "covariance"}) {
     BOOST_TEST(loss_named(name).description() == name);
   }
+}
+
+BOOST_AUTO_TEST_CASE(each_loss_has_a_name_of_its_own_and_says_what_it_needs) {
+  for (const loss_kind* kind : losses()) {
+    BOOST_TEST(loss_named(kind->name).kind == kind);
+    BOOST_TEST(kind->over_data != nullptr);
+    BOOST_TEST((kind->asks_data() || !kind->counts_steps));
+  }
+  BOOST_TEST(loss_patterns(true) == "state:K, energy:K");
+  BOOST_TEST(loss_patterns(false) == "covariance");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {

@@ -7,6 +7,4 @@
 using namespace nysalt;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(a_type_steps_as_its_table, M, classical_methods) {
-  try_as_data<M, one_system>();
-}
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_type_steps_as_its_table, M, classical_types) { try_as_data<M, one_system>(); }

@@ -7,9 +7,7 @@
 
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
-#include "nysalt/methods/chin.hpp"
-#include "nysalt/methods/impulse.hpp"
-#include "nysalt/methods/takahashi_imada.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/pendulum.hpp"
 

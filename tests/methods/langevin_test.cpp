@@ -3,10 +3,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/refusal.hpp"
-#include "nysalt/methods/baoab.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/methods/verlet.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

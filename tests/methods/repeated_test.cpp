@@ -6,7 +6,7 @@
 
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 

@@ -1,7 +1,7 @@
 // expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct misdeclared {
   static constexpr int dimension = 1;

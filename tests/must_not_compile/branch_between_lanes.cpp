@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 // A wall that one trajectory touches and its neighbour does not: no branch serves both.
 struct wall {

@@ -9,7 +9,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/pendulum.hpp"

@@ -1,6 +1,6 @@
 // expect: nysalt: fine paths need a method with one letter O
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_paths.hpp"
 
 int main() {

@@ -2,7 +2,7 @@
 //   const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct misdeclared {
   static constexpr int dimension = 1;

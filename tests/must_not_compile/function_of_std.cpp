@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 // std::cos is for double alone; an unqualified cos finds that of dual numbers too.
 struct pendulum {

@@ -1,7 +1,7 @@
 // expect: nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct misdeclared {
   static constexpr int dimension = 1;

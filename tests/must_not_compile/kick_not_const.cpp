@@ -1,7 +1,7 @@
 // expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct misdeclared {
   static constexpr int dimension = 1;

@@ -2,7 +2,7 @@
 //   frequency_bands(), or use phase_fitted(step * frequency)
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/families/fg_chin.hpp"
-#include "nysalt/methods/chin.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 
 struct of_unknown_frequency {

@@ -2,7 +2,7 @@
 //   template or over double, const all of them; see nysalt/system.hpp
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct not_differentiable {
   static constexpr int dimension = 1;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "nysalt/method.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct relativistic {
   static constexpr int dimension = 1;

@@ -4,7 +4,7 @@
 // expect Clang: no member named 'dimension' in 'of_unknown_size'
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/method.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct of_unknown_size {
 #ifdef NYSALT_CONTROL

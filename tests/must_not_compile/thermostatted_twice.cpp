@@ -1,8 +1,7 @@
 // expect: nysalt: this word has its letters O already
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/methods/verlet.hpp"
 
 int main() {
 #ifdef NYSALT_CONTROL

@@ -1,7 +1,7 @@
 // expect: nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/derivatives/symplecticity.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 struct half_differentiable {
   static constexpr int dimension = 1;

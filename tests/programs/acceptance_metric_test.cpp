@@ -11,7 +11,7 @@
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/fg_chin.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

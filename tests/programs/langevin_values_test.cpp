@@ -14,7 +14,7 @@
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"

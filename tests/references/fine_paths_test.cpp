@@ -10,7 +10,7 @@
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"

@@ -6,7 +6,7 @@
 
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/pack.hpp"
 #include "nysalt/systems/fpu_chain.hpp"

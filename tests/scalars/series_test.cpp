@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/draws.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/scalars/series.hpp"
 #include "nysalt/stepper.hpp"
 

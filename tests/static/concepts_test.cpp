@@ -8,6 +8,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/methods/palindromic.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/exact_linear.hpp"

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "quartic_well.hpp"

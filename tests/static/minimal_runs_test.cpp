@@ -10,7 +10,7 @@
 
 #include "nysalt/ensemble.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "quartic_well.hpp"

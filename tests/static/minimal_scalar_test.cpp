@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "quartic_well.hpp"
 
 using namespace nysalt::test;

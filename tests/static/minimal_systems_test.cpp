@@ -10,9 +10,8 @@
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/impulse.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/model.hpp"
 #include "quartic_well.hpp"
 

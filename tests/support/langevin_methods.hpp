@@ -8,9 +8,8 @@
 #include "langevin_linear.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

@@ -8,7 +8,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

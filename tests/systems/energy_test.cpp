@@ -4,7 +4,7 @@
 
 #include "../laws/models.hpp"
 #include "../laws/system_laws.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,8 +6,8 @@
 #include "../laws/run_laws.hpp"
 #include "../laws/system_laws.hpp"
 #include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/verlet.hpp"
 #include "nysalt/scalars/pack.hpp"
 
 using namespace nysalt;

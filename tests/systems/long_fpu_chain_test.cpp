@@ -10,7 +10,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -5,7 +5,7 @@
 
 #include "../support/systems.hpp"
 #include "../support/trajectory_hash.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"

@@ -7,7 +7,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

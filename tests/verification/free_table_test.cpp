@@ -7,12 +7,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "nysalt/analysis/energy_drift.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/mclachlan_atela.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 
 using namespace nysalt;

@@ -13,7 +13,7 @@
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -9,7 +9,7 @@
 #include "../support/rounding.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/lanes.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -8,10 +8,7 @@
 #include "nysalt/families/symmetric_composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/omelyan.hpp"
-#include "nysalt/methods/predescu.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt {
 

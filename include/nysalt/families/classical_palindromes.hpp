@@ -4,10 +4,7 @@
 #include <vector>
 
 #include "nysalt/families/symmetric_composition.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/omelyan.hpp"
-#include "nysalt/methods/pefrl.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt {
 

@@ -13,7 +13,7 @@
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/methods/omelyan.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt {
 
@@ -21,6 +21,7 @@ namespace nysalt {
 template <Flow X, Flow Y, Flow Z>
 struct gradient_composition : composition<3> {
   using word = nysalt::word<X, Y, X, Z, X, Y, X>;
+  static constexpr std::string_view source = "takahashi_imada_1984";  // of the gradient kick
   static constexpr std::array<std::string_view, 3> parameter_names{"a", "b", "c"};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;

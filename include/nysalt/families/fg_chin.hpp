@@ -16,6 +16,7 @@ namespace nysalt {
 struct fg_chin : composition<2> {
   using word = nysalt::word<kick, drift, gradient_kick, drift, kick>;
   static constexpr std::string_view name = "fg_chin";
+  static constexpr std::string_view source = "chin_1997";
   static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;

@@ -18,6 +18,7 @@ namespace nysalt {
 struct nystrom {
   using word = nysalt::word<drift, kick, drift, kick, drift>;
   static constexpr std::string_view name = "nystrom";
+  static constexpr std::string_view source = "okunbor_skeel_1992";
   static constexpr int parameters = 2;
   static constexpr std::array<std::string_view, 2> parameter_names{"b1", "beta1"};
   static constexpr int order = 2;

@@ -21,6 +21,7 @@ struct r_aba : symmetric_composition<rotation, soft_kick, 2 * Kicks + 1> {
 
  public:
   static constexpr std::string_view name{text.text.data(), text.text.size()};
+  static constexpr std::string_view source = "tuckerman_berne_martyna_1992";
 
   static std::vector<classical_member<base::parameters>> classical_members() {
     return classical_palindromes<base, Kicks>();

@@ -14,22 +14,13 @@ namespace nysalt {
 
 namespace detail {
 
-/// A loss other than those of loss_choice, over the scalar that carries the stretches.
+/// A loss other than those of losses(), over the scalar that carries the stretches.
 struct other_loss {
   std::string name;
   std::string description;
   int steps;
   std::optional<stretch_error<lanes>> in_lanes = {};
   std::optional<stretch_error<double>> one_by_one = {};
-
-  template <Scalar R>
-  const stretch_error<R>& error() const {
-    if constexpr (std::same_as<R, lanes>) {
-      return *in_lanes;
-    } else {
-      return *one_by_one;
-    }
-  }
 };
 
 template <SeparableSystem S, class Error>

@@ -13,7 +13,6 @@
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/squares.hpp"
-#include "nysalt/losses/stationary_covariance.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/trial_run.hpp"
@@ -49,11 +48,10 @@ struct rival_method {
 /// data each has its own part, and the functions are collective: all ranks search together, and find the
 /// same.
 struct learning_problem {
-  run_time_family family;                      ///< what is fitted
-  fit_options options;                         ///< as they were given
-  double step;                                 ///< h of the data
-  objective loss;                              ///< over the data; not asked where there is a law
-  std::optional<stationary_covariance> law{};  ///< the loss that asks no data
+  run_time_family family;  ///< what is fitted
+  fit_options options;     ///< as they were given
+  double step;             ///< h of the data
+  objective loss;          ///< what is minimised
   /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   shard held_out;  ///< which held-out trajectories this rank has
@@ -62,7 +60,7 @@ struct learning_problem {
   std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
   std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
   /// What is least for the best of several minima: loss_at_end where the loss is of the state, else the loss
-  /// itself on the held-out data.
+  /// itself, on the held-out data if it asks data.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
   std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was

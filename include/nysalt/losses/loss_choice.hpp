@@ -2,19 +2,18 @@
 // Which loss to learn with.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "nysalt/losses/loss_kind.hpp"
+
 namespace nysalt {
 
-/// state       the state's error after K steps; K = 1 is the paper's loss, and the default
-/// energy      the energy's error after K steps
-/// covariance  of a thermostatted word, that of its stationary covariance: no data are asked
+/// A loss and its number of steps; by default the state's error after one, the paper's loss.
 struct loss_choice {
-  /// Of the state, of the energy, or of the stationary covariance.
-  enum class kind { state, energy, covariance };
-  kind of = kind::state;  ///< what the loss is of
-  int steps = 1;          ///< K; of no account for a covariance
+  const loss_kind* kind = losses().front();  ///< what the loss is
+  int steps = 1;                             ///< K; of no account where the kind counts no steps
 
   friend bool operator==(const loss_choice&, const loss_choice&) = default;  ///< equal in both
 
@@ -25,5 +24,11 @@ struct loss_choice {
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.
 loss_choice loss_named(std::string_view text);
+
+/// The same; nothing for anything else.
+std::optional<loss_choice> find_loss(std::string_view text);
+
+/// What loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the others.
+std::string loss_patterns(bool count_steps);
 
 }  // namespace nysalt

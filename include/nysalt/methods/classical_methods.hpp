@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
-// All classical methods of the library, as data.
+// Classical methods as data.
 #pragma once
 
 #include <vector>
 
+#include "nysalt/methods/classical_table.hpp"
 #include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt {
 
-/// Methods with fixed coefficients and without letters O: what a learned method is compared with.
+/// A row of the table as a method.
+tabulated as_data(const classical_row& row);
+
+/// Rows without letters O that are not several steps of another: what a learned method is compared with.
 std::vector<tabulated> classical_methods();
 
 /// Classical methods that take so many force evaluations a step: those that take as many, and those that

@@ -7,8 +7,8 @@
 
 namespace nysalt {
 
-/// What all symmetric compositions of drifts and kicks have in common; a named method adds its name,
-/// order and cited coefficients.
+/// What all symmetric compositions of drifts and kicks have in common; a method adds its name, order and
+/// coefficients.
 template <Flow Outer, Flow Inner, std::size_t Length>
 struct palindromic {
   using word = alternating_word<Outer, Inner, Length>;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "nysalt/detail/requirements.hpp"
@@ -44,6 +45,7 @@ class phase_fitted {
   using word = typename M::word;
   static constexpr int order = M::order;
   static constexpr bool symmetric = true;
+  static constexpr std::string_view source = "van_de_vyver_2007";
   static constexpr bool requires_quadratic_kinetic =
       M::requires_quadratic_kinetic || F::requires_quadratic_kinetic;
   static std::string name() {

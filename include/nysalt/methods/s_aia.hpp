@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/methods/palindromic.hpp"
@@ -35,6 +36,7 @@ double energy_error_on_oscillator(double a, double x);
 class s_aia2 : public palindromic<drift, kick, 5> {
  public:
   static constexpr int order = 2;
+  static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
   static std::string name() { return "s_aia2"; }
 
   /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.

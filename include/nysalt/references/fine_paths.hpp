@@ -11,7 +11,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/small_steps.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/reference.hpp"
 
 namespace nysalt {

@@ -10,7 +10,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/small_steps.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt {
 

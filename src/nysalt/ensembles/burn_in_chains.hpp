@@ -7,7 +7,7 @@
 
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"

@@ -11,7 +11,7 @@
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/baoab.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

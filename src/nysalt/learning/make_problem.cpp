@@ -11,42 +11,20 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "../losses/data_loss.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/require_valid.hpp"
 #include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/sound_force.hpp"
-#include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/energy_error.hpp"
-#include "nysalt/losses/state_error.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
 
 namespace nysalt {
 
 namespace {
-
-/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
-/// those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger
-/// by some part counts less by that part. Without this the standard errors are two to three times too small.
-template <class Loss>
-trajectory_scores scores(const Loss& loss, const Eigen::VectorXd& theta) {
-  const Eigen::MatrixXd* deviations = loss.error().weight_deviations;
-  const auto by_trajectory = residual_gradients(loss, theta);
-  const Eigen::MatrixXd zero =
-      Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
-  const Eigen::MatrixXd sum = loss.share().sum(by_trajectory, zero);
-  std::vector<Eigen::VectorXd> result;
-  for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
-    result.push_back(Eigen::VectorXd::Zero(sum.rows()));
-    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
-      result[m] += by_trajectory[m].col(k);
-      if (deviations != nullptr) result[m] -= sum.col(k) * (*deviations)(k, static_cast<Eigen::Index>(m));
-    }
-  }
-  return {std::move(result), loss.share()};
-}
 
 /// Whether the first trajectory, which rank 0 has, is the same. In a bath other noise makes another of the
 /// same start.
@@ -88,12 +66,15 @@ int shortest_of(const flow_map_data& data) {
 
 /// A summary must not take one loss for another, and names it in a line.
 void require_name(const std::string& name) {
-  const bool is_taken = name == "state" || name == "energy" || name == "covariance";
+  std::vector<std::string_view> taken;
+  for (const loss_kind* kind : losses()) taken.push_back(kind->name);
+  const bool is_taken = std::ranges::find(taken, name) != taken.end();
   if (!name.empty() && !is_taken && name.find_first_of("\n\r") == std::string::npos) return;
-  throw std::invalid_argument(
-      fmt::format("learn: an own loss cannot be called '{}': take a name of one line that is none of state, "
-                  "energy and covariance",
-                  name));
+  const auto last = taken.back();
+  taken.pop_back();
+  throw std::invalid_argument(fmt::format(
+      "learn: an own loss cannot be called '{}': take a name of one line that is none of {} and {}", name,
+      fmt::join(taken, ", "), last));
 }
 
 /// Where a word has its letters O; nothing if it has none, or not as placement says.
@@ -116,14 +97,22 @@ stability_guard guard_along(const model& system, const flow_map_data& data, cons
   return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
 }
 
-template <Scalar R>
+/// Whether the letters are served, in lanes or one by one, with their derivatives by theta.
+void require_served_with_slopes(const run_time_word& letters, const model& system, bool in_lanes) {
+  require_served<model, double>(letters, system);
+  if (in_lanes) {
+    require_served<model, detail::lanes_with_slopes>(letters, system);
+  } else {
+    require_served<model, dual<double, directions_at_a_time>>(letters, system);
+  }
+}
+
 learning_problem make_problem(const run_time_family& family, const model& system, const flow_map_data& data,
                               const flow_map_data& held_out, const fit_options& options,
-                              const detail::other_loss* other) {
+                              const detail::other_loss* other, bool in_lanes) {
   require_valid(data, system);
   require_valid(held_out, system);
-  require_served<model, double>(family.letters, system);
-  require_served<model, dual<R, directions_at_a_time>>(family.letters, system);
+  require_served_with_slopes(family.letters, system, in_lanes);
   if (held_out.step != data.step) {
     throw std::invalid_argument(
         fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
@@ -131,51 +120,43 @@ learning_problem make_problem(const run_time_family& family, const model& system
   if (&held_out.share().ranks() != &data.share().ranks()) {
     throw std::invalid_argument("learn: the data and the held-out data must be shared by the same ranks");
   }
-  using loss_type = after_steps<R>;
-  using metric_type = metric;
-  const bool has_data = options.loss.of != loss_choice::kind::covariance;
+  const loss_kind& kind = *options.loss.kind;
   const communicator& ranks = data.share().ranks();
-  const auto measure = std::make_shared<const metric_type>(system, data, options.coordinates);
-  const auto of_state = state_error<R>(*measure);
-  const auto error_over = [&](const auto& pairs) {
-    return other != nullptr                               ? other->template error<R>()
-           : options.loss.of == loss_choice::kind::energy ? energy_error<R>(system, pairs)
-                                                          : of_state;
+  const auto measure = std::make_shared<const metric>(system, data, options.coordinates);
+  const auto inputs = [&](const flow_map_data& pairs, int steps, bool overlap = true) {
+    return detail::loss_inputs{
+        family,  system, pairs, measure, {.steps = steps, .overlap = overlap, .threads = options.threads},
+        in_lanes};
   };
-  const auto loss_over = [&](const auto& pairs, const auto& error, int steps, bool overlap = true) {
-    const after_steps_options how{.steps = steps, .overlap = overlap, .threads = options.threads};
-    return std::make_shared<const loss_type>(family, system, pairs, error, how);
+  const auto loss_over = [&](const flow_map_data& pairs) {
+    if (other == nullptr) return kind.over_data(inputs(pairs, options.loss.steps));
+    const auto from = inputs(pairs, other->steps);
+    return in_lanes ? after_steps_of(from, *other->in_lanes) : after_steps_of(from, *other->one_by_one);
   };
-  const int steps = other ? other->steps : options.loss.steps;
-  const auto loss = loss_over(data, error_over(data), steps);
-  const auto held = loss_over(held_out, error_over(held_out), steps);
-  const auto one_step = loss_over(held_out, of_state, 1);
-  const auto at_end = loss_over(held_out, of_state, shortest_of(held_out), false);
+  const auto loss = loss_over(data);
+  const auto held = loss_over(held_out);
+  const auto one_step = detail::of_states(inputs(held_out, 1));
+  const auto at_end = detail::of_states(inputs(held_out, shortest_of(held_out), false));
 
-  // Each function keeps the metric that its loss refers to.
-  learning_problem problem{
-      .family = family,
-      .options = options,
-      .step = data.step,
-      .loss = [loss, measure](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
-      .scores = [loss, measure](const Eigen::VectorXd& theta) { return scores(*loss, theta); },
-      .held_out = held_out.share(),
-      .held_out_losses = [held,
-                          measure](const Eigen::VectorXd& theta) { return trajectory_losses(*held, theta); },
-      .one_step_loss = [one_step,
-                        measure](const Eigen::VectorXd& theta) { return loss_value(*one_step, theta); },
-      .loss_at_end = [at_end, measure](const Eigen::VectorXd& theta) { return loss_value(*at_end, theta); },
-      .judge = [judging_loss = other || options.loss.of != loss_choice::kind::state ? held : at_end,
-                measure](const Eigen::VectorXd& theta) { return loss_value(*judging_loss, theta); },
-      .evaluations =
-          [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
-            return of_data + ranks.total(loss->evaluations() + held->evaluations() + one_step->evaluations() +
-                                         at_end->evaluations());
-          },
-      .trial = {},
-      .rival = {},
-      .guard = guard_along(system, data, held_out, family.letters.rotates(), options),
-      .facts = {}};
+  learning_problem problem{.family = family,
+                           .options = options,
+                           .step = data.step,
+                           .loss = loss.of_theta,
+                           .scores = loss.scores,
+                           .held_out = held_out.share(),
+                           .held_out_losses = held.by_trajectory,
+                           .one_step_loss = one_step.value,
+                           .loss_at_end = at_end.value,
+                           .judge = other == nullptr && kind.is_of_states ? at_end.value : held.value,
+                           .evaluations =
+                               [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
+                                 return of_data + ranks.total(loss.evaluations() + held.evaluations() +
+                                                              one_step.evaluations() + at_end.evaluations());
+                               },
+                           .trial = {},
+                           .rival = {},
+                           .guard = guard_along(system, data, held_out, family.letters.rotates(), options),
+                           .facts = {}};
   auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
   problem.trial_starts = static_cast<std::int64_t>(starts->size());
   constexpr std::int64_t in_bath = 192;
@@ -197,7 +178,7 @@ learning_problem make_problem(const run_time_family& family, const model& system
     return run(letters, coefficients, trajectories, steps);
   };
   const auto place = placement_in(family.letters);
-  problem.rival = [system, family, place, held, measure,
+  problem.rival = [system, family, place, held, in_lanes,
                    run](const tabulated& method) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
     run_time_family alone(method.name(), method.letters(), method.coefficients());
@@ -206,29 +187,23 @@ learning_problem make_problem(const run_time_family& family, const model& system
       alone = thermostatted(alone, *place);
     }
     try {
-      require_served<model, double>(alone.letters, system);
-      require_served<model, dual<R, directions_at_a_time>>(alone.letters, system);
+      require_served_with_slopes(alone.letters, system, in_lanes);
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
     const auto coefficients = alone.coefficients({});
-    const loss_type rival_loss(*held, alone);
     rival_method result;
     result.name = method.name();
-    result.held_out_losses = trajectory_losses(rival_loss, Eigen::VectorXd());
+    result.held_out_losses = held.by_trajectory_of(alone);
     result.trial = [run, letters = alone.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
       return run(letters, coefficients, trajectories, n);
     };
     return result;
   };
-  if (!has_data) {
-    if (has_modes(system) && system.bath().acts()) {
-      problem.law.emplace(system, family.letters, data.step);
-    } else {
-      throw std::invalid_argument(
-          fmt::format("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
-                      describe(system)));
-    }
+  const bool asks_data = other != nullptr || kind.asks_data();
+  if (!asks_data) {  // it is its own judge
+    problem.loss = kind.without_data(system, family, data.step);
+    problem.judge = [law = problem.loss](const Eigen::VectorXd& theta) { return law(theta).value; };
   }
   fit_summary& facts = problem.facts;
   facts.family = family.name;
@@ -237,7 +212,7 @@ learning_problem make_problem(const run_time_family& family, const model& system
   facts.ensemble = data.ensemble;
   facts.coordinates = to_string(options.coordinates);
   facts.loss_name = other ? other->description : options.loss.description();
-  facts.is_of_data = has_data;
+  facts.is_of_data = asks_data;
   facts.derivatives = system.facts().derivative_source;
   facts.step = data.step;
   facts.seed = data.seed;
@@ -271,10 +246,8 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
                       options.loss.description(), other->description));
     }
   }
-  if (system.facts().in_lanes_with_slopes && (other == nullptr || other->in_lanes)) {
-    return make_problem<lanes>(family, system, data, held_out, options, other);
-  }
-  return make_problem<double>(family, system, data, held_out, options, other);
+  const bool in_lanes = system.facts().in_lanes_with_slopes && (other == nullptr || other->in_lanes);
+  return make_problem(family, system, data, held_out, options, other, in_lanes);
 }
 
 fit learn(const run_time_family& family, const model& system, const flow_map_data& data,

@@ -185,7 +185,7 @@ fit solve(const learning_problem& problem) {
     starts.push_back(*fitted);
     fix(options, starts.back().theta);
   }
-  const bool has_data = !problem.law;
+  const bool has_data = problem.facts.is_of_data;
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
   };
@@ -218,7 +218,7 @@ fit solve(const learning_problem& problem) {
     return instability_of(theta, trial_of(theta)).empty();
   };
   search_task task{.family = &problem.family,
-                   .loss = has_data ? problem.loss : objective_of(*problem.law, problem.family),
+                   .loss = problem.loss,
                    .judge = problem.judge,
                    .admits =
                        [&](const Eigen::VectorXd& theta) {
@@ -234,9 +234,6 @@ fit solve(const learning_problem& problem) {
   if (family.refuge) {
     task.refuge = named_parameters{"refuge", *family.refuge};
     fix(options, task.refuge->theta);
-  }
-  if (!has_data) {  // it is its own judge
-    task.judge = [&](const Eigen::VectorXd& theta) { return task.loss(theta).value; };
   }
   search_result found = search(task, starts);
 

@@ -1,46 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
-// All classical methods of the library, as data.
+// Classical methods as data.
 #include "nysalt/methods/classical_methods.hpp"
 
-#include "nysalt/methods/bcss.hpp"
-#include "nysalt/methods/blanes_moan.hpp"
-#include "nysalt/methods/chin.hpp"
-#include "nysalt/methods/forest_ruth.hpp"
-#include "nysalt/methods/impulse.hpp"
-#include "nysalt/methods/mclachlan.hpp"
-#include "nysalt/methods/mclachlan_atela.hpp"
-#include "nysalt/methods/omelyan.hpp"
-#include "nysalt/methods/pefrl.hpp"
-#include "nysalt/methods/predescu.hpp"
+#include <string>
+
 #include "nysalt/methods/repeated.hpp"
-#include "nysalt/methods/takahashi_imada.hpp"
-#include "nysalt/methods/verlet.hpp"
 
 namespace nysalt {
 
+tabulated as_data(const classical_row& row) {
+  return {std::string(row.name),
+          run_time_word(std::string(row.letters)),
+          {row.coefficients.begin(), row.coefficients.end()},
+          {row.order, row.symmetric, row.requires_quadratic_kinetic}};
+}
+
 std::vector<tabulated> classical_methods() {
-  return {tabulated(bcss4{}),
-          tabulated(predescu3{}),
-          tabulated(vefrl{}),
-          tabulated(omelyan5v{}),
-          tabulated(omelyan5p{}),
-          tabulated(omelyan_fg4{}),
-          tabulated(verlet{}),
-          tabulated(verlet_aba{}),
-          tabulated(impulse{}),
-          tabulated(mclachlan2{}),
-          tabulated(bcss2{}),
-          tabulated(takahashi_imada{}),
-          tabulated(bcss3{}),
-          tabulated(forest_ruth{}),
-          tabulated(chin4a{}),
-          tabulated(pefrl{}),
-          tabulated(mclachlan_atela4{}),
-          tabulated(mclachlan5{}),
-          tabulated(blanes_moan_s6{}),
-          tabulated(srkn6b{}),
-          tabulated(srkn11b{}),
-          tabulated(srkn14a{})};
+  std::vector<tabulated> result;
+  for (const auto& row : classical_table) {
+    const bool is_for_baths = row.letters.find(ornstein_uhlenbeck::letter) != std::string_view::npos;
+    if (!is_for_baths && !row.repeats) result.push_back(as_data(row));
+  }
+  return result;
 }
 
 std::vector<tabulated> classical_methods_of_cost(int evaluations) {

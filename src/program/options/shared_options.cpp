@@ -13,6 +13,7 @@
 #include "../comma_list.hpp"
 #include "comparison/number.hpp"
 #include "number_option.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 
 namespace nysalt::program {
 
@@ -123,7 +124,9 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
   command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
       ->capture_default_str();
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
-  command.add_option(prefix + "loss", how.loss, "state:K, energy:K after K steps, or covariance")
+  command
+      .add_option(prefix + "loss", how.loss,
+                  fmt::format("{} after K steps, or {}", loss_patterns(true), loss_patterns(false)))
       ->capture_default_str();
   add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
 }

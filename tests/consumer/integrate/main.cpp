@@ -6,7 +6,7 @@
 
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 
 int main() {

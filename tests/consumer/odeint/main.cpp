@@ -3,7 +3,7 @@
 #include <boost/numeric/odeint/integrate/integrate_n_steps.hpp>
 #include <cstdio>
 
-#include "nysalt/methods/verlet.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/odeint_stepper.hpp"
 #include "nysalt/systems/pendulum.hpp"
 

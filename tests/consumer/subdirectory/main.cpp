@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/mclachlan.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 int main() {

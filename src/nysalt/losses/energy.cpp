@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/losses/energy_error.hpp"
-
+// energy:K, the energy's error after K steps.
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
+#include "data_loss.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/losses/energy_error.hpp"
 
 namespace nysalt::detail {
 
@@ -23,5 +24,15 @@ double scale_of_energies(const model& system, const flow_map_data& data) {
   }
   return 1.0 / std::sqrt(data.share().sum(squares) / static_cast<double>(data.all_pairs()));
 }
+
+namespace {
+data_loss of_energies(const loss_inputs& from) {
+  return from.in_lanes ? after_steps_of(from, energy_error<lanes>(from.system, from.data))
+                       : after_steps_of(from, energy_error<double>(from.system, from.data));
+}
+}  // namespace
+
+extern const loss_kind energy_loss;
+constinit const loss_kind energy_loss{.name = "energy", .over_data = of_energies};
 
 }  // namespace nysalt::detail

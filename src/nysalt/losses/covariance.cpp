@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// covariance, of a thermostatted word that of its stationary law: no data are asked.
+#include <stdexcept>
+
+#include "data_loss.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/losses/stationary_covariance.hpp"
+
+namespace nysalt::detail {
+
+namespace {
+objective of_law(const model& system, const run_time_family& family, double step) {
+  if (!has_modes(system) || !system.bath().acts()) {
+    throw std::invalid_argument(
+        sentence("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
+                 describe(system)));
+  }
+  return objective_of(stationary_covariance(system, family.letters, step), family);
+}
+}  // namespace
+
+extern const loss_kind covariance_loss;
+constinit const loss_kind covariance_loss{.name = "covariance",
+                                          .counts_steps = false,
+                                          .needs_modes = true,
+                                          .needs_bath = true,
+                                          .over_data = of_states,
+                                          .without_data = of_law};
+
+}  // namespace nysalt::detail

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+// A loss over data as what the learner asks of it: no type of it is left.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "nysalt/learning/curvature.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/loss_kind.hpp"
+#include "nysalt/losses/metric.hpp"
+
+namespace nysalt::detail {
+
+/// From what a loss over data is made.
+struct loss_inputs {
+  const run_time_family& family;
+  const model& system;
+  const flow_map_data& data;
+  std::shared_ptr<const metric> measure;  // which the loss keeps
+  after_steps_options how;
+  bool in_lanes;  // whether stretches go side by side
+};
+
+/// Functions of theta; all are collective where ranks share the data.
+struct data_loss {
+  objective of_theta;
+  std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
+  std::function<std::vector<double>(const Eigen::VectorXd&)> by_trajectory;  // of those of this rank
+  std::function<double(const Eigen::VectorXd&)> value;
+  std::function<std::int64_t()> evaluations;  // of the force at this rank so far
+  /// The same of a method, which has no parameters; by_trajectory() at the empty theta.
+  std::function<std::vector<double>(const run_time_family& method)> by_trajectory_of;
+};
+
+/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
+/// those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger
+/// by some part counts less by that part. Without this the standard errors are two to three times too small.
+template <class Loss>
+trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
+  const Eigen::MatrixXd* deviations = loss.error().weight_deviations;
+  const auto by_trajectory = residual_gradients(loss, theta);
+  const Eigen::MatrixXd zero =
+      Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
+  const Eigen::MatrixXd sum = loss.share().sum(by_trajectory, zero);
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
+    result.push_back(Eigen::VectorXd::Zero(sum.rows()));
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+      result[m] += by_trajectory[m].col(k);
+      if (deviations != nullptr) result[m] -= sum.col(k) * (*deviations)(k, static_cast<Eigen::Index>(m));
+    }
+  }
+  return {std::move(result), loss.share()};
+}
+
+/// Of any loss that offers what after_steps does. Keeps the metric that it refers to.
+template <class Loss>
+data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::shared_ptr<const metric>& kept) {
+  return {
+      .of_theta = [loss, kept](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
+      .scores = [loss, kept](const Eigen::VectorXd& theta) { return scores_of(*loss, theta); },
+      .by_trajectory = [loss, kept](const Eigen::VectorXd& theta) { return trajectory_losses(*loss, theta); },
+      .value = [loss, kept](const Eigen::VectorXd& theta) { return loss_value(*loss, theta); },
+      .evaluations = [loss] { return loss->evaluations(); },
+      .by_trajectory_of =
+          [loss, kept](const run_time_family& method) {
+            return trajectory_losses(Loss(*loss, method), Eigen::VectorXd());
+          },
+  };
+}
+
+/// The mean over stretches of the squares of these residuals.
+data_loss after_steps_of(const loss_inputs& from, const stretch_error<lanes>& error);
+data_loss after_steps_of(const loss_inputs& from, const stretch_error<double>& error);
+
+/// That of the state's error.
+data_loss of_states(const loss_inputs& from);
+
+}  // namespace nysalt::detail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSL-1.0
+// state:K, the state's error after K steps.
+#include "data_loss.hpp"
+#include "nysalt/losses/state_error.hpp"
+
+namespace nysalt::detail {
+
+data_loss of_states(const loss_inputs& from) {
+  return from.in_lanes ? after_steps_of(from, state_error<lanes>(*from.measure))
+                       : after_steps_of(from, state_error<double>(*from.measure));
+}
+
+extern const loss_kind state_loss;
+constinit const loss_kind state_loss{.name = "state", .is_of_states = true, .over_data = of_states};
+
+}  // namespace nysalt::detail
