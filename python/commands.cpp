@@ -5,14 +5,14 @@
 
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
-#include "../src/program/lesson.hpp"
+#include "../src/program/fitted_family.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"
 #include "../src/report/comparison_report.hpp"
 #include "../src/report/write_file.hpp"
+#include "arguments.hpp"
 #include "build_info.hpp"
 #include "computing.hpp"
-#include "given.hpp"
 #include "refused.hpp"
 #include "systems.hpp"
 
@@ -28,22 +28,22 @@ std::string dumped(const json& document) {
 }
 
 py::tuple learn(const held_system& system, const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = learn_of(asked, system.settings);
   std::string document;
   std::string file;
   compute(system.calls_python(), [&] {
-    program::lesson lesson(command, common);
-    lesson.learn();
-    document = dumped(lesson.document());
-    file = lesson.scheme();
+    program::fitted_family fit(command, common);
+    fit.learn();
+    document = dumped(fit.document());
+    file = fit.scheme();
   });
   return py::make_tuple(document, file);
 }
 
 std::string compare(const held_system& system, const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = compare_of(asked, system.settings);
   std::string document;
@@ -57,7 +57,7 @@ std::string compare(const held_system& system, const py::dict& arguments) {
 }
 
 py::tuple recommend(const held_system& system, const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = recommend_of(asked, system.settings);
   std::string document;
@@ -80,7 +80,7 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
   double at = file.learned ? file.learned->curve.steps().front() : 0.0;
   py::dict arguments;
   arguments["step"] = step;
-  given(arguments).take("step", at);
+  argument_reader(arguments).take("step", at);
   const tabulated found = file.learned ? file.learned->at(at) : *file.table;
   py::list coefficients;
   for (const double c : found.coefficients()) coefficients.append(c);

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "../src/comparison/progress.hpp"
-#include "leaving.hpp"
+#include "exit_while_computing.hpp"
 
 namespace nysalt::python {
 

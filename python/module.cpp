@@ -2,7 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include "commands.hpp"
-#include "leaving.hpp"
+#include "exit_while_computing.hpp"
 #include "refused.hpp"
 #include "systems.hpp"
 

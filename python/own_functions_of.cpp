@@ -15,7 +15,7 @@ using program::refuse;
 
 namespace {
 
-py::object function_in(const given& arguments, const char* name, const char* what) {
+py::object function_in(const argument_reader& arguments, const char* name, const char* what) {
   if (!arguments.has(name)) refuse("a Hamiltonian needs {}: give {}", what, name);
   py::object function = arguments[name];
   if (PyCallable_Check(function.ptr()) == 0) {
@@ -53,7 +53,7 @@ double number_in(const py::object& found) {
   refuse("potential(q) must be one number, it has the shape {}", shape_text(shape_of(numbers)));
 }
 
-std::string name_in(const given& arguments) {
+std::string name_in(const argument_reader& arguments) {
   std::string name;
   arguments.take("name", name);
   if (name.empty()) refuse("a Hamiltonian needs a name, by which schemes know it");
@@ -61,7 +61,7 @@ std::string name_in(const given& arguments) {
   refuse("the name of a Hamiltonian must be one line that can be printed, got {}", shown(arguments["name"]));
 }
 
-std::int64_t dimension_in(const given& arguments) {
+std::int64_t dimension_in(const argument_reader& arguments) {
   constexpr std::int64_t most = 10'000'000;  // numbers: ten such arrays take a gigabyte
   std::int64_t dimension = 0;
   arguments.take("dimension", dimension);
@@ -72,7 +72,7 @@ std::int64_t dimension_in(const given& arguments) {
   return dimension;
 }
 
-std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimension) {
+std::vector<double> inverse_masses_in(const argument_reader& arguments, std::int64_t dimension) {
   std::vector<double> all{1.0};
   arguments.take("inverse_mass", all);
   if (all.size() == 1) all.resize(static_cast<std::size_t>(dimension), all.front());
@@ -87,7 +87,7 @@ std::vector<double> inverse_masses_in(const given& arguments, std::int64_t dimen
 
 }  // namespace
 
-own_functions own_functions_of(const given& arguments, std::shared_ptr<functions_of_python>& kept) {
+own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept) {
   own_functions functions{};
   functions.name = name_in(arguments);
   functions.dimension = dimension_in(arguments);

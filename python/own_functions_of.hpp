@@ -2,7 +2,7 @@
 // Functions of Python as those of a Hamiltonian.
 #pragma once
 
-#include "given.hpp"
+#include "arguments.hpp"
 #include "own_hamiltonian.hpp"
 
 namespace nysalt::python {
@@ -17,6 +17,6 @@ struct functions_of_python {
 /// Of the arguments name, dimension, potential, force, starts, inverse_mass and frequency. Throws refusal for
 /// what cannot be. What the functions raise is raised by whoever calls them, and what they return in another
 /// shape, or what is no real number, is refused.
-own_functions own_functions_of(const given& arguments, std::shared_ptr<functions_of_python>& kept);
+own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept);
 
 }  // namespace nysalt::python

@@ -10,9 +10,9 @@
 #include "../src/comparison/refusal.hpp"
 #include "../src/comparison/seeds.hpp"
 #include "../src/plugin/build.hpp"
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "computing.hpp"
-#include "given.hpp"
 
 namespace nysalt::python {
 
@@ -30,13 +30,13 @@ namespace {
 
 std::unique_ptr<held_system> bundled(const py::dict& arguments) {
   auto made = std::make_unique<held_system>();
-  made->settings = system_of(given(arguments));
+  made->settings = system_of(argument_reader(arguments));
   made->model = make_system(made->settings);
   return made;
 }
 
 std::unique_ptr<held_system> own(const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   auto made = std::make_unique<held_system>();
   auto functions = std::make_shared<own_functions>(own_functions_of(asked, made->functions));
   examine(*functions);
@@ -48,7 +48,7 @@ std::unique_ptr<held_system> own(const py::dict& arguments) {
 }
 
 std::string build(const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   std::string source;
   std::string output;
   asked.take("source", source);
@@ -110,7 +110,7 @@ program::role role_named(const std::string& name) {
 }
 
 py::tuple starts(const held_system& system, const py::dict& arguments) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   std::int64_t count = 1;
   asked.take("trajectories", count);
   if (count < 1) refuse("trajectories must be at least 1, got {}", count);

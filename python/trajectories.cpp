@@ -12,10 +12,10 @@
 #include "../src/comparison/method_source.hpp"
 #include "../src/comparison/sampled_run.hpp"
 #include "../src/program/output/planned_run.hpp"
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "commands.hpp"
 #include "computing.hpp"
-#include "given.hpp"
 #include "systems.hpp"
 
 namespace nysalt::python {
@@ -40,7 +40,7 @@ bool lies_across(std::span<const double> a, std::span<const double> b) {
 
 /// The samples of a run are written where NumPy has them: in a new array, or in the one that is given.
 py::dict run(const held_system& system, const py::dict& arguments, const py::object& out) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
   std::unique_ptr<program::planned_run> planned;
@@ -118,7 +118,7 @@ std::pair<py::object, py::object> pair_to_fill(const py::object& out,
 /// From q and p into the pair `out`, which may be the same, or into new arrays. Returns these and warnings.
 py::tuple integrate(const held_system& system, const py::dict& arguments, const py::object& from_q,
                     const py::object& from_p, const py::object& out) {
-  const given asked(arguments);
+  const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
   program::require_positive("--step", command.step);

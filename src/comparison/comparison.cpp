@@ -42,7 +42,7 @@ comparison::comparison(std::unique_ptr<prepared_problem> system, comparison_opti
 
 bool comparison::has_result() const {
   return std::ranges::any_of(rows_, [](const row& line) {
-    return std::ranges::any_of(line.findings, [](const finding& one) { return one.reason.empty(); });
+    return std::ranges::any_of(line.measurements, [](const measurement& one) { return one.reason.empty(); });
   });
 }
 
@@ -120,7 +120,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   if (elsewhere && !common_.force) return;
   row planned{.method = source.typed, .nominal = nominal, .step = step};
   planned.is_learned = source.family || source.learned;
-  planned.findings.resize(metrics_.size());
+  planned.measurements.resize(metrics_.size());
   const auto otherwise = placement_asked(options_.placement);
   const bool is_noisy = system_->heat_bath().acts() && system_->heat_bath().sigma() > 0.0;
   int parts = 1;
@@ -153,7 +153,7 @@ void comparison::add_row(const method_source& source, double nominal) {
     system_->require_measure(metric, metric.is_along_paths() ? paths_at(step) : plan_at(step),
                              options_.learning.fine_step, metric.is_of_law() ? 1 : parts);
     if (metric.is_of_law()) statistics_at(m, step);
-    planned.findings[m].reason = too_few_samples(metric, step);
+    planned.measurements[m].reason = too_few_samples(metric, step);
   }
   rows_.push_back(std::move(planned));
 }
@@ -183,9 +183,9 @@ std::string comparison::too_few_samples(const asked_metric& metric, double step)
 
 void comparison::require_enough_samples() const {
   const auto has_none = [](const row& line) {
-    return std::ranges::none_of(line.findings, [](const finding& one) { return one.reason.empty(); });
+    return std::ranges::none_of(line.measurements, [](const measurement& one) { return one.reason.empty(); });
   };
-  if (std::ranges::all_of(rows_, has_none)) refuse("{}", rows_.front().findings.front().reason);
+  if (std::ranges::all_of(rows_, has_none)) refuse("{}", rows_.front().measurements.front().reason);
 }
 
 namespace {

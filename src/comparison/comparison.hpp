@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "asked_metric.hpp"
-#include "finding.hpp"
 #include "journal.hpp"
 #include "json.hpp"
 #include "learned_row.hpp"
+#include "measurement.hpp"
 #include "method_source.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "prepared_problem.hpp"
@@ -33,8 +33,8 @@ struct row {
   std::string reason{};  // why the method could not be used
   double evaluations_per_time = 0.0;
   timed_job seconds_per_time{};
-  std::vector<finding> findings{};  // by each metric
-  std::optional<double> margin{};   // linear, of the step; nothing for words that rotate
+  std::vector<measurement> measurements{};  // by each metric
+  std::optional<double> margin{};           // linear, of the step; nothing for words that rotate
   std::optional<energy_course> energies{};
 };
 
@@ -62,7 +62,7 @@ class comparison {
   const std::vector<row>& rows() const { return rows_; }
   const std::vector<learned_row>& fits() const { return fits_; }
   const std::vector<method_source>& schemes() const { return schemes_; }
-  const backdrops& behind() const { return behind_; }
+  const baselines& measured_baselines() const { return baselines_; }
   const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   bool has_result() const;
@@ -107,8 +107,8 @@ class comparison {
   gathered_statistics reference(std::size_t metric, double step, int number, int finer);
   const std::vector<gathered_statistics>& references_at(std::size_t metric, double step);
   std::optional<double> null_model_of_law(std::size_t metric, double step, const drawn_law& law);
-  backdrop behind_law(std::size_t metric, double step);
-  finding law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all);
+  baseline baseline_of_law(std::size_t metric, double step);
+  measurement law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all);
   void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
   void measure_seconds();
   void judge_steps();
@@ -124,7 +124,7 @@ class comparison {
   std::vector<row> rows_;
   json question_;
   std::vector<learned_row> fits_;
-  backdrops behind_;
+  baselines baselines_;
   std::vector<std::string> warnings_;
   std::vector<std::optional<equal_bins>> bins_;  // by metric
   std::vector<gathered_statistics> references_;  // of the metric and step at hand

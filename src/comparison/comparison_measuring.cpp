@@ -43,7 +43,7 @@ void comparison::learn_and_measure(journal& kept) {
     const auto evaluations = static_cast<double>(system_->count_evaluations(*line.coefficients, plan));
     line.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
     if (line.reason.empty()) continue;
-    for (finding& one : line.findings) one.reason = line.reason;
+    for (measurement& one : line.measurements) one.reason = line.reason;
   }
   for (const auto& [step, all] : by_step) {
     const auto has_samples = [this, at = step](const asked_metric& metric) {
@@ -182,10 +182,11 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
 
 namespace {
 
-std::vector<finding> findings_of(const std::vector<method_error>& all, std::int64_t trajectories) {
-  std::vector<finding> result;
+std::vector<measurement> measurements_of(const std::vector<method_error>& all, std::int64_t trajectories) {
+  std::vector<measurement> result;
   for (const method_error& method : all) {
-    finding one{.value = method.error, .spread = method.spread, .groups = means_of_groups(method.of_each)};
+    measurement one{
+        .value = method.error, .spread = method.spread, .groups = means_of_groups(method.of_each)};
     one.lose(method.diverged_at, trajectories);
     result.push_back(std::move(one));
   }
@@ -201,8 +202,8 @@ bool is_conserved(const trajectory_errors_result& found) {
   return found.null_model && found.null_model->mean <= std::max(noise, rounding);
 }
 
-backdrop backdrop_of(const trajectory_errors_result& found) {
-  backdrop result{.reference = found.reference};
+baseline baseline_of_errors(const trajectory_errors_result& found) {
+  baseline result{.reference = found.reference};
   if (found.reference_error) result.reference_error = found.reference_error->mean;
   if (!is_conserved(found)) {
     if (found.null_model) result.null_model = found.null_model->mean;
@@ -214,8 +215,8 @@ backdrop backdrop_of(const trajectory_errors_result& found) {
 }  // namespace
 
 void comparison::take(std::size_t metric, double step, const group& all, const measured& found) {
-  behind_[{metric, step}] = found.behind;
-  for (std::size_t k = 0; k < all.size(); ++k) all[k]->findings[metric] = found.findings.at(k);
+  baselines_[{metric, step}] = found.against;
+  for (std::size_t k = 0; k < all.size(); ++k) all[k]->measurements[metric] = found.measurements.at(k);
 }
 
 void comparison::measure_paths(double step, const group& all, journal& kept) {
@@ -237,7 +238,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
                            .perturbation = perturbation};
     std::vector<measured> result;
     for (const auto& errors : system_->errors(methods, plan, shown_.counter(options_.trajectories))) {
-      result.push_back({backdrop_of(errors), findings_of(errors.methods, options_.trajectories)});
+      result.push_back({baseline_of_errors(errors), measurements_of(errors.methods, options_.trajectories)});
     }
     return result;
   });
@@ -255,9 +256,9 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
     for (const row* line : all) {
       const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), options_.hmc_temperature,
                                                 shown_.counter(options_.trajectories));
-      finding one{.value = accepted.probability, .groups = means_of_groups(accepted.of_each)};
+      measurement one{.value = accepted.probability, .groups = means_of_groups(accepted.of_each)};
       one.lose(accepted.diverged_at, options_.trajectories);
-      result.findings.push_back(std::move(one));
+      result.measurements.push_back(std::move(one));
     }
     return result;
   });

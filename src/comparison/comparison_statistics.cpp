@@ -197,10 +197,10 @@ std::optional<double> comparison::null_model_of_law(std::size_t metric, double s
   return distance;
 }
 
-backdrop comparison::behind_law(std::size_t metric, double step) {
+baseline comparison::baseline_of_law(std::size_t metric, double step) {
   const auto& all = references_at(metric, step);
   const auto finer = reference(metric, step, references, 2);
-  backdrop result{.reference = system_->reference_of_statistics(step, options_.learning.fine_step),
+  baseline result{.reference = system_->reference_of_statistics(step, options_.learning.fine_step),
                   .reference_error = distance_to(finer, all).mean,
                   .floor = floor_of(all),
                   .law = mean_law(all)};
@@ -208,13 +208,14 @@ backdrop comparison::behind_law(std::size_t metric, double step) {
   return result;
 }
 
-finding comparison::law_of(std::size_t metric, const row& line, std::span<const gathered_statistics> all) {
+measurement comparison::law_of(std::size_t metric, const row& line,
+                               std::span<const gathered_statistics> all) {
   const statistics_plan plan = statistics_at(metric, line.step);
   shown_.part(fmt::format("{} at step {:g}", line.method, line.nominal),
               work_of_law(line.evaluations_per_time));
   const auto found = system_->statistics(*line.coefficients, plan, metrics_[metric].observable,
                                          shown_.counter(plan.trajectories.count));
-  finding one{.law = drawn(found)};
+  measurement one{.law = drawn(found)};
   one.lose(found.lost, plan.trajectories.count);
   if (found.counted > 0) one.value = distance_to(found, all);
   return one;
@@ -227,12 +228,12 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   const std::string name = metrics_[metric].text();
   const std::string part = fmt::format("reference of {} at {}", name, step);
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
-  measured found{.behind = kept.once(part, backdrop_from, [&] { return behind_law(metric, step); })};
+  measured found{.against = kept.once(part, baseline_from, [&] { return baseline_of_law(metric, step); })};
   for (const row* line : all) {
     const std::string line_part = fmt::format("{} of {} at {}", name, line->method, step);
     if (kept.has(line_part)) shown_.skip(work_of_law(line->evaluations_per_time));
-    found.findings.push_back(kept.once(line_part, finding_from,
-                                       [&] { return law_of(metric, *line, references_at(metric, step)); }));
+    found.measurements.push_back(kept.once(
+        line_part, measurement_from, [&] { return law_of(metric, *line, references_at(metric, step)); }));
   }
   take(metric, step, all, found);
 }

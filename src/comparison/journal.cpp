@@ -9,9 +9,9 @@
 #include <iterator>
 #include <string_view>
 
+#include "all_ranks.hpp"
 #include "nysalt/detail/together.hpp"
 #include "refusal.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -27,15 +27,15 @@ std::string line_of(const json& document) {
 
 journal::journal(const std::filesystem::path& file, const json& question, bool resume) : path_(file) {
   std::string text;
-  on_first(world(), [&] { text = open_file(); });
-  broadcast(world(), text);
+  on_first(all_ranks(), [&] { text = open_file(); });
+  broadcast(all_ranks(), text);
   const std::string head = line_of({{"format", format}, {"question", question}});
   const std::size_t whole = read(text, question, head);
   if (!resume && !found_.empty()) {
     refuse("{} holds {} finished parts of a run that was stopped: --resume goes on, or remove the file",
            path_.string(), found_.size());
   }
-  on_first(world(), [&] {
+  on_first(all_ranks(), [&] {
     if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
       refuse("cannot write {}", path_.string());
     }
@@ -104,7 +104,7 @@ std::size_t journal::read(const std::string& text, const json& question, const s
 }
 
 void journal::keep(const std::string& part, const json& result) {
-  on_first(world(), [&] { write(line_of({{"part", part}, {"result", result}})); });
+  on_first(all_ranks(), [&] { write(line_of({{"part", part}, {"result", result}})); });
   has_written_ = true;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learnable.hpp"
@@ -13,7 +14,6 @@
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 #include "stability_margin.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 

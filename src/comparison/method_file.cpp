@@ -162,7 +162,7 @@ tabulated table_in(const json& document, const document_reader& read) {
     refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
   }
   const std::string letters = read.text("letters");
-  constexpr std::size_t most_letters = 200;  // letters: finding the order takes their square, a second
+  constexpr std::size_t most_letters = 200;  // letters: measurement the order takes their square, a second
   if (letters.size() > most_letters) {
     refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
   }

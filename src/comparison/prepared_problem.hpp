@@ -23,7 +23,7 @@
 
 namespace nysalt {
 class stability_guard;
-struct run_time_family;
+class run_time_family;
 }  // namespace nysalt
 
 namespace nysalt::program {

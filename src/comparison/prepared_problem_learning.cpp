@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "family_options.hpp"
 #include "learnable.hpp"
@@ -11,7 +12,6 @@
 #include "nysalt/learning/make_problem.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -87,7 +87,7 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
                          .seed = seed,
                          .noise_parts = parts,
                          .threads = plan.threads,
-                         .ranks = &world(),
+                         .ranks = &all_ranks(),
                          .progress = progress},
                         pairs);
   };

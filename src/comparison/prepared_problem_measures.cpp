@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "all_ranks.hpp"
 #include "model_reference.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
@@ -17,7 +18,6 @@
 #include "observables.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -32,7 +32,7 @@ trajectory_options options_of(const trajectories_plan& plan, const counter& prog
           .seed = plan.seed,
           .threads = plan.threads,
           .progress = progress,
-          .ranks = &world(),
+          .ranks = &all_ranks(),
           .horizon = plan.horizon};
 }
 
@@ -124,7 +124,7 @@ gathered_statistics prepared_problem::statistics(const tabulated& method, const 
                                  .threads = trajectories.threads,
                                  .first = plan.first,
                                  .progress = progress,
-                                 .ranks = &world()};
+                                 .ranks = &all_ranks()};
   // Half a step on is where B(1/2) at the beginning of a word leads.
   const bool leaps = method.letters().letters().front() == kick::letter && method.coefficients()[0] == 0.5;
   const statistics_wanted wanted{.histogram = plan.bins,

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "world.hpp"
+#include "all_ranks.hpp"
 
 namespace nysalt::program {
 

@@ -56,15 +56,15 @@ std::string meaning(mark which) {
   return {};
 }
 
-const backdrop& behind(const comparison& all, std::size_t m, const row& line) {
-  static const backdrop none;
-  const auto at = all.behind().find({m, line.step});
-  return at == all.behind().end() ? none : at->second;
+const baseline& baseline_of(const comparison& all, std::size_t m, const row& line) {
+  static const baseline none;
+  const auto at = all.measured_baselines().find({m, line.step});
+  return at == all.measured_baselines().end() ? none : at->second;
 }
 
 namespace {
 
-bool has_tail(const finding& one) { return one.spread && one.spread->largest.is_heavy(); }
+bool has_tail(const measurement& one) { return one.spread && one.spread->largest.is_heavy(); }
 
 /// Of acceptances what is rejected.
 double error_of(const comparison& all, std::size_t m, const row& line) {
@@ -76,19 +76,19 @@ double error_of(const comparison& all, std::size_t m, const row& line) {
 
 bool is_by_median(const comparison& all, std::size_t m) {
   return std::ranges::any_of(
-      all.rows(), [&](const row& line) { return has_tail(line.findings[m]) && is_known(all, m, line); });
+      all.rows(), [&](const row& line) { return has_tail(line.measurements[m]) && is_known(all, m, line); });
 }
 
 estimate ranked_value(const comparison& all, std::size_t m, const row& line) {
-  const finding& one = line.findings[m];
+  const measurement& one = line.measurements[m];
   return one.spread && is_by_median(all, m) ? one.spread->median : one.value;
 }
 
 std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line) {
   std::vector<mark> result;
-  const finding& one = line.findings[m];
+  const measurement& one = line.measurements[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return result;
-  const backdrop& against = behind(all, m, line);
+  const baseline& against = baseline_of(all, m, line);
   const asked_metric& metric = all.metrics()[m];
   const double error = one.value.mean;
   constexpr double known_well = 0.1;
@@ -112,7 +112,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line
 }
 
 bool is_known(const comparison& all, std::size_t m, const row& line) {
-  const finding& one = line.findings[m];
+  const measurement& one = line.measurements[m];
   if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
   const auto marks = marks_of(all, m, line);
   return std::ranges::none_of(marks, [](mark found) {
@@ -148,8 +148,8 @@ estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
   const double best = error_of(all, m, *pair.best);
   if (learned == 0.0 || best == 0.0) return {};
   const double ratio = best / learned;
-  const auto& a = pair.best->findings[m].groups;
-  const auto& b = pair.learned->findings[m].groups;
+  const auto& a = pair.best->measurements[m].groups;
+  const auto& b = pair.learned->measurements[m].groups;
   if (is_by_median(all, m) || a.empty() || a.size() != b.size()) {
     const double of_best = ranked_value(all, m, *pair.best).standard_error / best;
     const double of_learned = ranked_value(all, m, *pair.learned).standard_error / learned;
@@ -173,7 +173,7 @@ std::vector<const row*> pareto_front(const comparison& all, std::size_t m, doubl
     if (!is_ranked(all, m, line)) continue;
     ranked.push_back(&line);
     points.push_back(
-        {cost(line), std::max(error_of(all, m, line), behind(all, m, line).floor.value_or(0.0))});
+        {cost(line), std::max(error_of(all, m, line), baseline_of(all, m, line).floor.value_or(0.0))});
   }
   std::vector<const row*> front;
   for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
@@ -188,7 +188,7 @@ std::vector<error_at> errors_at(const comparison& all, std::size_t m, const std:
   std::vector<error_at> result;
   for (const row& line : all.rows()) {
     if (line.method != method) continue;
-    const finding& one = line.findings[m];
+    const measurement& one = line.measurements[m];
     const bool counts = is_known(all, m, line);
     const bool is_lost = one.diverged > 0;
     if (!counts && !is_lost) continue;
@@ -267,7 +267,8 @@ std::vector<std::string> warnings_of_reference(const comparison& all) {
     const row& first = *rows.front();
     result.push_back(fmt::format(
         "the reference's own error {:.1e} is not ten times smaller than that of {} at step {:g}, {:.1e}{}",
-        *behind(all, m, first).reference_error, first.method, first.nominal, first.findings[m].value.mean,
+        *baseline_of(all, m, first).reference_error, first.method, first.nominal,
+        first.measurements[m].value.mean,
         rows.size() == 1 ? "" : fmt::format(", and so in {} more rows", rows.size() - 1)));
   }
   return result;

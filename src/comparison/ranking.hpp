@@ -25,7 +25,7 @@ std::string to_string(mark which);
 std::string meaning(mark which);
 
 /// What a row is seen against; empty where nothing was measured.
-const backdrop& behind(const comparison& all, std::size_t metric, const row& line);
+const baseline& baseline_of(const comparison& all, std::size_t metric, const row& line);
 
 /// The marks of one finding; none where there is no value.
 std::vector<mark> marks_of(const comparison& all, std::size_t metric, const row& line);

@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "all_ranks.hpp"
 #include "nysalt/detail/together.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
 #include "shared_batch.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -114,9 +114,9 @@ void run_from(const initial_states& starts, const initial_value_problem& made, c
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
   const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {
-    run_in_batches<double>(made, starts, method, plan, take, progress, world());
+    run_in_batches<double>(made, starts, method, plan, take, progress, all_ranks());
   } else {
-    run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, world());
+    run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, all_ranks());
   }
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "all_ranks.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "nysalt/detail/together.hpp"
-#include "world.hpp"
 
 namespace nysalt::program {
 
@@ -50,8 +50,8 @@ std::vector<timed_job> timed(const prepared_problem& system, const std::vector<t
 std::vector<timed_job> seconds_per_time(const prepared_problem& system,
                                         const std::vector<timed_method>& methods, double seconds) {
   std::vector<timed_job> result;
-  on_first(world(), [&] { result = timed(system, methods, seconds); });
-  broadcast(world(), result);
+  on_first(all_ranks(), [&] { result = timed(system, methods, seconds); });
+  broadcast(all_ranks(), result);
   return result;
 }
 

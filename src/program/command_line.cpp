@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "as_typed.hpp"
 #include "build_info.hpp"
+#include "command_text.hpp"
 #include "commands.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
+#include "mpi_session.hpp"
 #include "nysalt/detail/together.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
 #include "parse.hpp"
-#include "ranks.hpp"
 
 namespace nysalt::program {
 
@@ -55,7 +55,7 @@ void load_named_system(int argc, char** argv) {
     name = system_in_options_file(file, command == argv + argc ? "" : *command);
   }
   if (!is_path_of_system(name)) return;
-  on_first(world(), [&] { declaration_of(name); });  // compiles, if it must, once
+  on_first(all_ranks(), [&] { declaration_of(name); });  // compiles, if it must, once
   declaration_of(name);
 }
 
@@ -92,7 +92,7 @@ int run_command_line(int argc, char** argv) {
   load_named_system(argc, argv);
   common_settings common;
   common.threads = usual_threads();
-  common.command = as_typed(argc, argv);
+  common.command = command_text(argc, argv);
   CLI::App app("Learned symplectic integrators: learn one for a system and a step, run it, compare it.",
                "nysalt");
   app.set_version_flag("--version", version);

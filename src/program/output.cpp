@@ -11,7 +11,7 @@
 #include <filesystem>
 
 #include "comparison/refusal.hpp"
-#include "ranks.hpp"
+#include "mpi_session.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {

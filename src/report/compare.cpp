@@ -29,7 +29,7 @@ std::vector<compared_method> comparison::rows() const {
   std::vector<compared_method> result;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const auto& row : all.rows()) {
-      const auto& one = row.findings[m];
+      const auto& one = row.measurements[m];
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
       result.push_back({.method = row.method,
                         .step = row.step,

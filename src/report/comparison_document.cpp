@@ -18,8 +18,8 @@ json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? js
 
 json row_json(const comparison& all, std::size_t m, const row& line) {
   const asked_metric& metric = all.metrics()[m];
-  const finding& one = line.findings[m];
-  const backdrop& against = behind(all, m, line);
+  const measurement& one = line.measurements[m];
+  const baseline& against = baseline_of(all, m, line);
   json marks = json::array();
   for (const mark found : marks_of(all, m, line)) marks.push_back(to_string(found));
   json result{{"metric", metric.text()},
@@ -62,7 +62,7 @@ json row_json(const comparison& all, std::size_t m, const row& line) {
 
 json references_json(const comparison& all) {
   json result = json::array();
-  for (const auto& [key, context] : all.behind()) {
+  for (const auto& [key, context] : all.measured_baselines()) {
     if (context.reference.empty()) continue;
     json one{{"metric", all.metrics()[key.first].text()},
              {"step_size", key.second},
@@ -179,8 +179,8 @@ std::string csv_of(const comparison& all) {
                 "stability_margin"});
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const row& line : all.rows()) {
-      const finding& one = line.findings[m];
-      const backdrop& against = behind(all, m, line);
+      const measurement& one = line.measurements[m];
+      const baseline& against = baseline_of(all, m, line);
       const distribution_of_errors spread = spread_of(one);
       const auto& quantiles = spread.quantiles;
       result.add({all.metrics()[m].text(),

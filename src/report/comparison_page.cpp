@@ -142,7 +142,7 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
   std::vector<std::string> sentences = meanings_of_marks(all, m);
   for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
   if (!sentences.empty()) report.list(sentences);
-  if (table against = backdrops_of(all, m); !against.empty()) {
+  if (table against = baselines_of(all, m); !against.empty()) {
     report.subheading("What they are seen against");
     report.table(std::move(against));
   }

@@ -29,7 +29,7 @@ std::vector<work_precision_row> points_of(const comparison& all, std::size_t m,
   std::vector<work_precision_row> result;
   for (const row& line : all.rows()) {
     if (named && std::ranges::count(*named, line.method) == 0) continue;
-    const finding& one = line.findings[m];
+    const measurement& one = line.measurements[m];
     result.push_back({.method = line.method,
                       .step = line.nominal,
                       .evaluations_per_time = line.evaluations_per_time,
@@ -114,10 +114,10 @@ std::vector<figure> pictures_of_laws(const comparison& all, std::size_t m) {
                .y_label = is_density ? "density" : "normalised autocovariance of " + metric.observable,
                .curves = {}};
     for (const row& one : all.rows()) {
-      const auto& law = one.findings[m].law;
+      const auto& law = one.measurements[m].law;
       if (one.nominal != nominal || !law || law->y.empty() || !drawn.contains(one.method)) continue;
       if (plot.curves.empty()) {
-        const auto& reference = *all.behind().at({m, one.step}).law;
+        const auto& reference = *all.measured_baselines().at({m, one.step}).law;
         plot.curves.push_back({.label = "reference", .x = reference.x, .y = reference.y, .emphasised = true});
       }
       plot.curves.push_back({.label = one.method, .x = law->x, .y = law->y});

@@ -60,7 +60,7 @@ table rows_of(const comparison& all, std::size_t m) {
     return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
   };
   for (const row& line : all.rows()) {
-    const finding& one = line.findings[m];
+    const measurement& one = line.measurements[m];
     const timed_job& seconds = line.seconds_per_time;
     std::vector<std::string> cells{line.method,
                                    fmt::format("{:g}", line.nominal),
@@ -93,15 +93,15 @@ table rows_of(const comparison& all, std::size_t m) {
 
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t m) {
   std::vector<std::pair<std::string, double>> result;
-  const auto add = [&](const char* name, std::optional<double> backdrop::*field) {
+  const auto add = [&](const char* name, std::optional<double> baseline::*field) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [key, context] : all.behind()) {
+    for (const auto& [key, context] : all.measured_baselines()) {
       if (key.first == m) least = std::min(least, (context.*field).value_or(least));
     }
     if (std::isfinite(least)) result.emplace_back(name, least);
   };
-  add("null model", &backdrop::null_model);
-  add("floor of sampling", &backdrop::floor);
+  add("null model", &baseline::null_model);
+  add("floor of sampling", &baseline::floor);
   return result;
 }
 
@@ -122,10 +122,10 @@ namespace {
 struct span_of_steps {
   double from;
   double to;
-  backdrop worst;
+  baseline worst;
 };
 
-void worsen(backdrop& all, const backdrop& context) {
+void worsen(baseline& all, const baseline& context) {
   const auto take = [](std::optional<double>& a, const std::optional<double>& b, bool larger) {
     if (!a || (b && (larger ? *b > *a : *b < *a))) a = b;
   };
@@ -137,7 +137,7 @@ void worsen(backdrop& all, const backdrop& context) {
 
 std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
   std::vector<span_of_steps> result;
-  for (const auto& [key, context] : all.behind()) {
+  for (const auto& [key, context] : all.measured_baselines()) {
     if (key.first != m || context.reference.empty()) continue;
     if (result.empty() || result.back().worst.reference != context.reference) {
       result.push_back({key.second, key.second, context});
@@ -150,7 +150,7 @@ std::vector<span_of_steps> spans_of(const comparison& all, std::size_t m) {
 
 }  // namespace
 
-table backdrops_of(const comparison& all, std::size_t m) {
+table baselines_of(const comparison& all, std::size_t m) {
   const bool is_of_law = all.metrics()[m].is_of_law();
   table result({"step sizes", "reference", is_of_law ? "its finer self, at most" : "its own error, at most",
                 "null model, at least", is_of_law ? "floor of sampling" : "predictable until"},
@@ -195,7 +195,7 @@ table equal_cost_table(const comparison& all, std::size_t m) {
 std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
   for (const row& line : all.rows()) {
-    const std::string& reason = line.findings[m].reason;
+    const std::string& reason = line.measurements[m].reason;
     if (!reason.empty())
       result.push_back(fmt::format("{} at step {:g}: {}", line.method, line.nominal, reason));
   }
@@ -210,7 +210,7 @@ std::string readable(const comparison& all) {
   if (options.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     text += fmt::format("\n{}\n\n", quantity(all, m));
-    if (const table against = backdrops_of(all, m); !against.empty()) text += against.text() + "\n";
+    if (const table against = baselines_of(all, m); !against.empty()) text += against.text() + "\n";
     text += rows_of(all, m).text();
     for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
     for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";

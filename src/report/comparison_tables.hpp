@@ -26,7 +26,7 @@ table rows_of(const comparison& all, std::size_t metric);
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);
 std::string with_error(const estimate& value);
 /// Reference, null model and floor or horizon, over the steps that share a reference.
-table backdrops_of(const comparison& all, std::size_t metric);
+table baselines_of(const comparison& all, std::size_t metric);
 table equal_cost_table(const comparison& all, std::size_t metric);
 /// One sentence for each mark that is there, and for each row without a value.
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t metric);

@@ -6,13 +6,13 @@
 
 #include "build_info.hpp"
 #include "comparison/checks.hpp"
-#include "program/as_typed.hpp"
+#include "program/command_text.hpp"
 #include "program/commands.hpp"
+#include "program/mpi_session.hpp"
 #include "program/options/shared_options.hpp"
 #include "program/options_file.hpp"
 #include "program/output.hpp"
 #include "program/parse.hpp"
-#include "program/ranks.hpp"
 #include "reproduce.hpp"
 
 namespace nysalt::program::paper {
@@ -20,7 +20,7 @@ namespace nysalt::program::paper {
 int run_command_line(int argc, char** argv) {
   common_settings common;
   common.threads = usual_threads();
-  common.command = as_typed(argc, argv);
+  common.command = command_text(argc, argv);
   reproduce_command asked;
   CLI::App app("The paper's tables and figures beside our own.", "nysalt_paper");
   app.set_version_flag("--version", version);

@@ -44,7 +44,7 @@ exhibit conserved_action(const setting& setup) {
   std::vector<double> of_H;
   double drift = 0.0;
   for (const double step : steps) {
-    const auto learned = learn_at(setup, *system, step, usual_lesson(setup)).method;
+    const auto learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
     const auto runs = followed(setup, *system, learned, step, horizon, sample, count, watched);
     const auto H = mean_and_error(largest_change(runs, 1, 1.0));
     const auto early = mean_and_error(largest_change(runs, 1, 0.1));

@@ -37,7 +37,7 @@ exhibit energies_at_200(const setting& setup) {
   const double fine = setup.pick(1e-4, 1e-3);
   constexpr double step = 0.02;
   constexpr double sample = 0.2;
-  const tabulated learned = learn_at(setup, *system, step, usual_lesson(setup)).method;
+  const tabulated learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
   const tabulated verlet = classical("verlet", *system);
   const auto by_fine = followed(setup, *system, verlet, fine, horizon, sample, count, stiff);
   const auto by_verlet = followed(setup, *system, verlet, step, horizon, sample, count, stiff);
@@ -86,7 +86,7 @@ double blown_up_at(const record& run, double sample) {
                          : std::numeric_limits<double>::infinity();
 }
 
-finding blow_up(const std::vector<record>& by_verlet, double step) {
+measurement blow_up(const std::vector<record>& by_verlet, double step) {
   std::vector<double> at;
   for (const auto& run : by_verlet) at.push_back(blown_up_at(run, step));
   const double latest = *std::max_element(at.begin(), at.end());
@@ -108,7 +108,7 @@ exhibit energies_at_400(const setting& setup) {
   constexpr double sample = 0.4;
   const double horizon = setup.pick(150.0, 4.0);
   const auto count = setup.pick<std::int64_t>(200, 16);
-  const auto learned = learn_at(setup, *system, step, usual_lesson(setup));
+  const auto learned = learn_at(setup, *system, step, usual_learning_setup(setup));
   const auto by_verlet =
       followed(setup, *system, classical("verlet", *system), step, 4.0, step, count, stiff);
   const auto by_learned = followed(setup, *system, learned.method, step, horizon, sample, count, stiff);

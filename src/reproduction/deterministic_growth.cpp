@@ -57,7 +57,7 @@ struct growth {
 
 growth growth_at(const setting& setup, const prepared_problem& system, double step, double sample,
                  double horizon, const std::vector<record>& reference) {
-  const auto learned = learn_at(setup, system, step, usual_lesson(setup)).method;
+  const auto learned = learn_at(setup, system, step, usual_learning_setup(setup)).method;
   const auto count = static_cast<std::int64_t>(reference.size());
   const auto e =
       state_errors(followed(setup, system, learned, step, horizon, sample, count, whole_state), reference);

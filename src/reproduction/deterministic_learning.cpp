@@ -64,7 +64,8 @@ exhibit parameters_against_omega(const setting& setup) {
   for (const double one : omegas) {
     const auto system = chain(one);
     for (auto& column : all) {
-      const lesson how{.trajectories = setup.pick<std::int64_t>(100, 10), .coordinates = column.coordinates};
+      const learning_setup how{.trajectories = setup.pick<std::int64_t>(100, 10),
+                               .coordinates = column.coordinates};
       column.theta.push_back(theta_with_errors(learn_at(setup, *system, 1.0 / one, how)));
     }
   }
@@ -103,12 +104,12 @@ exhibit convergence_in_trajectories(const setting& setup) {
   exhibit result = exhibit_of(found, "-0.45", -0.45, "deterministic");
   result.title = "Convergence of the estimators in the number of trajectories";
   result.place = "Figure 2 (right), section 5.2";
-  result.findings.push_back({"with M = 2 the error is below 1e-3", "mean error of (b1 + beta1)/2 at M = 2",
-                             with_error(found.at_least),
-                             verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
-                             "below 1e-3 within two standard errors",
-                             "nysalt learn --system fpu --step 0.02 --trajectories 2"});
-  for (auto& one : result.findings) {
+  result.measurements.push_back({"with M = 2 the error is below 1e-3",
+                                 "mean error of (b1 + beta1)/2 at M = 2", with_error(found.at_least),
+                                 verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
+                                 "below 1e-3 within two standard errors",
+                                 "nysalt learn --system fpu --step 0.02 --trajectories 2"});
+  for (auto& one : result.measurements) {
     if (one.command.empty()) one.command = "nysalt learn --system fpu --step 0.02 --trajectories 256";
   }
   return result;

@@ -24,8 +24,8 @@ std::vector<crossed> cross(const setting& setup, const std::vector<double>& step
   const judged how{.horizon = 0.5, .trajectories = setup.pick<std::int64_t>(400, 16), .metric = "state"};
   std::vector<crossed> all;
   for (const double step : steps) {
-    const auto from_stiff = learn_at(setup, *stiff, step, usual_lesson(setup)).method;
-    const auto from_soft = learn_at(setup, *soft, step, usual_lesson(setup)).method;
+    const auto from_stiff = learn_at(setup, *stiff, step, usual_learning_setup(setup)).method;
+    const auto from_soft = learn_at(setup, *soft, step, usual_learning_setup(setup)).method;
     const auto mclachlan = classical("mclachlan2", *stiff);
     const auto on_stiff = errors_at(setup, *stiff, {from_stiff, from_soft, mclachlan}, step, how);
     const auto on_soft = errors_at(setup, *soft, {from_soft, from_stiff, mclachlan}, step, how);

@@ -39,7 +39,7 @@ transitions follow_transitions(const setting& setup) {
   const double sample = 25.0 * step;
   const double horizon = setup.pick(300.0, 5.0);
   const auto count = setup.pick<std::int64_t>(400, 16);
-  const tabulated learned = learn_at(setup, *system, step, usual_lesson(setup)).method;
+  const tabulated learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
   transitions all{step, sample, reference_runs(setup, *system, sample, horizon, count), {}, {}, 0};
   for (const auto& [name, method] : {std::pair<std::string, tabulated>{"NySALT", learned},
                                      {"suboptimal (0.45, 0.43)", two_stages(0.45, 0.43)},
@@ -53,7 +53,7 @@ transitions follow_transitions(const setting& setup) {
   return all;
 }
 
-finding smaller_than_suboptimal(const transitions& all, const std::string& what, energy_distance error) {
+measurement smaller_than_suboptimal(const transitions& all, const std::string& what, energy_distance error) {
   const std::size_t whole = all.own.size() - 1;
   const auto compared = [&](std::size_t last) {
     const auto a = means_up_to(all.methods[0].runs, all.reference, error, last);

@@ -39,7 +39,7 @@ std::vector<estimate> means_of(const std::vector<std::vector<double>>& errors) {
 
 estimator_errors errors_of_estimators(const setting& setup, const estimator_study& study) {
   const auto learned = [&](int power, std::uint64_t repetition) {
-    lesson how = study.how;
+    learning_setup how = study.how;
     how.trajectories = std::int64_t{1} << power;
     how.repetition = repetition;
     return values(learn_at(setup, study.system, study.step, how));

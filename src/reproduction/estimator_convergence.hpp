@@ -10,7 +10,7 @@ namespace nysalt::program::paper {
 struct estimator_study {
   const prepared_problem& system;
   double step;
-  lesson how;
+  learning_setup how;
   int least;
   int most;
   int repetitions;

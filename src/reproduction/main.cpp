@@ -3,13 +3,13 @@
 #include <csignal>
 
 #include "command_line.hpp"
-#include "program/ranks.hpp"
+#include "program/mpi_session.hpp"
 #include "program/run_program.hpp"
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk is
-  const nysalt::program::joined_world ranks(argc, argv);
+  const nysalt::program::mpi_session ranks(argc, argv);
   return ranks.leave(
       nysalt::program::exit_code_of([&] { return nysalt::program::paper::run_command_line(argc, argv); }));
 }

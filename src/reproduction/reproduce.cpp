@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "comparison/all_ranks.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
-#include "comparison/world.hpp"
 #include "parts.hpp"
 #include "program/commands.hpp"
 #include "program/output.hpp"
@@ -56,7 +56,7 @@ class timetable {
 }  // namespace
 
 int reproduce(const reproduce_command& command, const common_settings& common) {
-  if (!world().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
+  if (!all_ranks().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) require_folder(command.output);
   progress shown;

@@ -50,7 +50,7 @@ const tabulated& setting::learned_in_bath(const std::string& start, double gap, 
   const std::tuple key{start, gap, where};
   const auto known = learned_.find(key);
   if (known != learned_.end()) return known->second;
-  const lesson how{
+  const learning_setup how{
       .trajectories = pick<std::int64_t>(512, 16), .horizon = 1.0, .where = where, .fine_step = gap_step};
   return learned_.emplace(key, learn_at(*this, in_bath(start), gap * gap_step, how).method).first->second;
 }
@@ -64,10 +64,12 @@ std::unique_ptr<prepared_problem> soft_dominated_chain() {
                                             surroundings{bath::of_sigma(0.0, 0.0), start::law});
 }
 
-lesson usual_lesson(const setting& setup) { return {.trajectories = setup.pick<std::int64_t>(100, 10)}; }
+learning_setup usual_learning_setup(const setting& setup) {
+  return {.trajectories = setup.pick<std::int64_t>(100, 10)};
+}
 
 learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step,
-                        const lesson& how) {
+                        const learning_setup& how) {
   const learn_plan plan{.family = "nystrom",
                         .where = how.where,
                         .step = step,

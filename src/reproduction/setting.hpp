@@ -51,7 +51,7 @@ std::unique_ptr<prepared_problem> chain(double frequency = omega, double spread 
 /// Starts of which the soft springs hold omega^2, half of it moving and half of it stretched.
 std::unique_ptr<prepared_problem> soft_dominated_chain();
 
-struct lesson {
+struct learning_setup {
   std::int64_t trajectories = 100;
   double horizon = 0.5;
   std::string coordinates = "qp";
@@ -60,8 +60,9 @@ struct lesson {
   std::uint64_t repetition = 0;
 };
 /// M = 100, the paper's for the chain alone.
-lesson usual_lesson(const setting& setup);
-learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step, const lesson& how);
+learning_setup usual_learning_setup(const setting& setup);
+learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step,
+                        const learning_setup& how);
 
 /// (b1, beta1) with the standard errors that the fit tells.
 std::vector<estimate> theta_with_errors(const learned_scheme& learned);

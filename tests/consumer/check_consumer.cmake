@@ -249,7 +249,7 @@ if(CMAKE_VERSION VERSION_LESS 4)  # which knows policies so old no more
   set(promised "nysalt_(CONFIG|CONSIDERED_[A-Z]+|DIR|FOUND|NOT_FOUND_MESSAGE|VERSION[A-Z_]*)")
   configure(old)
   require_match("${sentences}" "looks for nysalt -- found: 1 ;")
-  set(components "nysalt_(core|nysalt|shared|learn|odeint|mpi)_FOUND")
+  set(components "nysalt_(core|nysalt|shared|learn|report|odeint|mpi)_FOUND")
   require_match("${sentences}" "left behind: ((${promised}|${components});)+ ")
   require_match("${sentences}" "nysalt_learn_FOUND;")
   configure(old -D COMPONENTS=learn -D CERES=2.1)

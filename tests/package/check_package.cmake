@@ -77,11 +77,12 @@ foreach(package IN ITEMS -dev ${abi})
 endforeach()
 # The compiled targets have a file more, for the type of the build.
 set(its_components "")
-foreach(component IN ITEMS core learn mpi nysalt-${TYPE} nysalt odeint shared-${TYPE} shared)
+foreach(component IN ITEMS core learn mpi nysalt-${TYPE} nysalt odeint report-${TYPE} report
+    shared-${TYPE} shared)
   list(APPEND its_components ${LIB}/cmake/nysalt/nysalt-${component}.cmake)
 endforeach()
 require_equal("in libnysalt-dev" "${files_of_libnysalt-dev}"
-  "${its_components};${LIB}/cmake/nysalt/nysaltConfig.cmake;${LIB}/cmake/nysalt/nysaltConfigVersion.cmake;${LIB}/cmake/nysalt/nysaltNeeds.cmake;${LIB}/libnysalt.a;${LIB}/libnysalt.so;${LIB}/pkgconfig/nysalt-core.pc;${LIB}/pkgconfig/nysalt-learn.pc;${LIB}/pkgconfig/nysalt.pc;${documents_of_-dev};share/nysalt/plugin.flags")
+  "${its_components};${LIB}/cmake/nysalt/nysaltConfig.cmake;${LIB}/cmake/nysalt/nysaltConfigVersion.cmake;${LIB}/cmake/nysalt/nysaltNeeds.cmake;${LIB}/libnysalt.a;${LIB}/libnysalt.so;${LIB}/libnysalt_report.a;${LIB}/pkgconfig/nysalt-core.pc;${LIB}/pkgconfig/nysalt-learn.pc;${LIB}/pkgconfig/nysalt-report.pc;${LIB}/pkgconfig/nysalt.pc;${documents_of_-dev};share/nysalt/plugin.flags")
 require_equal("in libnysalt${abi}" "${files_of_libnysalt${abi}}"
   "${LIB}/libnysalt.so.${abi};${LIB}/libnysalt.so.${VERSION};${documents_of_${abi}}")
 require_match("${fields_of_libnysalt${abi}}" "Depends: [^\n]*libc6 [^\n]*libceres[0-9]+ [^\n]*libtbb")

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "../commands.hpp"
+#include "../mpi_session.hpp"
 #include "../output.hpp"
-#include "../ranks.hpp"
 #include "../systems.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/refusal.hpp"
@@ -50,7 +50,7 @@ int print_answer(const std::filesystem::path& folder, const comparison& all) {
 /// If the comparison fails, only the journal of the finished parts stays.
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   std::vector<std::filesystem::path> made;
-  on_first(world(), [&] { made = make_folder(folder); });
+  on_first(all_ranks(), [&] { made = make_folder(folder); });
   journal kept(folder / journal_name, all.question(), resume);
   try {
     all.learn_and_measure(kept);
@@ -64,7 +64,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
     }
     throw;
   }
-  on_first(world(), [&] {
+  on_first(all_ranks(), [&] {
     for (const auto& text : write_report(all, folder)) warn(text);
   });
   if (kept.found() > 0) warn(fmt::format("{} finished parts were taken from the journal", kept.found()));
@@ -77,7 +77,7 @@ int compare(const compare_command& command, const common_settings& common) {
   comparison_options asked = command;
   asked.energies = !command.output.empty();
   std::optional<comparison> planned;
-  together(world(), [&] { planned.emplace(make_system(command.system), asked, common); });
+  together(all_ranks(), [&] { planned.emplace(make_system(command.system), asked, common); });
   comparison& all = *planned;
   require_agreement("methods", all.question().dump(-1, ' ', false, json::error_handler_t::replace));
   warn_of_threads(common);
@@ -88,11 +88,11 @@ int compare(const compare_command& command, const common_settings& common) {
     all.learn_and_measure(nowhere);
   } else {
     int code = unfinished;
-    on_first(world(), [&] {
+    on_first(all_ranks(), [&] {
       require_folder(folder);
       if (command.resume) code = print_answer(folder, all);
     });
-    broadcast(world(), code);
+    broadcast(all_ranks(), code);
     if (code != unfinished) return code;
     measure_in(folder, all, command.resume);
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "../commands.hpp"
-#include "../lesson.hpp"
+#include "../fitted_family.hpp"
 #include "../output.hpp"
+#include "comparison/all_ranks.hpp"
 #include "comparison/refusal.hpp"
-#include "comparison/world.hpp"
 #include "nysalt/detail/together.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {
 
 int learn(const learn_command& command, const common_settings& common) {
-  lesson training(command, common);
-  on_first(world(), [&] {
+  fitted_family training(command, common);
+  on_first(all_ranks(), [&] {
     if (!command.output.empty()) require_writable(command.output);
   });
   warn_of_threads(common);
@@ -20,7 +20,7 @@ int learn(const learn_command& command, const common_settings& common) {
   const auto& learned = training.learned();
   const learned_scheme* bad = training.unusable();
   const bool keep = !command.output.empty() && (bad == nullptr || common.force);
-  on_first(world(), [&] {
+  on_first(all_ranks(), [&] {
     if (keep) write_result(command.output, training.scheme(), common);
   });
   if (common.json) {

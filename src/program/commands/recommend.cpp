@@ -5,19 +5,19 @@
 
 #include "../commands.hpp"
 #include "../output.hpp"
-#include "comparison/world.hpp"
+#include "comparison/all_ranks.hpp"
 #include "nysalt/detail/together.hpp"
 
 namespace nysalt::program {
 
 int recommend(const recommend_command& command, const common_settings& common) {
   recommendation all(make_system(command.system), command, common);
-  if (!command.output.empty()) on_first(world(), [&] { require_writable(command.output); });
+  if (!command.output.empty()) on_first(all_ranks(), [&] { require_writable(command.output); });
   warn_of_threads(common);
   all.learn_and_rank();
   const auto scheme = all.scheme();
   const bool writes = scheme && !command.output.empty();
-  if (writes) on_first(world(), [&] { write_result(command.output, *scheme, common); });
+  if (writes) on_first(all_ranks(), [&] { write_result(command.output, *scheme, common); });
   if (common.json) {
     json result = all.document();
     result["output"] = writes ? json(command.output) : json(nullptr);

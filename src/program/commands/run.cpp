@@ -7,8 +7,8 @@
 #include <span>
 
 #include "../commands.hpp"
+#include "../mpi_session.hpp"
 #include "../output.hpp"
-#include "../ranks.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
@@ -133,7 +133,7 @@ void tell(const run_command& command, const json& document, bool was_finished) {
 
 /// What rank 0 decides, all know.
 bool agreed(bool at_first) {
-  broadcast(world(), at_first);
+  broadcast(all_ranks(), at_first);
   return at_first;
 }
 
@@ -144,14 +144,14 @@ int run(const run_command& asked, const common_settings& common) {
   const run_command& command = planned.command;
   prepared_problem& system = *planned.system;
   const trajectories_plan& plan = planned.plan;
-  on_first(world(), [&] { require_files(command); });
+  on_first(all_ranks(), [&] { require_files(command); });
   require_room(command, plan.steps, common.json && command.output.empty(), common.threads);
 
   const auto began = std::chrono::steady_clock::now();
   require_agreement("methods", planned.question().dump(-1, ' ', false, json::error_handler_t::replace));
   progress shown;
   std::optional<run_output> output;  // at rank 0; from now on the run can be gone on with
-  on_first(world(), [&] { output.emplace(planned, common.json); });
+  on_first(all_ranks(), [&] { output.emplace(planned, common.json); });
   const bool was_finished = agreed(output && output->is_finished());
   warn_of_threads(common);
   if (!was_finished || common.json) prepare_starts(system, common, shown);
@@ -163,14 +163,14 @@ int run(const run_command& asked, const common_settings& common) {
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
-    on_first(world(), [&] { output->begin(sampled); });
+    on_first(all_ranks(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
     run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
   }
 
-  on_first(world(), [&] {
+  on_first(all_ranks(), [&] {
     const json diverged = with_times(output->lost(), command.step);
     if (!was_finished) {
       output->commit();

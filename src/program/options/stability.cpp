@@ -8,7 +8,7 @@
 
 #include "../comma_list.hpp"
 #include "../commands.hpp"
-#include "comparison/world.hpp"
+#include "comparison/all_ranks.hpp"
 #include "number_option.hpp"
 #include "nysalt/detail/together.hpp"
 #include "shared_options.hpp"
@@ -45,8 +45,8 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
     const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
     if (std::ranges::any_of(of_system, is_given)) asked.system = typed->system;
     int code = done;
-    on_first(world(), [&] { code = stability(asked, common); });
-    broadcast(world(), code);
+    on_first(all_ranks(), [&] { code = stability(asked, common); });
+    broadcast(all_ranks(), code);
     return code;
   };
   return {&command, run_it};

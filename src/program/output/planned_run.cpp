@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <span>
 
+#include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/stability_margin.hpp"
-#include "comparison/world.hpp"
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/together.hpp"
 #include "program/systems.hpp"
@@ -39,7 +39,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
     : command(asked), system(make_system(asked.system)), plan(plan_of(asked, common)), seed(common.seed) {
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
-  together(world(), [&] { source = find_method(command.method, command.held); });
+  together(all_ranks(), [&] { source = find_method(command.method, command.held); });
   method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
                            warnings);
 }

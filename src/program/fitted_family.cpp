@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "lesson.hpp"
+#include "fitted_family.hpp"
 #include "systems.hpp"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
 
 }  // namespace
 
-lesson::lesson(const learn_command& command, const common_settings& common)
+fitted_family::fitted_family(const learn_command& command, const common_settings& common)
     : command_(command), common_(common), system_(make_system(command.system)), steps_(steps_of(command)) {
   require_sound(command.learning, "--");
   if (command.enough) {
@@ -95,18 +95,18 @@ lesson::lesson(const learn_command& command, const common_settings& common)
   for (const double step : steps_) system_->require_learnable(plan_.family, plan_.where, plan_.how, step);
 }
 
-void lesson::learn() {
+void fitted_family::learn() {
   progress shown;
   prepare_starts(*system_, common_, shown);
   learned_ = learn_curve(*system_, plan_, steps_, shown);
 }
 
-const learned_scheme* lesson::unusable() const {
+const learned_scheme* fitted_family::unusable() const {
   const auto bad = std::ranges::find_if(learned_, [](const auto& one) { return !one.fit.usable; });
   return bad == learned_.end() ? nullptr : &*bad;
 }
 
-json lesson::document() const {
+json fitted_family::document() const {
   if (command_.step) return document_of(learned_.front(), *system_, plan_.where);
   json result;
   result["fits"] = json::array();
@@ -114,6 +114,6 @@ json lesson::document() const {
   return result;
 }
 
-std::string lesson::scheme() const { return scheme_text(learned_, *system_, plan_); }
+std::string fitted_family::scheme() const { return scheme_text(learned_, *system_, plan_); }
 
 }  // namespace nysalt::program

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "comparison/world.hpp"
+#include "comparison/all_ranks.hpp"
 
 namespace nysalt::program {
 
@@ -23,12 +23,12 @@ void require_agreement(const std::string& what, const std::string& text);
 
 /// Joins the other ranks, if the process was started as one of several and the program is built with MPI; to
 /// be made once, in main(). To call MPI takes a tenth of a second, so that a process by itself does not.
-class joined_world {
+class mpi_session {
  public:
-  joined_world(int argc, char** argv);
-  ~joined_world();
-  joined_world(const joined_world&) = delete;
-  joined_world& operator=(const joined_world&) = delete;
+  mpi_session(int argc, char** argv);
+  ~mpi_session();
+  mpi_session(const mpi_session&) = delete;
+  mpi_session& operator=(const mpi_session&) = delete;
 
   /// Waits for the others and returns the exit code. A rank that ends with an error while others wait for it
   /// in the midst of their work ends them too, after some seconds.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "world.hpp"
+#include "all_ranks.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,14 +13,14 @@ namespace {
 const communicator* joined = &alone;
 }
 
-const communicator& world() { return *joined; }
+const communicator& all_ranks() { return *joined; }
 
 void join(const communicator& ranks) { joined = &ranks; }
 
 /// Ranks have pipes to mpirun, which passes on what they say.
 bool has_terminal() {
   if (isatty(STDERR_FILENO) != 0) return true;
-  if (world().is_alone()) return false;
+  if (all_ranks().is_alone()) return false;
   const std::string of_parent = fmt::format("/proc/{}/fd/{}", getppid(), STDERR_FILENO);
   const int descriptor = open(of_parent.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) return false;

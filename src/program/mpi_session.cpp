@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "ranks.hpp"
+#include "mpi_session.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -28,13 +28,13 @@ std::string unsaid;
 void keep_unsaid(const std::string& text) { unsaid = text; }
 
 void require_agreement(const std::string& what, const std::string& text) {
-  if (world().is_alone()) return;
+  if (all_ranks().is_alone()) return;
   std::string of_first = text;
-  broadcast(world(), of_first);
-  together(world(), [&] {
+  broadcast(all_ranks(), of_first);
+  together(all_ranks(), [&] {
     if (text == of_first) return;
     refuse("rank {} has other {} than rank 0: start all with one command line, where all see the same files",
-           world().rank(), what);
+           all_ranks().rank(), what);
   });
 }
 
@@ -62,7 +62,7 @@ int ranks_here = 1;
 
 }  // namespace
 
-class joined_world::session {
+class mpi_session::session {
  public:
   session(int argc, char** argv) : mpi_(argc, argv) {
     join(ranks_);
@@ -82,12 +82,12 @@ class joined_world::session {
   mpi_communicator ranks_;
 };
 
-joined_world::joined_world(int argc, char** argv) {
+mpi_session::mpi_session(int argc, char** argv) {
   if (was_launched()) session_ = std::make_unique<session>(argc, argv);
 }
-joined_world::~joined_world() = default;
+mpi_session::~mpi_session() = default;
 
-int joined_world::leave(int code) const {
+int mpi_session::leave(int code) const {
   if (!session_) return code;
   using clock = std::chrono::steady_clock;
   constexpr auto patience = std::chrono::seconds(10);
@@ -98,7 +98,7 @@ int joined_world::leave(int code) const {
     MPI_Test(&others, &all_there, MPI_STATUS_IGNORE);
     if (all_there != 0) return code;
     if (code == 0 || clock::now() - began < patience) continue;
-    if (!unsaid.empty()) fmt::print(stderr, "nysalt: rank {}: {}\n", world().rank(), unsaid);
+    if (!unsaid.empty()) fmt::print(stderr, "nysalt: rank {}: {}\n", all_ranks().rank(), unsaid);
     std::fflush(stderr);
     MPI_Abort(MPI_COMM_WORLD, code);
   }
@@ -110,10 +110,10 @@ namespace {
 constexpr int ranks_here = 1;
 }
 
-class joined_world::session {};
-joined_world::joined_world(int, char**) {}
-joined_world::~joined_world() = default;
-int joined_world::leave(int code) const { return code; }
+class mpi_session::session {};
+mpi_session::mpi_session(int, char**) {}
+mpi_session::~mpi_session() = default;
+int mpi_session::leave(int code) const { return code; }
 
 #endif
 
@@ -130,7 +130,7 @@ bool is_bound() { return cores() < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN
 int usual_threads() { return is_bound() ? cores() : std::max(1, cores() / ranks_here); }
 
 std::string advice_on_threads(int threads) {
-  if (world().is_alone() || !is_bound() || threads <= cores()) return {};
+  if (all_ranks().is_alone() || !is_bound() || threads <= cores()) return {};
   return fmt::format(
       "each rank has {} threads and may use {} core{}: let mpirun --bind-to none, or --map-by "
       "slot:PE={}",

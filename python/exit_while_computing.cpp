@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "leaving.hpp"
+#include "exit_while_computing.hpp"
 
 #include <pybind11/pybind11.h>
 #include <unistd.h>

@@ -13,10 +13,10 @@
 
 namespace nysalt::program {
 
-class lesson {
+class fitted_family {
  public:
   /// Throws refusal for whatever cannot be, before any work is done.
-  lesson(const learn_command& command, const common_settings& common);
+  fitted_family(const learn_command& command, const common_settings& common);
 
   void learn();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "finding.hpp"
+#include "measurement.hpp"
 
 #include <fmt/format.h>
 
@@ -98,7 +98,7 @@ drawn_law drawn(const gathered_statistics& found) {
   return result;
 }
 
-void finding::lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories) {
+void measurement::lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories) {
   constexpr std::size_t enough = 100;
   diverged = std::ssize(lost);
   diverged_at.assign(lost.begin(), lost.begin() + static_cast<std::ptrdiff_t>(std::min(lost.size(), enough)));
@@ -107,7 +107,7 @@ void finding::lose(const std::vector<diverged_trajectory>& lost, std::int64_t tr
   reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
 }
 
-distribution_of_errors spread_of(const finding& outcome) {
+distribution_of_errors spread_of(const measurement& outcome) {
   if (outcome.spread) return *outcome.spread;
   distribution_of_errors none;
   none.quantiles.fill(std::numeric_limits<double>::quiet_NaN());
@@ -121,7 +121,7 @@ json to_json(const std::vector<diverged_trajectory>& lost) {
   return result;
 }
 
-json to_json(const finding& outcome) {
+json to_json(const measurement& outcome) {
   json result{{"value", to_json(outcome.value)},
               {"reason", outcome.reason},
               {"diverged", outcome.diverged},
@@ -144,10 +144,10 @@ std::vector<double> means_of_groups(const std::vector<double>& of_each) {
   return result;
 }
 
-finding finding_from(const json& text) {
-  finding outcome{.value = estimate_from(text.at("value")),
-                  .reason = text.at("reason").get<std::string>(),
-                  .diverged = text.at("diverged").get<std::int64_t>()};
+measurement measurement_from(const json& text) {
+  measurement outcome{.value = estimate_from(text.at("value")),
+                      .reason = text.at("reason").get<std::string>(),
+                      .diverged = text.at("diverged").get<std::int64_t>()};
   for (const auto& one : text.at("diverged_at")) {
     outcome.diverged_at.push_back(
         {one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
@@ -167,7 +167,7 @@ energy_course energies_from(const json& text) {
   return {numbers_from(text.at("t")), numbers_from(text.at("deviation")), numbers_from(text.at("surviving"))};
 }
 
-json to_json(const backdrop& context) {
+json to_json(const baseline& context) {
   json result{{"reference", context.reference}};
   put(result, "reference_error", context.reference_error);
   put(result, "null_model", context.null_model);
@@ -177,8 +177,8 @@ json to_json(const backdrop& context) {
   return result;
 }
 
-backdrop backdrop_from(const json& text) {
-  backdrop context{.reference = text.at("reference").get<std::string>(),
+baseline baseline_from(const json& text) {
+  baseline context{.reference = text.at("reference").get<std::string>(),
                    .reference_error = taken(text, "reference_error"),
                    .null_model = taken(text, "null_model"),
                    .predictable_until = taken(text, "predictable_until"),
@@ -188,9 +188,9 @@ backdrop backdrop_from(const json& text) {
 }
 
 json to_json(const measured& all) {
-  json findings = json::array();
-  for (const finding& one : all.findings) findings.push_back(to_json(one));
-  return {{"behind", to_json(all.behind)}, {"findings", findings}};
+  json measurements = json::array();
+  for (const measurement& one : all.measurements) measurements.push_back(to_json(one));
+  return {{"behind", to_json(all.against)}, {"findings", measurements}};
 }
 json to_json(const std::vector<measured>& all) {
   json result = json::array();
@@ -198,8 +198,8 @@ json to_json(const std::vector<measured>& all) {
   return result;
 }
 measured measured_from(const json& text) {
-  measured result{.behind = backdrop_from(text.at("behind"))};
-  for (const auto& one : text.at("findings")) result.findings.push_back(finding_from(one));
+  measured result{.against = baseline_from(text.at("behind"))};
+  for (const auto& one : text.at("findings")) result.measurements.push_back(measurement_from(one));
   return result;
 }
 std::vector<measured> all_measured_from(const json& text) {

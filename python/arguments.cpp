@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "given.hpp"
+#include "arguments.hpp"
 #include "../src/program/systems.hpp"
 
 #include <pybind11/numpy.h>
@@ -11,7 +11,7 @@
 #include "../src/comparison/checks.hpp"
 #include "../src/comparison/comparison.hpp"
 #include "../src/program/bundled_systems.hpp"
-#include "../src/program/ranks.hpp"
+#include "../src/program/mpi_session.hpp"
 
 namespace nysalt::python {
 
@@ -71,7 +71,7 @@ std::vector<T> each(const py::object& value, const auto& thing) {
   return all;
 }
 
-void take_learning(const given& arguments, const std::string& prefix, learning_options& how) {
+void take_learning(const argument_reader& arguments, const std::string& prefix, learning_options& how) {
   const auto named = [&](const char* name) { return prefix + name; };
   arguments.take(named("trajectories").c_str(), how.trajectories);
   arguments.take(named("horizon").c_str(), how.horizon);
@@ -84,7 +84,7 @@ void take_learning(const given& arguments, const std::string& prefix, learning_o
 
 }  // namespace
 
-std::vector<std::string> given::names() const {
+std::vector<std::string> argument_reader::names() const {
   std::vector<std::string> all;
   for (const auto& [name, value] : arguments_) {
     if (!value.is_none()) all.push_back(name.cast<std::string>());
@@ -92,11 +92,11 @@ std::vector<std::string> given::names() const {
   return all;
 }
 
-void given::take(const char* name, double& to) const {
+void argument_reader::take(const char* name, double& to) const {
   if (has(name)) to = number_in(name, arguments_[name]);
 }
 
-void given::take(const char* name, std::int64_t& to) const {
+void argument_reader::take(const char* name, std::int64_t& to) const {
   if (!has(name)) return;
   const py::object value = arguments_[name];
   if (is_truth(value)) refuse_kind(name, "a whole number", value);
@@ -106,34 +106,34 @@ void given::take(const char* name, std::int64_t& to) const {
   if (PyErr_Occurred() != nullptr) refuse_kind(name, "a whole number that can be counted", value);
 }
 
-void given::take(const char* name, bool& to) const {
+void argument_reader::take(const char* name, bool& to) const {
   if (!has(name)) return;
   const py::object value = arguments_[name];
   if (!is_truth(value)) refuse_kind(name, "True or False", value);
   to = value.cast<bool>();
 }
 
-void given::take(const char* name, std::string& to) const {
+void argument_reader::take(const char* name, std::string& to) const {
   if (has(name)) to = text_in(name, arguments_[name]);
 }
 
-void given::take(const char* name, std::vector<double>& to) const {
+void argument_reader::take(const char* name, std::vector<double>& to) const {
   if (has(name)) to = each<double>(arguments_[name], [&](const auto& one) { return number_in(name, one); });
 }
 
-void given::take(const char* name, std::vector<std::string>& to) const {
+void argument_reader::take(const char* name, std::vector<std::string>& to) const {
   if (has(name))
     to = each<std::string>(arguments_[name], [&](const auto& one) { return text_in(name, one); });
 }
 
-void given::take(const char* name, held_methods& to) const {
+void argument_reader::take(const char* name, held_methods& to) const {
   if (!has(name)) return;
   for (const auto& [method_name, text] : py::dict(arguments_[name])) {
     to[text_in(name, method_name)] = text_in(name, text);
   }
 }
 
-program::common_settings common_of(const given& arguments, bool calls_python) {
+program::common_settings common_of(const argument_reader& arguments, bool calls_python) {
   program::common_settings settings;
   std::int64_t seed = static_cast<std::int64_t>(settings.seed);
   arguments.take("seed", seed);
@@ -153,7 +153,7 @@ program::common_settings common_of(const given& arguments, bool calls_python) {
 namespace {
 
 /// Numbers by name, as name=value.
-std::vector<std::string> named_numbers(const given& arguments) {
+std::vector<std::string> named_numbers(const argument_reader& arguments) {
   std::vector<std::string> all;
   for (const auto& name : arguments.names()) {
     double value = 0.0;
@@ -163,7 +163,7 @@ std::vector<std::string> named_numbers(const given& arguments) {
   return all;
 }
 
-void take_potential(const given& arguments, program::typed_potential& potential) {
+void take_potential(const argument_reader& arguments, program::typed_potential& potential) {
   arguments.take("formula", potential.text);
   if (potential.text.empty()) refuse("potential must be a text, got an empty one");
   arguments.take("variables", potential.variables);
@@ -173,7 +173,7 @@ void take_potential(const given& arguments, program::typed_potential& potential)
 }
 
 /// Those that the system declares, as its kinds of numbers; another is refused with the system's own list.
-void take_parameters(const given& arguments, program::system_settings& settings) {
+void take_parameters(const argument_reader& arguments, program::system_settings& settings) {
   for (const auto& name : arguments.names()) settings.parameters[name] = "";
   for (const auto& parameter : program::declaration_of(settings.name).parameters) {
     const char* name = parameter.name.c_str();
@@ -191,7 +191,7 @@ void take_parameters(const given& arguments, program::system_settings& settings)
 
 }  // namespace
 
-program::system_settings system_of(const given& arguments) {
+program::system_settings system_of(const argument_reader& arguments) {
   program::system_settings settings;
   arguments.take("name", settings.name);
   if (arguments.has("formula")) {
@@ -207,7 +207,7 @@ program::system_settings system_of(const given& arguments) {
   return settings;
 }
 
-program::learn_command learn_of(const given& arguments, const program::system_settings& system) {
+program::learn_command learn_of(const argument_reader& arguments, const program::system_settings& system) {
   program::learn_command command;
   command.system = system;
   take_learning(arguments, "", command.learning);
@@ -222,7 +222,7 @@ program::learn_command learn_of(const given& arguments, const program::system_se
   return command;
 }
 
-program::run_command run_of(const given& arguments, const program::system_settings& system) {
+program::run_command run_of(const argument_reader& arguments, const program::system_settings& system) {
   program::run_command command;
   command.system = system;
   arguments.take("method", command.method);
@@ -236,7 +236,8 @@ program::run_command run_of(const given& arguments, const program::system_settin
   return command;
 }
 
-program::compare_command compare_of(const given& arguments, const program::system_settings& system) {
+program::compare_command compare_of(const argument_reader& arguments,
+                                    const program::system_settings& system) {
   program::compare_command command;
   command.system = system;
   take_learning(arguments, "learn_", command.learning);
@@ -262,7 +263,8 @@ program::compare_command compare_of(const given& arguments, const program::syste
   return command;
 }
 
-program::recommend_command recommend_of(const given& arguments, const program::system_settings& system) {
+program::recommend_command recommend_of(const argument_reader& arguments,
+                                        const program::system_settings& system) {
   program::recommend_command command;
   command.system = system;
   take_learning(arguments, "learn_", command.learning);

@@ -6,6 +6,6 @@
 
 namespace nysalt::program {
 
-std::string as_typed(int argc, char** argv);
+std::string command_text(int argc, char** argv);
 
 }  // namespace nysalt::program

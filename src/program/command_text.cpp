@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "as_typed.hpp"
+#include "command_text.hpp"
 
 namespace nysalt::program {
 
-std::string as_typed(int argc, char** argv) {
+std::string command_text(int argc, char** argv) {
   std::string text;
   for (int i = 0; i < argc; ++i) {
     const std::string argument = argv[i];

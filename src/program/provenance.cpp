@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "made_with.hpp"
+#include "provenance.hpp"
 
 #include <algorithm>
 #include <exception>

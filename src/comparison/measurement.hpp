@@ -29,7 +29,7 @@ struct drawn_law {
 drawn_law drawn(const gathered_statistics& found);
 
 /// What one method at one step came to, by one metric.
-struct finding {
+struct measurement {
   estimate value{};         // an error; of the metric acceptance that
   std::string reason = {};  // why there is none
   std::int64_t diverged = 0;
@@ -43,7 +43,7 @@ struct finding {
 };
 
 /// NaN where there is none.
-distribution_of_errors spread_of(const finding& outcome);
+distribution_of_errors spread_of(const measurement& outcome);
 
 /// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
 /// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as
@@ -57,8 +57,8 @@ struct energy_course {
   std::vector<double> surviving;  // share of the trajectories
 };
 
-/// What the findings at one step are seen against, by one metric. What a metric has not is left out.
-struct backdrop {
+/// What the measurements at one step are seen against, by one metric. What a metric has not is left out.
+struct baseline {
   std::string reference = {};                 // description of the reference
   std::optional<double> reference_error{};    // the error of the reference itself
   std::optional<double> null_model{};         // the error of what stays as it was at the start
@@ -69,22 +69,22 @@ struct backdrop {
 
 /// All methods at one step by one metric, in the order of their rows.
 struct measured {
-  backdrop behind{};
-  std::vector<finding> findings{};
+  baseline against{};
+  std::vector<measurement> measurements{};
 };
 
 /// By the index of the metric, and the size of the step.
-using backdrops = std::map<std::pair<std::size_t, double>, backdrop>;
+using baselines = std::map<std::pair<std::size_t, double>, baseline>;
 
 json to_json(const std::vector<diverged_trajectory>& lost);
-json to_json(const finding& outcome);
+json to_json(const measurement& outcome);
 json to_json(const energy_course& course);
-json to_json(const backdrop& context);
+json to_json(const baseline& context);
 json to_json(const measured& all);
 json to_json(const std::vector<measured>& all);
-finding finding_from(const json& text);
+measurement measurement_from(const json& text);
 energy_course energies_from(const json& text);
-backdrop backdrop_from(const json& text);
+baseline baseline_from(const json& text);
 measured measured_from(const json& text);
 std::vector<measured> all_measured_from(const json& text);
 

@@ -16,14 +16,16 @@ namespace nysalt::python {
 /// As Python shows it, in one line of moderate length.
 std::string shown(const pybind11::handle& value);
 
-class given {
+class argument_reader {
  public:
-  explicit given(pybind11::dict arguments) : arguments_(std::move(arguments)) {}
+  explicit argument_reader(pybind11::dict arguments) : arguments_(std::move(arguments)) {}
 
   bool has(const char* name) const { return arguments_.contains(name) && !arguments_[name].is_none(); }
   pybind11::object operator[](const char* name) const { return arguments_[name]; }
   /// A dict of further arguments.
-  given inner(const char* name) const { return given(arguments_[name].cast<pybind11::dict>()); }
+  argument_reader inner(const char* name) const {
+    return argument_reader(arguments_[name].cast<pybind11::dict>());
+  }
   /// Of those that are not None.
   std::vector<std::string> names() const;
 
@@ -46,11 +48,12 @@ class given {
 };
 
 /// seed, threads and force; a system that calls Python has one thread.
-program::common_settings common_of(const given& arguments, bool calls_python);
-program::system_settings system_of(const given& arguments);
-program::learn_command learn_of(const given& arguments, const program::system_settings& system);
-program::run_command run_of(const given& arguments, const program::system_settings& system);
-program::compare_command compare_of(const given& arguments, const program::system_settings& system);
-program::recommend_command recommend_of(const given& arguments, const program::system_settings& system);
+program::common_settings common_of(const argument_reader& arguments, bool calls_python);
+program::system_settings system_of(const argument_reader& arguments);
+program::learn_command learn_of(const argument_reader& arguments, const program::system_settings& system);
+program::run_command run_of(const argument_reader& arguments, const program::system_settings& system);
+program::compare_command compare_of(const argument_reader& arguments, const program::system_settings& system);
+program::recommend_command recommend_of(const argument_reader& arguments,
+                                        const program::system_settings& system);
 
 }  // namespace nysalt::python
