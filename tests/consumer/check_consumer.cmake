@@ -304,7 +304,7 @@ configure(subdirectory -D NYSALT=${nysalt} -D NYSALT_INSTALL=ON -D NYSALT_BUILD_
 run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
 require_match("${files}" "of_others/include;of_others/lib")
-refuses("nysalt builds more than is asked for: ${nysalt}/examples" subdirectory
+refuses("nysalt builds more than is asked for: ${nysalt}/src" subdirectory
   -D NYSALT=${nysalt} -D NYSALT_BUILD_LIBRARY=ON -D NYSALT_BUILD_EXAMPLES=ON)
 
 # So it does from an archive, which needs no more than this.
