@@ -3,6 +3,16 @@
 
 namespace nysalt::program {
 
+// Each in its file below systems/.
+system_declaration declare_fpu();
+system_declaration declare_oscillator();
+system_declaration declare_linear_chain();
+system_declaration declare_pendulum();
+system_declaration declare_henon_heiles();
+system_declaration declare_kepler();
+system_declaration declare_lennard_jones();
+system_declaration declare_phi4();
+
 const std::vector<system_declaration>& bundled_declarations() {
   static const std::vector<system_declaration> all = [] {
     std::vector<system_declaration> declared{

@@ -11,13 +11,4 @@ namespace nysalt::program {
 /// In the order of `list`.
 const std::vector<system_declaration>& bundled_declarations();
 
-system_declaration declare_fpu();
-system_declaration declare_oscillator();
-system_declaration declare_linear_chain();
-system_declaration declare_pendulum();
-system_declaration declare_henon_heiles();
-system_declaration declare_kepler();
-system_declaration declare_lennard_jones();
-system_declaration declare_phi4();
-
 }  // namespace nysalt::program

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/ensembles/fpu_law.hpp"
-
-#include "../bundled_systems.hpp"
+#include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/henon_heiles.hpp"
-
-#include "../bundled_systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/systems/kepler.hpp"
-
 #include <cmath>
 
-#include "../bundled_systems.hpp"
 #include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/system_declaration.hpp"
+#include "nysalt/systems/kepler.hpp"
 
 namespace nysalt::program {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/systems/lennard_jones.hpp"
-
 #include <cmath>
 
-#include "../bundled_systems.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
+#include "nysalt/system_declaration.hpp"
+#include "nysalt/systems/lennard_jones.hpp"
 
 namespace nysalt::program {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/linear_chain.hpp"
-
-#include "../bundled_systems.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/system_declaration.hpp"
 #include "with_exact_flow.hpp"
 
 namespace nysalt::program {

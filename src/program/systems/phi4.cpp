@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
-#include "../bundled_systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/system_declaration.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 
 namespace nysalt::program {
