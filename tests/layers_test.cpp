@@ -52,10 +52,14 @@ int layer_of(const std::string& path) {
   return of_file >= 0 ? of_file : layer_with(path.substr(0, path.find('/') + 1));
 }
 
+/// What stands at the first group of a regex, in lines of the preprocessor: others are not searched, as that
+/// takes seconds.
 std::set<std::string> found_in(const std::string& text, const std::regex& names) {
   std::set<std::string> result;
-  for (std::sregex_iterator i(text.begin(), text.end(), names); i != std::sregex_iterator(); ++i) {
-    result.insert((*i)[1]);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch found;
+    if (line.starts_with('#') && std::regex_search(line, found, names)) result.insert(found[1]);
   }
   return result;
 }
@@ -132,8 +136,8 @@ texts read_headers() { return files_below("include/nysalt"); }
 /// The folders of src, from the lowest to the highest.
 const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program", "reproduction"};
 
-/// Every source that includes one of a higher folder, in words. What is named by a path from src begins with the
-/// folder; files of the same folder are named without it.
+/// Every source that includes one of a higher folder, in words. What is named by a path from src begins with
+/// the folder; files of the same folder are named without it.
 std::vector<std::string> upward_includes(const texts& sources) {
   static const std::regex ours(R"re(#\s*include\s*"(?:\.\./)*([a-z_]+)/[^"]+")re");
   const auto height = [](const std::string& folder) {

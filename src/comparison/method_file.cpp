@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <utility>
 
 #include "catalogue.hpp"
 #include "did_you_mean.hpp"

@@ -3,15 +3,11 @@
 #include "recommendation.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "catalogue.hpp"
 #include "checks.hpp"
-#include "known_word.hpp"
 #include "learning.hpp"
 #include "nysalt/analysis/tail.hpp"
-#include "nysalt/detail/served_letters.hpp"
 #include "seeds.hpp"
 #include "stability_margin.hpp"
 

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // How far candidates err at their steps.
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "known_word.hpp"
 #include "learning.hpp"
 #include "nysalt/analysis/tail.hpp"
-#include "nysalt/detail/served_letters.hpp"
 #include "recommendation.hpp"
 #include "seeds.hpp"
-#include "stability_margin.hpp"
 
 namespace nysalt::program {
 

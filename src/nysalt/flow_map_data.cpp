@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <random>
-#include <span>
 #include <stdexcept>
 
 #include "learning/redistribute.hpp"

@@ -8,8 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"

@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <utility>
 

@@ -86,11 +86,13 @@ BOOST_AUTO_TEST_CASE(every_method_has_a_row_at_every_step_by_every_metric) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_are_the_same_bits_for_any_number_of_threads) {
-  const auto one = compare(morse(), quick()).rows();
-  const auto three = compare(morse(), quick(), {.threads = 3}).rows();
+  auto classical = quick();
+  classical.methods = {"verlet", "pefrl"};  // of what is learned other tests say so, and that takes seconds
+  const auto one = compare(morse(), classical).rows();
+  const auto three = compare(morse(), classical, {.threads = 3}).rows();
   BOOST_TEST(one.size() == three.size());
   for (std::size_t i = 0; i < one.size(); ++i) BOOST_TEST(one[i].value.mean == three[i].value.mean);
-  const auto other = compare(morse(), quick(), {.seed = 2}).rows();
+  const auto other = compare(morse(), classical, {.seed = 2}).rows();
   BOOST_TEST(one[0].value.mean != other[0].value.mean);
 }
 

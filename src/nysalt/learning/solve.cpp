@@ -9,89 +9,29 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "length_of_trial.hpp"
 #include "nysalt/detail/together.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "starts_of_fit.hpp"
 
 namespace nysalt {
 
+using detail::fix;
+using detail::length_of_trial;
 using detail::noise_of_difference;
 using detail::objection;
+using detail::starts_of;
+using detail::trial_length;
 
 namespace {
-
-/// Puts in the values of parameters that are not to be learned.
-void fix(const fit_options& options, Eigen::VectorXd& theta) {
-  for (std::size_t k = 0; k < options.fixed.size(); ++k) {
-    if (options.fixed[k]) theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
-  }
-}
-
-std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
-                                        const std::vector<Eigen::Index>& free) {
-  std::vector<named_parameters> starts = family.starts;
-  if (options.start) starts = {{"start", *options.start}};
-  starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
-  for (auto& start : starts) fix(options, start.theta);
-  for (int n = 0; n < options.random_starts; ++n) {
-    const auto number = static_cast<std::uint64_t>(n);
-    starts.push_back({fmt::format("random {}", n + 1),
-                      random_start(family, starts.front().theta, free, options.seed, number)});
-  }
-  return starts;
-}
-
-/// Ranks search each by itself with the same sums. They would not take the same steps if their processors'
-/// libraries differed in a bit.
-void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
-  if (ranks.is_alone()) return;
-  Eigen::VectorXd of_first = theta;
-  ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
-                  0);
-  together(ranks, [&] {
-    if (theta == of_first) return;
-    throw std::runtime_error(
-        fmt::format("learn: rank {} came to other parameters than rank 0: run all on processors of one kind",
-                    ranks.rank()));
-  });
-}
-
-void require_sound(const run_time_family& family, const fit_options& options) {
-  if (options.planned_steps < 1) {
-    throw std::invalid_argument(
-        fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));
-  }
-  if (options.max_iterations < 0 || options.random_starts < 0) {
-    throw std::invalid_argument(
-        fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
-                    options.max_iterations, options.random_starts));
-  }
-  const auto count = static_cast<std::size_t>(family.parameters());
-  if ((options.start && options.start->size() != family.parameters()) ||
-      (!options.fixed.empty() && options.fixed.size() != count)) {
-    throw std::invalid_argument(fmt::format(
-        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
-  }
-  for (const auto& start : options.further_starts) {
-    if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
-      throw std::invalid_argument(fmt::format("learn: the start '{}' is not finite", start.name));
-    }
-    if (start.theta.size() == family.parameters()) continue;
-    throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
-                                            start.theta.size(), family.name, family.parameters()));
-  }
-  Eigen::VectorXd first = options.start.value_or(family.starts.front().theta);
-  fix(options, first);
-  require_in_range(family, first);
-}
 
 /// The member of the family whose step is exact on an oscillator of the highest mode's frequency, or, where
 /// no modes are declared, of the highest frequency that is met often; nothing if there is none.
@@ -103,43 +43,6 @@ std::optional<named_parameters> phase_fitted_member(const learning_problem& prob
   const double z = problem.step * highest;
   if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
   return phase_fitted_start(problem.family, z);
-}
-
-/// How many trajectories of how many steps a trial takes.
-struct trial_length {
-  std::int64_t trajectories = 0;
-  std::int64_t steps = 0;
-  std::string not_run{};  // why there is none
-};
-
-/// As long as runs are planned, from up to 256 starts, but no more force evaluations than half of those that
-/// the data and the descents took, or than are cheap for as many trajectories as are enough; fewer before
-/// fewer steps.
-trial_length length_of_trial(const learning_problem& problem) {
-  constexpr std::int64_t most = 256;
-  const std::int64_t few = problem.trial_trajectories;
-  constexpr std::int64_t fewest = 8;
-  constexpr std::int64_t long_enough = 10'000;
-  constexpr std::int64_t shortest = 100;
-  const std::int64_t each = std::max(1, problem.family.letters.evaluations_per_step);
-  const std::int64_t cheap = std::min(problem.trial_evaluations, few * problem.options.planned_steps * each);
-  const std::int64_t budget = std::max(problem.evaluations() / 2, cheap);
-  trial_length result{std::min(most, problem.trial_starts), problem.options.planned_steps};
-  const std::int64_t steps_in_all = budget / each;
-  const auto fewer_trajectories = [&](std::int64_t least) {
-    result.trajectories = std::min(result.trajectories, std::max(least, steps_in_all / result.steps));
-  };
-  fewer_trajectories(few);
-  result.steps = std::clamp(steps_in_all / std::max<std::int64_t>(1, result.trajectories),
-                            std::min(long_enough, result.steps), result.steps);
-  fewer_trajectories(fewest);
-  result.steps = std::min(result.steps, steps_in_all / std::max<std::int64_t>(1, result.trajectories));
-  if (result.trajectories < 1 || result.steps < std::min(shortest, problem.options.planned_steps)) {
-    result.not_run =
-        fmt::format("learning took {} force evaluations, fewer than {} trajectories of {} steps would take",
-                    budget, std::max<std::int64_t>(1, result.trajectories), shortest);
-  }
-  return result;
 }
 
 /// Whether a trial run tells what rare frequencies do to a method: it is long enough to meet states many
@@ -174,7 +77,7 @@ fit solve(const learning_problem& problem) {
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;
   const shard& share = problem.held_out;
-  require_sound(family, options);
+  detail::require_sound(family, options);
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
@@ -273,7 +176,7 @@ fit solve(const learning_problem& problem) {
     chosen = member;
     break;
   }
-  require_same(share.ranks(), found.best.theta);
+  detail::require_same(share.ranks(), found.best.theta);
   const candidate& best = found.best;
   const Eigen::VectorXd& theta = best.theta;
 

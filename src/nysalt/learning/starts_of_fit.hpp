@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSL-1.0
+// Where the searches of a fit start, and what is asked of them.
+#pragma once
+
+#include <vector>
+
+#include "nysalt/communicator.hpp"
+#include "nysalt/learning/problem.hpp"
+#include "nysalt/run_time_family.hpp"
+
+namespace nysalt::detail {
+
+/// Puts in the values of parameters that are not to be learned.
+void fix(const fit_options& options, Eigen::VectorXd& theta);
+
+/// Those of the family or the one that was asked for, further ones, and random ones.
+std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+                                        const std::vector<Eigen::Index>& free);
+
+/// Ranks search each by itself with the same sums. They would not take the same steps if their processors'
+/// libraries differed in a bit. Throws std::runtime_error at all ranks then.
+void require_same(const communicator& ranks, const Eigen::VectorXd& theta);
+
+/// Throws std::invalid_argument for options that the family cannot take.
+void require_sound(const run_time_family& family, const fit_options& options);
+
+}  // namespace nysalt::detail
