@@ -4,8 +4,11 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -183,6 +186,19 @@ BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
   const auto refused = shell(folder, use + "./own.so");
   BOOST_TEST(refused.code == 2);
   BOOST_TEST(refused.err.find("no library that can be loaded") != std::string::npos, refused.err);
+}
+
+// Without them everything works, thirty times as slowly.
+BOOST_AUTO_TEST_CASE(a_plugin_is_compiled_with_the_options_of_the_program) {
+  const scratch folder("plugin_options");
+  run(folder, "learn --system oscillator --step 0.01 --family nystrom --trajectories 2 --output scheme.json");
+  std::ifstream manifest(folder / "scheme.json.manifest.json");
+  std::istringstream options(json::parse(manifest).at("flags").get<std::string>());
+  std::ifstream file(std::filesystem::path(NYSALT_PROGRAM).parent_path() / "plugin.flags");
+  const std::set<std::string> of_plugins{std::istream_iterator<std::string>(file), {}};
+  int compared = 0;
+  for (std::string option; options >> option; ++compared) BOOST_TEST(of_plugins.contains(option), option);
+  BOOST_TEST(compared > 0);
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
