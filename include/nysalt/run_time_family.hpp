@@ -67,7 +67,7 @@ class run_time_family {
   run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
 
   std::string name;
-  std::string source;                        ///< key in docs/bibliography.bib; empty if it is nobody's
+  std::string source;                        ///< key in docs/bibliography.bib; empty: not published
   std::vector<std::string> parameter_names;  ///< one for each parameter
   std::vector<parameter_range> ranges;       ///< where each may lie
   std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest

@@ -25,7 +25,7 @@ const run_time_family& family_named(std::string_view name);
 /// With its letters O, where there is a bath.
 run_time_family placed(std::string_view name, std::optional<placement> where);
 
-/// Where a family comes from, in docs/bibliography.bib; empty if it is nobody's.
+/// The key of a family's source in docs/bibliography.bib; empty: not published.
 std::string_view source_of_family(std::string_view name);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.

@@ -56,14 +56,14 @@ struct learned_scheme {
   std::optional<enough_course> course = {};
 };
 
-/// What is gathered along the trajectories of a plan, sampled every so many steps.
+/// Trajectories and the statistics that are gathered along them.
 struct statistics_plan {
   trajectories_plan trajectories;
-  std::int64_t every = 1;
+  std::int64_t every = 1;  // steps between samples
   std::int64_t first = 0;  // number of the first trajectory
   std::optional<equal_bins> bins = {};
   std::optional<int> lags = {};
-  int finer = 1;  // the reference takes so many fine steps for each of its usual
+  int finer = 1;  // factor by which the fine step of the reference is divided
 };
 
 /// Errors along the trajectories of a plan.

@@ -61,7 +61,7 @@ class prepared_problem {
   std::string description() const;
   /// Degrees of freedom.
   std::int64_t dimension() const;
-  /// H, and -grad V, at a state of so many numbers each. Cost: one evaluation.
+  /// H(q, p), and f = -grad V(q), with dimension() numbers in each of q, p and f. Cost: one evaluation.
   double energy(std::span<const double> q, std::span<const double> p) const;
   void force(std::span<const double> q, std::span<double> f) const;
   /// Name and parameters, as scheme files hold them.
@@ -143,8 +143,8 @@ class prepared_problem {
 
   /// Highest angular frequency that motion from its law of starts may meet, rare starts included.
   double frequency_of_law() const;
-  /// The highest along so many of its starts, known to 1 %; nothing where there are more than a thousand
-  /// coordinates, or the kinetic energy is not quadratic.
+  /// Highest angular frequency along the first `count` starts of a seed, to a relative accuracy of 1 %;
+  /// nothing for more than a thousand coordinates, and for a kinetic energy that is not quadratic.
   std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const;
 
  private:

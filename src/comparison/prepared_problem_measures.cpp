@@ -50,7 +50,8 @@ struct sprung_system {
 
   Eigen::Index size() const { return 0; }
   template <class U>
-  void force(const vector<U, dynamic>&, vector<U, dynamic>&) const {}  // stepped by nobody
+  void force(const vector<U, dynamic>&, vector<U, dynamic>&) const {
+  }  // required by the concept, never called
   Eigen::Index pairs() const { return springs.pairs; }
   template <class U>
   U stiff_energy(const phase_point<U, dynamic>& x, Eigen::Index j) const {

@@ -24,9 +24,9 @@ namespace {
 
 constexpr int dynamic = Eigen::Dynamic;
 
-/// How many trajectories, of so many numbers each, are in the memory of all ranks at a time: a million
-/// numbers, or where trajectories are long, a block for each thread of a rank. With more ranks a rank has
-/// fewer, and each of its threads equally many.
+/// Number of trajectories that all ranks together hold in memory at a time, each of `numbers` doubles: 10^6
+/// doubles in all, but at least one block of lanes for each of the `workers`, the threads of all ranks; a
+/// whole number of blocks for each of these.
 std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_t workers) {
   const std::int64_t blocks = 1'000'000 / numbers / lanes;
   return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;

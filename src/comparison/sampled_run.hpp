@@ -50,7 +50,7 @@ struct sampled_plan {
 constexpr std::int64_t short_stretch(std::int64_t dimension) {
   return std::max<std::int64_t>(steps_between_checks, 20'000'000 / dimension);
 }
-/// The steps of a stretch of a run of so many, at most.
+/// Upper bound of the steps in one stretch of a run of `steps` steps.
 inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64_t> length) {
   return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
 }

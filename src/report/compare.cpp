@@ -50,11 +50,7 @@ std::string comparison::text() const { return readable(found_->all); }
 std::string comparison::json() const { return program::text_of(document_of(found_->all)); }
 
 std::vector<std::string> comparison::warnings() const {
-  std::vector<std::string> result;
-  for (const auto& text : found_->all.warnings()) {
-    result.push_back(program::with_arguments(text, program::in_cpp));
-  }
-  return result;
+  return program::with_cpp_terms(found_->all.warnings());
 }
 
 void comparison::write(const std::filesystem::path& folder) const {

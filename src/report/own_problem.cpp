@@ -19,6 +19,11 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem) {
                                             surroundings{in, where});
 }
 
+std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings) {
+  for (auto& text : warnings) text = with_arguments(text, in_cpp);
+  return warnings;
+}
+
 common_settings settings_of(const execution_options& execution) {
   common_settings settings;
   static_cast<execution_options&>(settings) = execution;

@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "comparison/argument_names.hpp"
 #include "comparison/prepared_problem.hpp"
@@ -17,6 +19,9 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem);
 
 /// With a whole seed and some threads. Throws refusal.
 common_settings settings_of(const execution_options& execution);
+
+/// Warnings in terms of C++.
+std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings);
 
 /// What work() returns; a refusal becomes std::invalid_argument, in terms of C++.
 auto with_cpp_messages(const auto& work) {

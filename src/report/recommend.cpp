@@ -42,11 +42,7 @@ std::string recommendation::json() const { return program::text_of(found_->all.d
 std::optional<std::string> recommendation::scheme() const { return found_->all.scheme(); }
 
 std::vector<std::string> recommendation::warnings() const {
-  std::vector<std::string> result;
-  for (const auto& text : found_->all.warnings()) {
-    result.push_back(program::with_arguments(text, program::in_cpp));
-  }
-  return result;
+  return program::with_cpp_terms(found_->all.warnings());
 }
 
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,

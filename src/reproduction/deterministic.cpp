@@ -59,8 +59,8 @@ std::string compare_command(const both_laws& all, double horizon) {
 
 /// The largest gap with an error of 1 %, beside the printed one; the paper's grid has steps of `distance`
 /// there.
-measurement threshold(const both_laws& all, const std::string& name, double printed, double distance,
-                      const std::string& when) {
+tested_claim threshold(const both_laws& all, const std::string& name, double printed, double distance,
+                       const std::string& when) {
   const auto at = [&](const sweep& s) { return crossing(s.of(name), 0.01); };
   const auto readings = in_both(all, [&](const sweep& s) { return is_gap(at(s), printed, distance); });
   return {fmt::format("{}, {}: 1 % up to gap {:g}", when, name, printed),
@@ -72,7 +72,7 @@ measurement threshold(const both_laws& all, const std::string& name, double prin
           ""};
 }
 
-measurement slope_of_two(const both_laws& all, const std::string& name) {
+tested_claim slope_of_two(const both_laws& all, const std::string& name) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(10, 100); };
   const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
   return {
@@ -81,7 +81,7 @@ measurement slope_of_two(const both_laws& all, const std::string& name) {
       told(readings) + "; 2 to a tenth and two standard errors",       ""};
 }
 
-measurement two_magnitudes(const both_laws& all) {
+tested_claim two_magnitudes(const both_laws& all) {
   const auto ratio = [](const sweep& s) { return least_ratio(s.of("NySALT"), s.of("Verlet"), 300); };
   const auto readings = in_both(all, [&](const sweep& s) { return std::log10(ratio(s)) >= 1.5; });
   return {"T = 0.5: NySALT errs two magnitudes less than Verlet until gap 300",
@@ -93,7 +93,7 @@ measurement two_magnitudes(const both_laws& all) {
 }
 
 /// The claim of the conclusion, by whom it is compared with.
-measurement quadruple(const both_laws& all) {
+tested_claim quadruple(const both_laws& all) {
   std::vector<reading> readings;
   std::string ours;
   for (const char* name : {"Verlet", "two half steps of Verlet", "McLachlan"}) {
@@ -123,7 +123,7 @@ void add_sweep(exhibit& to, const both_laws& all, double horizon) {
        fmt::format("Error of the total stiff energy over [0, {:g}] against the gap, M = 400. At "
                    "the same gap, all but Verlet take two force evaluations.",
                    horizon)});
-  for (auto& one : to.measurements) {
+  for (auto& one : to.claims) {
     if (one.command.empty()) one.command = compare_command(all, horizon);
   }
 }
@@ -146,20 +146,21 @@ exhibit accuracy_on_long_times(const setting& setup) {
   const both_laws all = sweeps(setup, horizon);
   const auto up_to = [](const sweep& s) { return below_up_to(s.of("NySALT"), s.of("Verlet")); };
   const auto readings = in_both(all, [&](const sweep& s) { return up_to(s) >= 390.0; });
-  const measurement smaller{"T = 100: up to gap 390 NySALT errs less than Verlet",
-                            "last gap up to which it does",
-                            both(all, [&](const sweep& s) { return fmt::format("{:g}", up_to(s)); }),
-                            verdict_of(choice_of_law, readings),
-                            told(readings),
-                            ""};
+  const tested_claim smaller{"T = 100: up to gap 390 NySALT errs less than Verlet",
+                             "last gap up to which it does",
+                             both(all, [&](const sweep& s) { return fmt::format("{:g}", up_to(s)); }),
+                             verdict_of(choice_of_law, readings),
+                             told(readings),
+                             ""};
   const auto slope = [](const sweep& s) { return s.of("NySALT").exponent_within(10, 50); };
   const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
-  const measurement linear{"T = 100: the error of NySALT depends linearly (slope 2) on the step up to gap 50",
-                           "exponent over gaps 10 .. 50",
-                           both(all, [&](const sweep& s) { return with_error(slope(s)); }),
-                           verdict_of(choice_of_law, is_two),
-                           told(is_two) + "; 2 to a tenth and two standard errors",
-                           ""};
+  const tested_claim linear{
+      "T = 100: the error of NySALT depends linearly (slope 2) on the step up to gap 50",
+      "exponent over gaps 10 .. 50",
+      both(all, [&](const sweep& s) { return with_error(slope(s)); }),
+      verdict_of(choice_of_law, is_two),
+      told(is_two) + "; 2 to a tenth and two standard errors",
+      ""};
   exhibit result{
       "Accuracy at T = 100",
       "Figure 3 (bottom left), section 5.2",

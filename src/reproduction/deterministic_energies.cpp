@@ -86,7 +86,7 @@ double blown_up_at(const record& run, double sample) {
                          : std::numeric_limits<double>::infinity();
 }
 
-measurement blow_up(const std::vector<record>& by_verlet, double step) {
+tested_claim blow_up(const std::vector<record>& by_verlet, double step) {
   std::vector<double> at;
   for (const auto& run : by_verlet) at.push_back(blown_up_at(run, step));
   const double latest = *std::max_element(at.begin(), at.end());

@@ -104,12 +104,12 @@ exhibit convergence_in_trajectories(const setting& setup) {
   exhibit result = exhibit_of(found, "-0.45", -0.45, "deterministic");
   result.title = "Convergence of the estimators in the number of trajectories";
   result.place = "Figure 2 (right), section 5.2";
-  result.measurements.push_back({"with M = 2 the error is below 1e-3",
-                                 "mean error of (b1 + beta1)/2 at M = 2", with_error(found.at_least),
-                                 verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
-                                 "below 1e-3 within two standard errors",
-                                 "nysalt learn --system fpu --step 0.02 --trajectories 2"});
-  for (auto& one : result.measurements) {
+  result.claims.push_back({"with M = 2 the error is below 1e-3", "mean error of (b1 + beta1)/2 at M = 2",
+                           with_error(found.at_least),
+                           verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
+                           "below 1e-3 within two standard errors",
+                           "nysalt learn --system fpu --step 0.02 --trajectories 2"});
+  for (auto& one : result.claims) {
     if (one.command.empty()) one.command = "nysalt learn --system fpu --step 0.02 --trajectories 256";
   }
   return result;

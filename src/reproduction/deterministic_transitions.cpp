@@ -53,7 +53,7 @@ transitions follow_transitions(const setting& setup) {
   return all;
 }
 
-measurement smaller_than_suboptimal(const transitions& all, const std::string& what, energy_distance error) {
+tested_claim smaller_than_suboptimal(const transitions& all, const std::string& what, energy_distance error) {
   const std::size_t whole = all.own.size() - 1;
   const auto compared = [&](std::size_t last) {
     const auto a = means_up_to(all.methods[0].runs, all.reference, error, last);

@@ -16,7 +16,7 @@
 namespace nysalt::program::paper {
 
 /// One claim of the paper beside what was measured.
-struct measurement {
+struct tested_claim {
   std::string claim;     // as it is printed
   std::string quantity;  // what we measured
   std::string ours;      // the figure with its error
@@ -34,7 +34,7 @@ struct shown_figure {
 struct exhibit {
   std::string title;
   std::string place;  // in the paper
-  std::vector<measurement> measurements;
+  std::vector<tested_claim> claims;
   std::vector<std::string> remarks{};
   std::vector<std::pair<std::string, table>> tables{};  // each below a sentence
   std::vector<shown_figure> pictures{};

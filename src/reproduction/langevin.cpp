@@ -23,7 +23,7 @@ std::string both(const both_starts& all, const std::function<std::string(const s
 
 constexpr const char* choice_of_starts = "the starts";
 
-measurement threshold(const both_starts& all, const std::string& name, double printed, double distance) {
+tested_claim threshold(const both_starts& all, const std::string& name, double printed, double distance) {
   const auto at = [&](const sweep& s) { return crossing(s.of(name), 0.1); };
   const auto readings = in_both(all, [&](const sweep& s) { return is_gap(at(s), printed, distance); });
   return {
@@ -35,7 +35,7 @@ measurement threshold(const both_starts& all, const std::string& name, double pr
       ""};
 }
 
-measurement slope_until(const both_starts& all, const std::string& name, double printed, double last) {
+tested_claim slope_until(const both_starts& all, const std::string& name, double printed, double last) {
   const auto slope = [&](const sweep& s) { return s.of(name).exponent_within(30, last); };
   const auto readings = in_both(all, [&](const sweep& s) { return agrees(slope(s), printed, 0.2); });
   return {fmt::format("{}: slope {:g} until gap {:g}", name, printed, last),
@@ -46,7 +46,7 @@ measurement slope_until(const both_starts& all, const std::string& name, double 
           ""};
 }
 
-measurement smaller_from_70(const both_starts& all) {
+tested_claim smaller_from_70(const both_starts& all) {
   const auto first = [&](const sweep& s, const std::string& rival) {
     const auto& a = s.of("NySALT");
     const auto& b = s.of(rival);
@@ -126,7 +126,7 @@ exhibit errors_along_paths(const setting& setup) {
          520},
         "Error of the total stiff energy over [0, 1]. BAOAB takes one force evaluation a step, all others "
         "two."}}};
-  for (auto& one : result.measurements) {
+  for (auto& one : result.claims) {
     one.command = fmt::format(
         "nysalt compare --system fpu {} --start trajectory --methods "
         "baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric "

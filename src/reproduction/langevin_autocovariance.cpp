@@ -63,8 +63,8 @@ acfs measure_acfs(const setting& setup, const std::string& start, const std::vec
   return result;
 }
 
-measurement acf_threshold(const std::vector<acfs>& all, const std::string& name, double printed,
-                          double distance, const std::string& claim, double level) {
+tested_claim acf_threshold(const std::vector<acfs>& all, const std::string& name, double printed,
+                           double distance, const std::string& claim, double level) {
   std::vector<reading> readings;
   std::string ours;
   for (const auto& one : all) {
@@ -130,7 +130,7 @@ exhibit autocovariance_of_energy(const setting& setup) {
   result.pictures.push_back(
       {{"acf_error", errors, 1200, 520}, "RMS error of the normalised autocovariance of I."});
   result.pictures.push_back({{"acf_shape", shapes, 1200, 480}, "Normalised autocovariance of I at gap 190."});
-  for (auto& one : result.measurements) {
+  for (auto& one : result.claims) {
     one.command = fmt::format(
         "nysalt compare --system fpu {} --start trajectory --metric acf --horizon 40 --trajectories 2000 "
         "--steps {} "

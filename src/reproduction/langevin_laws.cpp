@@ -81,9 +81,10 @@ laws measure_laws(const setting& setup, const std::string& start, const std::vec
 }
 
 /// A claim on one number at one gap, for both ways to start.
-measurement at_one_gap(const std::vector<laws>& all, const std::string& name, double gap,
-                       const std::string& claim, const std::function<bool(double value, double floor)>& holds,
-                       const std::string& rule) {
+tested_claim at_one_gap(const std::vector<laws>& all, const std::string& name, double gap,
+                        const std::string& claim,
+                        const std::function<bool(double value, double floor)>& holds,
+                        const std::string& rule) {
   std::vector<reading> readings;
   std::string ours;
   for (const auto& one : all) {
@@ -99,7 +100,7 @@ measurement at_one_gap(const std::vector<laws>& all, const std::string& name, do
           ""};
 }
 
-measurement smaller_from_200(const std::vector<laws>& all) {
+tested_claim smaller_from_200(const std::vector<laws>& all) {
   std::vector<reading> readings;
   std::string ours;
   for (const char* rival : {"BAOAB", "BAOAB with half steps"}) {
@@ -161,7 +162,7 @@ exhibit law_of_energy(const setting& setup) {
   result.pictures.push_back({{"law_distance", distances, 1200, 520},
                              "Total variation of the law of I over [0, 40] from that of fine steps."});
   result.pictures.push_back({{"law_density", densities, 1200, 480}, "Density of I at gap 330."});
-  for (auto& one : result.measurements) {
+  for (auto& one : result.claims) {
     one.command = fmt::format(
         "nysalt compare --system fpu {} --start trajectory --metric distribution --range 0,1 --horizon 40 "
         "--trajectories 10000 "

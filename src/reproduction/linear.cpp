@@ -42,7 +42,7 @@ bool is_printed_optimum(const two_parameters& found) {  // "b1 = 0.5 and beta1 a
   return agrees({found[0], 0.0}, 0.5, 0.1) && agrees({found[1], 0.0}, 0.40, 0.01);
 }
 
-measurement value_of_optimum() {
+tested_claim value_of_optimum() {
   const auto by_energy = energy_optimum(1.0);
   const auto as_printed = printed_optimum(1.0, omega);
   const std::vector<reading> readings{
@@ -57,7 +57,7 @@ measurement value_of_optimum() {
           "nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy"};
 }
 
-measurement independence_of_omega() {
+tested_claim independence_of_omega() {
   double by_energy = 0.0;
   double as_printed = 0.0;
   for (const double other : {1.0, 10.0, 50.0}) {
@@ -83,7 +83,7 @@ measurement independence_of_omega() {
           ""};
 }
 
-measurement independence_of_delta() {
+tested_claim independence_of_delta() {
   const auto change_up_to = [](double most) {
     double worst = 0.0;
     for (const double z : angles) {

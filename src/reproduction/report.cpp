@@ -22,7 +22,7 @@ std::map<std::string, int> counted(const std::vector<finished_part>& parts) {
   std::map<std::string, int> count;
   for (const auto& part : parts) {
     for (const auto& one : part.exhibits) {
-      for (const auto& outcome : one.measurements) {
+      for (const auto& outcome : one.claims) {
         ++count[outcome.verdict.starts_with("depends on") ? "depends on how the text is read"
                                                           : outcome.verdict];
       }
@@ -34,12 +34,12 @@ std::map<std::string, int> counted(const std::vector<finished_part>& parts) {
 table summary_table(const finished_part& part) {
   table rows({"claim", "ours", "verdict"}, 3);
   for (const auto& one : part.exhibits) {
-    for (const auto& outcome : one.measurements) rows.add({outcome.claim, outcome.ours, outcome.verdict});
+    for (const auto& outcome : one.claims) rows.add({outcome.claim, outcome.ours, outcome.verdict});
   }
   return rows;
 }
 
-void describe(page& report, const measurement& outcome) {
+void describe(page& report, const tested_claim& outcome) {
   const std::vector<std::string> facts{fmt::format("Measured: {}.", outcome.quantity),
                                        fmt::format("Ours: {}.", outcome.ours),
                                        fmt::format("**{}**: {}.", outcome.verdict, outcome.reason)};
@@ -51,7 +51,7 @@ void describe(page& report, const measurement& outcome) {
 void describe(page& report, const exhibit& one) {
   report.subheading(one.title);
   report.text(fmt::format("{}.", one.place));
-  for (const auto& outcome : one.measurements) describe(report, outcome);
+  for (const auto& outcome : one.claims) describe(report, outcome);
   for (const auto& remark : one.remarks) report.text(remark);
   for (const auto& [sentence, rows] : one.tables) {
     report.text(sentence);
@@ -74,7 +74,7 @@ json reproduction_report::document() const {
   json items = json::array();
   for (const auto& part : parts_) {
     for (const auto& one : part.exhibits) {
-      for (const auto& outcome : one.measurements) {
+      for (const auto& outcome : one.claims) {
         items.push_back({{"part", part.name},
                          {"exhibit", one.title},
                          {"place", one.place},
@@ -96,7 +96,7 @@ std::string reproduction_report::summary() const {
   for (const auto& part : parts_) {
     text += fmt::format("{}\n\n", part.title);
     for (const auto& one : part.exhibits) {
-      for (const auto& outcome : one.measurements) {
+      for (const auto& outcome : one.claims) {
         text += fmt::format("  {}\n    ours: {}\n    {}\n", outcome.claim, outcome.ours, outcome.verdict);
       }
     }

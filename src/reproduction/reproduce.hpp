@@ -15,7 +15,7 @@ struct reproduce_command {
   bool quick = false;
 };
 
-/// Computes the exhibits, prints their measurements and writes them. Returns the exit code; throws refusal.
+/// Computes the exhibits, prints their claims and writes them. Returns the exit code; throws refusal.
 int reproduce(const reproduce_command& command, const common_settings& common);
 
 }  // namespace nysalt::program::paper
