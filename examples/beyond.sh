@@ -8,7 +8,7 @@ folder=$2
 mkdir -p "$folder"
 
 explicit=learned:nystrom,learned:aba4,learned:aba5,learned:aba6,learned:bab4,learned:bab6,learned:aba3_free
-explicit=$explicit,learned:aba4_free,learned:fg_chin,learned:fg4,learned:bab3,learned:bab5
+explicit=$explicit,learned:aba4_free,learned:aba6_free,learned:bab6_free,learned:fg_chin,learned:fg4,learned:bab3,learned:bab5
 rotating=learned:r_aba2,learned:r_aba4,learned:r_aba6,learned:r_fg4
 classical=verlet,verlet_aba,mclachlan2,bcss2,bcss3,forest_ruth,pefrl,mclachlan_atela4,mclachlan5,blanes_moan_s6
 classical=$classical,srkn6b,srkn11b,srkn14a,takahashi_imada,chin4a
@@ -67,7 +67,7 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
 
 compare fpu_50_state "FPU chain, omega = 50, on [0, 10]: the state" state 0.01 --system fpu --omega 50 \
   --trajectories 48 --steps 0.001,0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 \
-  --methods $explicit,$rotating,$classical,$fitted,impulse --learn-horizon 1 --horizon 10 \
+  --methods $explicit,$rotating,$classical,$fitted,impulse --horizon 10 \
   --metric state,path,exchange,energy
 compare fpu_50_stiff "FPU chain, omega = 50, on [0, 100]: the stiff energy, of fewer methods" path_stiff_energy 0.003 \
   --system fpu --omega 50 --trajectories 48 --steps 0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 \
@@ -75,20 +75,20 @@ compare fpu_50_stiff "FPU chain, omega = 50, on [0, 100]: the stiff energy, of f
   --horizon 100 --metric path,exchange
 compare fpu_200_state "FPU chain, omega = 200, on [0, 10]: the state" state 0.01 --system fpu --omega 200 \
   --trajectories 48 --steps 0.00025,0.0005,0.001,0.0014,0.002,0.0028,0.004,0.0056,0.008 \
-  --methods $explicit,$rotating,$classical,$fitted,impulse --learn-horizon 0.25 --horizon 10 \
+  --methods $explicit,$rotating,$classical,$fitted,impulse --horizon 10 \
   --metric state,path,exchange,energy
 
 compare henon_heiles "Henon and Heiles' system on [0, 30]: the state" state 0.0001 --system henon_heiles \
-  --trajectories 48 --learn-horizon 20 --horizon 30 --metric state,energy \
+  --trajectories 48 --horizon 30 --metric state,energy \
   --steps 0.05,0.07,0.1,0.14,0.2,0.28,0.4 --methods "$explicit,$rotating,$classical,$fitted,impulse"
 compare phi4 "The phi^4 chain of 8 wells on [0, 10]: the state" state 0.01 --system phi4 --masses 8 \
-  --trajectories 48 --learn-horizon 4 --horizon 10 --metric state,energy \
+  --trajectories 48 --horizon 10 --metric state,energy \
   --steps 0.035,0.05,0.07,0.1,0.14,0.2 --methods "$explicit,$rotating,$classical,$fitted,impulse"
 compare kepler "Kepler's problem, eccentricity 0.6, on [0, 20]: the state" state 0.0001 --system kepler \
-  --trajectories 48 --learn-horizon 2 --horizon 20 --metric state,energy \
+  --trajectories 48 --horizon 20 --metric state,energy \
   --steps 0.0035,0.005,0.007,0.01,0.014,0.02,0.028,0.04 --methods "$explicit,$classical"
 
-bath="--system fpu --friction 0.01 --sigma 0.05 --learn-horizon 1 --steps 0.0035,0.005,0.007,0.01,0.014,0.02"
+bath="--system fpu --friction 0.01 --sigma 0.05 --steps 0.0035,0.005,0.007,0.01,0.014,0.02"
 in_bath="$explicit,$rotating,$classical,$fitted,impulse,baoab,aboba,obabo"
 compare langevin_paths "The FPU chain in the paper's bath, on [0, 5]: paths of the stiff energy" path_stiff_energy 0.1 \
   $bath --trajectories 96 --horizon 5 --metric path,state --methods "$in_bath"

@@ -18,7 +18,7 @@ all_learned=$all_learned,learned:aba4_free
 all_classical=verlet,mclachlan2,bcss2,bcss3,bcss4,predescu3,forest_ruth,pefrl,vefrl,omelyan5v,omelyan5p
 all_classical=$all_classical,mclachlan_atela4,mclachlan5,blanes_moan_s6,srkn6b,srkn11b,srkn14a,takahashi_imada,chin4a
 all_classical=$all_classical,omelyan_fg4
-equal_cost="--equal-cost --trajectories 96"
+equal_cost="--equal-cost --trajectories 96 --learn-loss state:1"  # the paper's
 
 say() { echo "== $*"; }
 
@@ -168,7 +168,7 @@ draw phi4 'state error on [0, 10]' phi4_range
 
 say "Laws that were not learned from"
 learn() { # SYSTEM LEARN_HORIZON FAMILY STEP
-  "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" \
+  "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" --loss state:1 \
     --output "$folder/$1.$3.json" >"$folder/$1.$3.log" 2>&1 || echo "   learned:$3 at step $4 of $1: not usable"
 }
 other_law() { # NAME SYSTEM LEARN_HORIZON STEP OPTION...

@@ -21,5 +21,5 @@ int main() {
 }
 
 // Expected output:
-// b1 = 0.5093, beta1 = 0.4017
+// b1 = 0.5079, beta1 = 0.4010
 // still there after 1000 steps

@@ -20,7 +20,7 @@ int main() {
   // Learn, from data of one seed, judged on data of another.
   const auto data = make_flow_map_data(chain, law, reference, {.step = step, .seed = 1});
   const auto held_out = make_flow_map_data(chain, law, reference, {.step = step, .seed = 2});
-  const auto [method, fit] = learn(nystrom{}, chain, data, held_out);
+  const auto [method, fit] = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
   for (const auto& p : fit.parameters)
     fmt::print("{:<5} = {:.5f} +- {:.0e}\n", p.name, p.value, p.standard_error);
   fmt::print("usable: {}\n\n", fit.usable ? "yes" : fit.reason);

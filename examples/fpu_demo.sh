@@ -7,7 +7,7 @@ folder=$2
 mkdir -p "$folder"
 
 echo "== Learn a scheme for the step 0.02"
-"$nysalt" learn --system fpu --family nystrom --step 0.02 --output "$folder/scheme.json"
+"$nysalt" learn --system fpu --family nystrom --step 0.02 --loss state:1 --output "$folder/scheme.json"  # for energies
 
 rm -f "$folder/journal.jsonl"  # of a demonstration that was stopped
 echo

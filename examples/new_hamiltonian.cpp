@@ -70,11 +70,11 @@ int main() {
 
 // Expected output:
 // check: the force is -grad V
-// b1 = 0.5000, beta1 = 0.3750, usable: yes
+// b1 = 0.4920, beta1 = 0.3864, usable: yes
 // force derivatives by automatic differentiation
 //
 // symplectic to rounding
-// learned:nystrom  largest relative energy error over 1000 units of time: 5.1e-02
+// learned:nystrom  largest relative energy error over 1000 units of time: 2.5e-02
 // mclachlan2       largest relative energy error over 1000 units of time: 2.4e-02
 // verlet_2x        largest relative energy error over 1000 units of time: 5.2e-02
 //

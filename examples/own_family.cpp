@@ -58,10 +58,10 @@ int main() {
 
 // Expected output:
 // step 0.2: a = 0.2115, c = 0.00558, usable: yes
-//   two_gradients  state error 2.3e-07
-//   fg4            state error 7.2e-08
+//   two_gradients  state error 2.1e-07
+//   fg4            state error 6.6e-08
 //   pefrl          state error 4.2e-07
-// step 1: a = 0.2159, c = 0.00552, usable: yes
-//   two_gradients  state error 2.7e-04
-//   fg4            state error 1.5e-04
+// step 1: a = 0.2158, c = 0.00548, usable: yes
+//   two_gradients  state error 2.0e-04
+//   fg4            state error 5.8e-05
 //   pefrl          state error 3.8e-04

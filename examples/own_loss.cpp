@@ -51,7 +51,7 @@ int main() {
 
   // [learn]
   const learn_options<family> options{.fixed = {1.0 / 6.0, std::nullopt}};
-  const auto usual = learn(family{}, system, data, unseen, options);  // the error of a step
+  const auto usual = learn(family{}, system, data, unseen, options);  // the error of the state
   const auto own = learn(family{}, system, data, unseen, options, turning);
   // [/learn]
 
@@ -60,7 +60,7 @@ int main() {
     fmt::print("{}: {} = {:.6f} +- {:.0e}, usable: {}\n", name, p.name, p.value, p.standard_error,
                found.summary.usable ? "yes" : found.summary.reason);
   };
-  report("the error of a step", usual);
+  report("the error of the state", usual);
   report("the turning", own);
 
   // Along a hundred revolutions, on ellipses that nobody has seen, at equal cost.
@@ -81,7 +81,7 @@ int main() {
                mean_and_error(distances).mean);
   };
   fmt::print("\nafter a hundred revolutions the ellipse has turned by, and the planet is off by\n");
-  follow("error of a step", tabulated(usual.method.anywhere()), step);
+  follow("error of the state", tabulated(usual.method.anywhere()), step);
   follow("turning", tabulated(own.method.anywhere()), step);
   follow("chin4a", tabulated(chin4a{}), step);
   follow("pefrl", tabulated(pefrl{}), step * 4 / 3);
@@ -89,11 +89,11 @@ int main() {
 }
 
 // Expected output:
-// the error of a step: c = 0.014385 +- 7e-09, usable: yes
+// the error of the state: c = 0.014237 +- 1e-05, usable: yes
 // the turning: c = 0.014573 +- 8e-08, usable: yes
 //
 // after a hundred revolutions the ellipse has turned by, and the planet is off by
-// error of a step  -0.06196 +- 0.00001   0.061
+// error of the state -0.11044 +- 0.00000   0.059
 // turning          -0.00006 +- 0.00002   0.140
 // chin4a           -0.22450 +- 0.00000   0.195
 // pefrl            -0.59907 +- 0.00010   0.524

@@ -24,8 +24,8 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 #
 # method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin      marks
 # -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  ---------
-# learned:fg_chin          0.015              66.7~%  8.10e-05        3.62e-06      6.34e-05  3.08e-05 to 1.87e-04      0/48    28 %       tail
-# learned:nystrom          0.015              66.7~%  9.64e-03        5.20e-04      8.52e-03  3.45e-03 to 2.02e-02      0/48    42 %       null
+# learned:fg_chin          0.015              66.7~%  8.09e-05        3.62e-06      6.37e-05  3.06e-05 to 1.81e-04      0/48    28 %       tail
+# learned:nystrom          0.015              66.7~%  9.50e-03        5.27e-04      8.24e-03  2.46e-03 to 2.07e-02      0/48    42 %       null
 # phase_fitted_mclachlan5  0.015              66.7~%  9.36e-04        3.19e-05      7.95e-04  3.19e-04 to 1.96e-03      0/48    14 %
 # srkn6b                   0.015              66.7~%  2.20e-01        9.02e-03      2.03e-01  9.74e-02 to 3.81e-01      0/48    10 %  null tail
 # s_aia2                   0.015              66.7~%  8.07e-03        5.65e-04      7.29e-03  1.41e-03 to 1.84e-02      0/48    42 %       null
@@ -36,7 +36,7 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 #
 # at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
 # ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
-# learned:fg_chin  0.015      6.34e-05  phase_fitted_mclachlan5          7.95e-04               13 ± 2~
+# learned:fg_chin  0.015      6.37e-05  phase_fitted_mclachlan5          7.95e-04               12 ± 2~
 #
 # state error
 #
@@ -49,8 +49,8 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 #
 # method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
 # -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
-# learned:fg_chin          0.015              66.7~%  8.47e-03        4.22e-04      7.50e-03  4.51e-03 to 1.20e-02      0/48    28 %
-# learned:nystrom          0.015              66.7~%  4.18e+00        1.48e-01      4.03e+00  2.72e+00 to 5.71e+00      0/48    42 %
+# learned:fg_chin          0.015              66.7~%  9.62e-03        4.36e-04      8.92e-03  5.73e-03 to 1.37e-02      0/48    28 %   tail
+# learned:nystrom          0.015              66.7~%  4.18e+00        1.48e-01      4.03e+00  2.71e+00 to 5.70e+00      0/48    42 %
 # phase_fitted_mclachlan5  0.015              66.7~%  2.84e-03        1.05e-04      2.63e-03  2.13e-03 to 3.76e-03      0/48    14 %   tail
 # srkn6b                   0.015              66.7~%  4.19e+00        1.27e-01      4.06e+00  2.99e+00 to 5.53e+00      0/48    10 %
 # s_aia2                   0.015              66.7~%  4.23e+00        1.49e-01      4.07e+00  2.75e+00 to 5.76e+00      0/48    42 %
@@ -60,7 +60,7 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 #
 # at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
 # ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
-# learned:fg_chin  0.015      7.50e-03  phase_fitted_mclachlan5          2.63e-03          0.35 ± 0.02~
+# learned:fg_chin  0.015      8.92e-03  phase_fitted_mclachlan5          2.63e-03          0.29 ± 0.02~
 # learned:nystrom  0.015      4.03e+00  phase_fitted_mclachlan5          2.63e-03    0.00065 ± 0.00004~
 #
 # peak memory: ~ MB

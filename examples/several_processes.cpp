@@ -22,7 +22,7 @@ void learn_and_look(const communicator& ranks) {
     return make_flow_map_data(chain, starts, fine_steps<>(1e-3),
                               {.step = 0.03, .trajectories = 400, .seed = seed, .ranks = &ranks});
   };
-  const auto [method, fit] = learn(nystrom{}, chain, pairs(1), pairs(2));
+  const auto [method, fit] = learn(nystrom{}, chain, pairs(1), pairs(2), {.loss = loss_named("state:1")});
   // [/learn]
 
   // How far the energy is off at t = 30, along trajectories that each process follows for itself.

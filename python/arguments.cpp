@@ -76,6 +76,7 @@ void take_learning(const argument_reader& arguments, const std::string& prefix, 
   arguments.take(named("trajectories").c_str(), how.trajectories);
   arguments.take(named("horizon").c_str(), how.horizon);
   arguments.take(named("loss").c_str(), how.loss);
+  arguments.take(named("effort").c_str(), how.effort);
   arguments.take(named("random_starts").c_str(), how.random_starts);
   arguments.take("coordinates", how.coordinates);
   arguments.take("fine_step", how.fine_step);

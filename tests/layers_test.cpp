@@ -36,7 +36,7 @@ const std::vector<std::vector<std::string>> layers{
     {"reference", "detail/small_steps", "references/", "ensemble", "initial_states", "ensembles/"},
     {"detail/any_reference", "integrate_ensemble", "ensemble_run", "flow_map_data", "trial_run"},
     {"losses/"},
-    {"learning/", "learn"},
+    {"detail/oscillator_loss", "learning/", "learn"},
     {"analysis/"},
     {"version", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
     {"core"},

@@ -104,6 +104,10 @@ void check_thermostatted() {
   }
 }
 
+struct with_further_start : aba<4> {
+  static std::vector<std::array<double, 3>> further_starts() { return {{0.2, 0.5, -0.2}}; }
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(it_knows_what_the_type_knows) {
@@ -114,7 +118,7 @@ BOOST_AUTO_TEST_CASE(it_knows_what_the_type_knows) {
 }
 
 BOOST_AUTO_TEST_CASE(classical_members_and_points_without_a_name_are_starts_too) {
-  const run_time_family four{aba<4>()};
+  const run_time_family four{with_further_start()};
   BOOST_REQUIRE(four.starts.size() == 3U);
   BOOST_TEST(four.starts[1].name == "pefrl");
   BOOST_TEST(four.starts[2].name == "further start");

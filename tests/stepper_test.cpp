@@ -65,10 +65,18 @@ BOOST_AUTO_TEST_CASE(a_run_from_q_and_p_is_an_open_run_to_the_bit) {
       return fixed.synchronous(run);
     };
     flow_state<double, 1> x{somewhere(), vector<double, 1>(0.0)};
-    fixed.run(x, 5, 3);
-    BOOST_TEST(same_bits(phase_point<double, 1>(x), run_of(3, 5)));
-    BOOST_TEST(!same_bits(phase_point<double, 1>(x), run_of(2, 5)));
-    BOOST_TEST(!same_bits(phase_point<double, 1>(x), run_of(3, 4)));
+    flow_state<double, 1> y = x;
+    constexpr std::array after{2, 5};
+    std::vector<phase_point<double, 1>> seen;
+    fixed.run(x, y, after, 3, [&](std::size_t k) {
+      BOOST_TEST(k == seen.size());
+      seen.push_back(y);
+    });
+    BOOST_TEST_REQUIRE(seen.size() == 2U);
+    BOOST_TEST(same_bits(seen[0], run_of(3, 2)));
+    BOOST_TEST(same_bits(seen[1], run_of(3, 5)));
+    BOOST_TEST(!same_bits(seen[1], run_of(2, 5)));
+    BOOST_TEST(!same_bits(seen[1], run_of(3, 4)));
   };
   check(baoab());
   check(obabo());

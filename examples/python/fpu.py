@@ -3,7 +3,7 @@
 import nysalt
 
 chain = nysalt.system("fpu", omega=50)
-scheme = nysalt.learn(chain, "nystrom", step=0.02)
+scheme = nysalt.learn(chain, "nystrom", step=0.02, loss="state:1")  # the paper's loss
 print(scheme.parameters, "usable" if scheme.usable else scheme.reason)
 scheme.save("scheme.json")  # nysalt run --method scheme.json takes it, too
 

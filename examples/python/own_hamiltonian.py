@@ -28,7 +28,7 @@ morse = nysalt.hamiltonian("morse_pair", dimension=2, potential=potential, force
                            inverse_mass=[1, 0.25])
 # [/system]
 # [use]
-scheme = nysalt.learn(morse, "nystrom", step=0.3, horizon=7.5, trajectories=20)
+scheme = nysalt.learn(morse, "nystrom", step=0.3, horizon=7.5, trajectories=20, loss="state:1")
 print(scheme.parameters, "usable" if scheme.usable else scheme.reason)
 
 found = nysalt.compare(morse, ["mclachlan2", "verlet_2x", scheme], steps=0.3, horizon=7.5, trajectories=100,

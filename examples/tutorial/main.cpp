@@ -133,12 +133,12 @@ int main() {
 }
 
 // Expected output:
-// b = 0.17645 +- 3e-06
-// c = 0.01242 +- 1e-06
+// b = 0.17644 +- 4e-05
+// c = 0.01243 +- 3e-06
 // usable: yes
 //
 //                          error of q, p on [0, 3.6]   ns an evaluation (median)
-// fg_chin                  3.6e-04 +- 3e-05          ~ (~)
+// fg_chin                  2.6e-04 +- 3e-05            ~ (~)
 // phase_fitted_chin4a      2.6e-04 +- 3e-05          ~ (~)
 // phase_fitted_pefrl       4.6e-04 +- 6e-05          ~ (~)
 // phase_fitted_mclachlan5  6.0e-04 +- 7e-05          ~ (~)

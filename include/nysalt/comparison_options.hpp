@@ -22,14 +22,20 @@ struct execution_options {
 struct learning_options {
   std::optional<double> fine_step{};  ///< of the reference; must divide the step. None: by the frequency
   std::int64_t trajectories = 100;    ///< to learn from, and as many to judge by
-  std::optional<double> horizon{};    ///< of each trajectory. None: 0.5, or ten steps if that is longer
-  std::string coordinates = "qp";     ///< of the errors: qp, modes or energy
-  std::vector<std::string> fix{};     ///< parameters of the family that are not learned: "name=value"
-  std::string loss = "state";         ///< state:K, energy:K or covariance, see loss_named()
-  std::int64_t random_starts = 0;     ///< of the search, beside those of the family
+  std::optional<double> horizon{};    ///< of each trajectory. None: see horizon_at()
+  std::optional<double>
+      planned_horizon{};           ///< of the runs to come, if known: to learn from no more is needed
+  std::string coordinates{};       ///< of the errors: qp, modes or energy. Empty: as suits the loss
+  std::vector<std::string> fix{};  ///< parameters of the family that are not learned: "name=value"
+  std::string loss{};              ///< trajectory, state:K, energy:K or covariance. Empty: trajectory, but
+                       ///< state:1 in a bath, and where neither states nor coordinates are measured
+  std::string effort = "normal";                ///< of the search by trajectories: quick, normal or thorough
+  std::optional<std::int64_t> random_starts{};  ///< of the search. None: by the effort
 
-  /// The horizon at a step, where none is asked for too.
-  double horizon_at(double step) const { return horizon.value_or(std::max(0.5, 10.0 * step)); }
+  /// The horizon at a step. Where none is asked for it is that of the runs to come, but from 16 to 200 steps,
+  /// and 200 where nothing is known of them; of losses after K steps it is 0.5, or ten steps if that is
+  /// longer.
+  double horizon_at(double step) const;
 };
 
 /// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
@@ -58,18 +64,18 @@ struct comparison_options {
 
 /// Among which methods one is chosen: at a cost, or at an error.
 struct recommendation_options {
-  std::optional<double> budget{};          ///< force evaluations per unit time; or
-  std::optional<double> budget_seconds{};  ///< seconds per unit time of one trajectory; or
-  std::optional<double> error{};           ///< an error by the metric
-  double horizon = 0.0;                    ///< of each trajectory, positive
-  std::string metric = "state";            ///< as of comparison_options
-  std::string observable{};                ///< of path and relative. Empty: the usual
-  std::int64_t trajectories = 100;         ///< to rank by
-  std::vector<std::string> families{};     ///< that may be learned. Empty: all that suit
-  learning_options learning{};             ///< of these
-  std::string placement{};                 ///< of the letters O in a bath: end, symmetric or middle
-  double hmc_temperature = 1.0;            ///< kT of the acceptance, an energy
-  bool reversible = false;                 ///< symmetric methods alone
+  std::optional<double> budget{};                ///< force evaluations per unit time; or
+  std::optional<double> budget_seconds{};        ///< seconds per unit time of one trajectory; or
+  std::optional<double> error{};                 ///< an error by the metric
+  double horizon = 0.0;                          ///< of each trajectory, positive
+  std::string metric = "state";                  ///< as of comparison_options
+  std::string observable{};                      ///< of path and relative. Empty: the usual
+  std::int64_t trajectories = 100;               ///< to rank by
+  std::vector<std::string> families{};           ///< that may be learned. Empty: all that suit
+  learning_options learning{.effort = "quick"};  ///< of these
+  std::string placement{};                       ///< of the letters O in a bath: end, symmetric or middle
+  double hmc_temperature = 1.0;                  ///< kT of the acceptance, an energy
+  bool reversible = false;                       ///< symmetric methods alone
 };
 
 }  // namespace nysalt

@@ -15,17 +15,18 @@ namespace nysalt {
 /// The same options with parameters as the family holds them.
 template <Family F>
 struct learn_options {
-  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the state's error counts
-  parameters_of<F> start = F::start();                        ///< where the first search begins
+  std::optional<nysalt::coordinates> coordinates{};  ///< in which the state's error counts; see fit_options
+  parameters_of<F> start = F::start();               ///< where the first search begins
   /// A value for each parameter that is not to be learned.
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
-  int max_iterations = 200;      ///< of the search from each start
-  int threads = 1;               ///< changes no bit of what is learned
-  loss_choice loss{};            ///< minimised unless an own_loss is given; by default the error of one step
-  bool classical_starts = true;  ///< begin at the family's classical members and further starts too
-  int random_starts = 0;         ///< further ones, normal around the first with the deviation 0.3
-  bool guarded = true;           ///< false: an unstable optimum is found, and said not to be usable
-  bool check_force = true;       ///< at some states of the data, before the search
+  int max_iterations = 200;            ///< of the search from each start
+  int threads = 1;                     ///< changes no bit of what is learned
+  std::optional<loss_choice> loss{};   ///< minimised unless an own_loss is given; empty: usual_loss()
+  bool classical_starts = true;        ///< begin at the family's classical members and further starts too
+  std::optional<int> random_starts{};  ///< further ones, normal around these; empty: by the effort
+  nysalt::effort effort = nysalt::effort::normal;  ///< by which their number is chosen where none is given
+  bool guarded = true;                  ///< false: an unstable optimum is found, and said not to be usable
+  bool check_force = true;              ///< at some states of the data, before the search
   std::int64_t planned_steps = 20'000;  ///< as in fit_options: how long a run may be
   std::uint64_t seed = 1;               ///< of the random starts
 };
@@ -37,22 +38,22 @@ struct learned {
   fit_summary summary;     ///< its `usable` says whether to use the method
 };
 
-/// theta that minimises a loss over `data`: that of the options, by default the one-step loss
-/// [li_lu_tao_ye_2023, section 3.1], or one own_loss. Of several starts (the family's own, its classical
-/// members, and what the options add) it is the minimum with the least mean square error at the end of the
-/// held-out trajectories, or the least loss on them where the loss is not of the state, among those that the
-/// stability_guard admits and that withstand a trial run of planned_steps steps; see learning/search.hpp for
-/// where there is none. It is not worse, by the loss on held-out data, than a member of the family that was
-/// known before; and the summary names the best classical method of the same cost where that is as good. The
-/// held-out data should come from another seed.
+/// theta that minimises a loss over `data`: that of the options, by default the state's error at several
+/// times of whole trajectories, in a bath the one-step loss [li_lu_tao_ye_2023, section 3.1], or one
+/// own_loss. The search begins at the family's own start, its classical members, random starts and what the
+/// options add, and goes in stages, see loss_kind. Of several minima it is the one that the loss's
+/// judge_of_minima likes best, among those that the stability_guard admits and that withstand a trial run of
+/// planned_steps steps; see learning/search.hpp for where there is none. It is not worse, by the loss on
+/// held-out data, than a member of the family that was known before; and the summary names the best classical
+/// method of the same cost where that is as good. The held-out data should come from another seed.
 ///
 /// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if
 /// check_force() finds the system's force, kick or derivative wrong at some states of the data (unless
 /// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss
 /// (or two of them), a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be
-/// trusted is returned with usable = false. Cost: some 20 to 80 passes over the data for each start, each a
-/// plain step with derivatives a pair, or a run of K steps for a loss over K. Memory: two or three copies of
-/// the data.
+/// trusted is returned with usable = false. Cost: some 40 passes over a part of the data for each start, and
+/// some 20 to 200 over all for each of three minima, each a step with derivatives a pair. Memory: some five
+/// copies of the data.
 template <SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
 fit learn(const run_time_family& family, const S& system, const flow_map_data& data,
@@ -74,6 +75,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data& data, co
   fit_options run_time_options{.coordinates = options.coordinates,
                                .loss = options.loss,
                                .random_starts = options.random_starts,
+                               .effort = options.effort,
                                .fixed = {options.fixed.begin(), options.fixed.end()},
                                .guarded = options.guarded,
                                .planned_steps = options.planned_steps,

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -179,16 +181,24 @@ class stepper {
     return result;
   }
 
-  /// Opens a run at q and p (f is scratch), takes `steps` steps and makes the state synchronous, in place:
-  /// what losses over several steps differentiate. Its noise is that of steps 0 .. steps - 1 of the
-  /// trajectory. Cost: the word's evaluations_to_open, and steps times its evaluations_per_step.
-  template <SteppedBy<C> T>
-  void run(flow_state<T, dimension>& x, std::int64_t steps, std::uint64_t trajectory = 0) const {
+  /// A run from x (whose f is scratch) that calls look(k) after each number after[k] of steps, which rise,
+  /// with the synchronous state in y: what losses over several steps differentiate. Its noise is that of
+  /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, and as many times its
+  /// evaluations_per_step as there are steps.
+  template <SteppedBy<C> T, class Look>
+  void run(flow_state<T, dimension>& x, flow_state<T, dimension>& y, std::span<const int> after,
+           std::uint64_t trajectory, Look&& look) const {
     auto cursor = cursor_at<T>(trajectory, 0);
     with_letters([&](const auto& letters) {
       letters.open(*system_, x, cursor);
-      letters.advance(*system_, x, steps, cursor);
-      letters.close(*system_, x, cursor);
+      int done = 0;
+      for (std::size_t k = 0; k < after.size(); ++k) {
+        letters.advance(*system_, x, after[k] - done, cursor);
+        done = after[k];
+        y = x;
+        letters.close(*system_, y, cursor);
+        look(k);
+      }
     });
   }
 

@@ -260,14 +260,14 @@ def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
           horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
           coordinates: Optional[str] = None, placement: Optional[str] = None,
           fix: Optional[Mapping[str, float]] = None, fine_step: Optional[float] = None,
-          random_starts: Optional[int] = None, enough: Optional[float] = None,
+          effort: Optional[str] = None, random_starts: Optional[int] = None, enough: Optional[float] = None,
           threads: Optional[int] = None) -> Scheme:
     """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
 
-    It learns from trajectories [100] of a length `horizon` [0.5, or ten steps if that is longer], and is judged
-    on as many others. loss:
-    "state" [it], "state:K", "energy:K" after K steps, or "covariance"; coordinates: "qp" [they], "modes" or
-    "energy"; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
+    It learns from trajectories [100] of a length `horizon` [200 steps], and is judged on as many others. loss:
+    "trajectory" [it], the state's error at 16 times; "state:K", "energy:K" after K steps; or "covariance";
+    effort: "quick", "normal" [it] or "thorough"; coordinates: "qp", "modes" or "energy" [the last for
+    "trajectory" where there are modes, else the first]; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
     parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
     A fit that cannot be trusted is returned with usable = False and the reason.
     """
@@ -382,8 +382,8 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
             longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
             placement: Optional[str] = None, fine_step: Optional[float] = None,
             learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
-            learn_loss: Optional[str] = None, learn_random_starts: Optional[int] = None,
-            coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
+            learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+            learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
             threads: Optional[int] = None) -> Dict[str, Any]:
     """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
 
@@ -409,8 +409,8 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
               hmc_temperature: Optional[float] = None, reversible: bool = False,
               families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
               learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
-              learn_loss: Optional[str] = None, learn_random_starts: Optional[int] = None,
-              coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
+              learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+              learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
               threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
     """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
     trajectory, or the cheapest that errs less than `error`.

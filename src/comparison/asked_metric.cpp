@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "did_you_mean.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -27,6 +28,18 @@ asked_metric metric_named(std::string_view text, const std::string& otherwise) {
   }
   if (asked.observable.empty()) refuse("--metric {}: name an observable after the colon", text);
   return asked;
+}
+
+bool asked_metric::sees_phases() const {
+  if (name == "state") return true;
+  const bool is_coordinate = 1 < observable.size() && (observable[0] == 'q' || observable[0] == 'p') &&
+                             observable.find_first_not_of("0123456789", 1) == std::string::npos;
+  return (name == "path" || name == "relative") && is_coordinate;
+}
+
+std::string loss_for(std::span<const asked_metric> metrics, const bath& around) {
+  const bool is_usual = std::ranges::any_of(metrics, &asked_metric::sees_phases);
+  return is_usual ? usual_loss(around).description() : "state:1";
 }
 
 }  // namespace nysalt::program

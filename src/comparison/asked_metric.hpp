@@ -2,8 +2,11 @@
 // What trajectories are judged by.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "nysalt/bath.hpp"
 
 namespace nysalt::program {
 
@@ -24,6 +27,8 @@ struct asked_metric {
   bool is_of_law() const { return name == "distribution" || name == "acf"; }
   bool is_acceptance() const { return name == "acceptance"; }
   bool is_along_paths() const { return !is_of_law() && !is_acceptance(); }
+  /// Whether an error of the phase counts: of the state, or of a coordinate along a path.
+  bool sees_phases() const;
   bool takes_observable() const { return name == "path" || name == "relative" || is_of_law(); }
   /// What its results are called.
   std::string value() const { return is_acceptance() ? "acceptance" : "error"; }
@@ -32,5 +37,9 @@ struct asked_metric {
 /// From NAME or NAME:OBSERVABLE; `otherwise` is the observable of a metric that names none. Throws refusal
 /// where a metric takes no observable.
 asked_metric metric_named(std::string_view text, const std::string& otherwise);
+
+/// The loss to learn with where none is asked for: the usual one, but state:1 where all metrics are of
+/// energies, which errors of the phase do not change.
+std::string loss_for(std::span<const asked_metric> metrics, const bath& around);
 
 }  // namespace nysalt::program

@@ -5,10 +5,10 @@
 
 #include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
-#include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
 #include "nysalt/methods/classical.hpp"
@@ -29,7 +29,7 @@ std::vector<run_time_family> families_of() {
 const std::vector<run_time_family>& families() {
   static const auto all =
       families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free,
-                  fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+                  aba6_free, bab6_free, fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
   return all;
 }
 
@@ -128,6 +128,15 @@ coordinates coordinates_named(const std::string& name) {
     if (to_string(known) == name) return known;
   }
   refuse("unknown coordinates '{}': they are one of qp, modes, energy", name);
+}
+
+effort effort_named(const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, effort>, 3> all{
+      {{"quick", effort::quick}, {"normal", effort::normal}, {"thorough", effort::thorough}}};
+  for (const auto& [known, value] : all) {
+    if (known == name) return value;
+  }
+  refuse("unknown effort '{}': it is one of quick, normal, thorough", name);
 }
 
 }  // namespace nysalt::program

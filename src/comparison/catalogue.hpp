@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -39,6 +40,9 @@ struct classical_method {
 const std::vector<classical_method>& classical_methods();
 
 coordinates coordinates_named(const std::string& name);
+
+/// quick, normal or thorough. Throws refusal for anything else.
+effort effort_named(const std::string& name);
 placement placement_named(const std::string& name);
 
 /// A method whose coefficients depend on z = step * frequency.

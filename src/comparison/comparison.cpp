@@ -51,6 +51,7 @@ void comparison::name_metrics() {
       options_.observable.empty() ? system_->default_observable() : options_.observable;
   for (const auto& text : options_.metrics) metrics_.push_back(metric_named(text, otherwise));
   bins_.resize(metrics_.size());
+  if (options_.learning.loss.empty()) options_.learning.loss = loss_for(metrics_, system_->heat_bath());
 }
 
 namespace {
@@ -98,6 +99,7 @@ void comparison::plan_rows() {
     if (sources.back().learned) schemes_.push_back(sources.back());
   }
   horizon_ = options_.horizon.value_or(usual_horizon(sources));
+  options_.learning.planned_horizon = horizon_;
   for (const double nominal : options_.steps) {
     for (const auto& source : sources) add_row(source, nominal);
   }
@@ -197,7 +199,8 @@ json as_json(const learning_options& how) {
           {"coordinates", how.coordinates},
           {"fix", how.fix},
           {"loss", how.loss},
-          {"random_starts", how.random_starts}};
+          {"effort", how.effort},
+          {"random_starts", how.random_starts ? json(*how.random_starts) : json(nullptr)}};
 }
 
 json as_json(const row& line) {

@@ -35,9 +35,10 @@ inline void fix_parameter(const run_time_family& family, const std::string& text
 inline fit_options options_for(const run_time_family& family, const learning_options& how, int threads) {
   fit_options options;
   options.threads = threads;
-  options.coordinates = coordinates_named(how.coordinates);
-  options.loss = loss_named(how.loss);
-  options.random_starts = static_cast<int>(how.random_starts);
+  if (!how.coordinates.empty()) options.coordinates = coordinates_named(how.coordinates);
+  if (!how.loss.empty()) options.loss = loss_named(how.loss);
+  options.effort = effort_named(how.effort);
+  if (how.random_starts) options.random_starts = static_cast<int>(*how.random_starts);
   options.fixed.resize(family.parameter_names.size());
   for (const auto& text : how.fix) fix_parameter(family, text, options);
   auto theta = family.starts.front().theta;

@@ -15,6 +15,19 @@
 #include "seeds.hpp"
 #include "stability_margin.hpp"
 
+namespace nysalt {
+
+double learning_options::horizon_at(double step) const {
+  if (horizon) return *horizon;
+  const loss_choice chosen = loss.empty() ? loss_choice{} : loss_named(loss);
+  if (chosen.kind->stages == after_each_step) return std::max(0.5, 10.0 * step);
+  constexpr double least = 16.0;  // over which errors of the phase add up
+  constexpr double most = 200.0;  // of more the mean error says no more, and in chaos less
+  return std::clamp(planned_horizon.value_or(most * step), least * step, most * step);
+}
+
+}  // namespace nysalt
+
 namespace nysalt::program {
 
 void require_sound(const learning_options& how, const std::string& prefix) {
@@ -23,10 +36,11 @@ void require_sound(const learning_options& how, const std::string& prefix) {
   require_at_least_one(trajectories.c_str(), how.trajectories);
   if (how.horizon) require_positive(horizon.c_str(), *how.horizon);
   if (how.fine_step) require_positive("--fine-step", *how.fine_step);
-  coordinates_named(how.coordinates);
-  loss_named(how.loss);
-  if (how.random_starts < 0 || how.random_starts > 10'000) {
-    refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), how.random_starts);
+  if (!how.coordinates.empty()) coordinates_named(how.coordinates);
+  effort_named(how.effort);
+  if (!how.loss.empty()) loss_named(how.loss);
+  if (how.random_starts && (*how.random_starts < 0 || *how.random_starts > 10'000)) {
+    refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), *how.random_starts);
   }
 }
 
@@ -34,11 +48,16 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   auto [problem, energies] = make_learnable(plan, progress);
   const run_time_family& family = problem.family;
   if (progress) {  // told again at each pass that all data are there, whoever counts may end the search
-    problem.loss = [loss = std::move(problem.loss), progress,
-                    all = plan.how.trajectories](const auto& theta) {
-      progress(all);
-      return loss(theta);
+    const auto watched = [&](objective& loss) {
+      loss = [loss = std::move(loss), progress, all = plan.how.trajectories](const auto& theta) {
+        progress(all);
+        return loss(theta);
+      };
     };
+    for (learning_problem* each = &problem; each != nullptr; each = each->shorter.get()) {
+      watched(each->loss);
+      std::ranges::for_each(each->earlier_losses, watched);
+    }
   }
   auto [theta, fit] = solve(problem);
   const tabulated method(family.name, family.letters, family.coefficients(theta),
@@ -71,23 +90,9 @@ learned_scheme learn_enough(const prepared_problem& system, learn_plan plan, pro
 learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan, progress& shown,
                           double work) {
   system.require_learnable(plan.family, plan.where, plan.how, plan.step);
-  learn_plan stage = plan;
-  // Where landscapes are hard, the optimum at a smaller step is near that at the next. A fine step that was
-  // asked for must divide these steps too.
-  const double quarter = plan.how.fine_step ? 0.25 * plan.step / *plan.how.fine_step : 1.0;
-  const bool is_divided =
-      std::round(quarter) >= 1.0 && std::abs(quarter - std::round(quarter)) <= 1e-9 * quarter;
-  const bool is_hard = family_named(plan.family).parameters() > 2 && plan.from.empty() && is_divided;
-  for (const double part : {0.5, 0.75, 1.0}) {
-    if (part < 1.0 && !is_hard) continue;
-    stage.step = part * plan.step;
-    shown.part(fmt::format("learning {} at step {:g}", plan.family, stage.step), is_hard ? work / 3.0 : work);
-    if (part == 1.0 && plan.enough) return learn_enough(system, stage, shown);
-    learned_scheme learned = system.learn(stage, shown.counter(plan.how.trajectories));
-    if (part == 1.0) return learned;
-    stage.from = theta_of(learned.fit);
-  }
-  throw std::logic_error("learn_with: not reached");
+  shown.part(fmt::format("learning {} at step {:g}", plan.family, plan.step), work);
+  if (plan.enough) return learn_enough(system, plan, shown);
+  return system.learn(plan, shown.counter(plan.how.trajectories));
 }
 
 std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_plan plan,

@@ -15,8 +15,7 @@ namespace nysalt::program {
 /// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
 void require_sound(const learning_options& how, const std::string& prefix);
 
-/// Families of more than two parameters are learned at half the step and at three quarters before. Throws
-/// refusal for what cannot be learned, before any work is done.
+/// Throws refusal for what cannot be learned, before any work is done.
 learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan, progress& shown,
                           double work = 0.0);
 

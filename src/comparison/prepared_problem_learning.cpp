@@ -20,27 +20,18 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
   const run_time_family family = placed(name, where);
   require_served(family.letters);
   reference().fine_step(step, how.fine_step, noise_parts(family));
-  const auto which = coordinates_named(how.coordinates);
-  if (which != coordinates::qp) {
-    if (has_modes(made_.system)) {
-      const bool still = (made_.system.modes().frequencies.array() == 0.0).any();
-      if (which == coordinates::energy && still) {
-        refuse(
-            "the energy coordinates of {} do not exist, as it has a mode of frequency zero: take modes or "
-            "qp",
-            description());
-      }
-    } else {
-      refuse("the {} coordinates of {} are not known, as it declares no modes: take qp", how.coordinates,
-             description());
-    }
+  const auto which = how.coordinates.empty() ? coordinates::qp : coordinates_named(how.coordinates);
+  if (which != coordinates::qp && !has_modes(made_.system)) {
+    refuse("the {} coordinates of {} are not known, as it declares no modes: take qp", how.coordinates,
+           description());
   }
   const auto options = options_for(family, how, 1);
-  const loss_kind& loss = *options.loss.kind;
+  const loss_choice chosen = options.loss.value_or(usual_loss(made_.system.bath()));
+  const loss_kind& loss = *chosen.kind;
   const double horizon = how.horizon_at(step);
-  if (loss.asks_data() && static_cast<double>(options.loss.steps) * step > horizon * (1.0 + 1e-9)) {
+  if (loss.asks_data() && static_cast<double>(chosen.steps) * step > horizon * (1.0 + 1e-9)) {
     refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
-           options.loss.steps, step, horizon);
+           chosen.steps, step, horizon);
   }
   if (loss.needs_modes && !has_modes(made_.system))
     refuse("the {} loss needs modes, which {} does not declare", loss.name, description());

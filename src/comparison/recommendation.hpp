@@ -36,7 +36,7 @@ class recommendation {
   std::optional<std::string> scheme() const;
 
  private:
-  void require_sound_command() const;
+  void require_sound_command();
   void plan_classical();
   void plan_families();
   void consider(candidate contender);

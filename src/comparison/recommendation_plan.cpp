@@ -12,7 +12,7 @@
 
 namespace nysalt::program {
 
-void recommendation::require_sound_command() const {
+void recommendation::require_sound_command() {
   const int goals =
       options_.budget.has_value() + options_.budget_seconds.has_value() + options_.error.has_value();
   if (goals != 1) {
@@ -24,6 +24,11 @@ void recommendation::require_sound_command() const {
   if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
   if (options_.error) require_positive("--error", *options_.error);
   require_positive("--horizon", options_.horizon);
+  options_.learning.planned_horizon = options_.horizon;
+  const asked_metric judged_by = metric();
+  if (options_.learning.loss.empty()) {
+    options_.learning.loss = loss_for({&judged_by, 1}, system_->heat_bath());
+  }
   require_at_least_one("--trajectories", options_.trajectories);
   require_sound(options_.learning, "--learn-");
   if (options_.error && options_.trajectories < 2) {

@@ -75,11 +75,14 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
 }  // namespace
 
 fitted_family::fitted_family(const learn_command& command, const common_settings& common)
-    : command_(command), common_(common), system_(make_system(command.system)), steps_(steps_of(command)) {
-  require_sound(command.learning, "--");
+    : command_(command), common_(common), system_(make_system(command.system)) {
+  std::string& loss_asked = command_.learning.loss;
+  if (loss_asked.empty()) loss_asked = usual_loss(system_->heat_bath()).description();
+  require_sound(command_.learning, "--");
+  steps_ = steps_of(command_);
   if (command.enough) {
     require_positive("--enough", *command.enough);
-    const loss_kind& loss = *loss_named(command.learning.loss).kind;
+    const loss_kind& loss = *loss_named(loss_asked).kind;
     if (!loss.asks_data()) {
       refuse("--enough says how many trajectories to learn from, and the {} loss asks none", loss.name);
     }
@@ -87,7 +90,7 @@ fitted_family::fitted_family(const learn_command& command, const common_settings
   method_source source;
   source.typed = source.family.emplace(command.family);
   const auto where = placement_in(source, *system_, placement_asked(command.placement));
-  plan_ = plan_for(command.family, where, steps_.front(), command.learning, common);
+  plan_ = plan_for(command.family, where, steps_.front(), command_.learning, common);
   if (command.enough) {
     plan_.enough = enough_options{.share = *command.enough};
     plan_.how.trajectories = first_trajectories;

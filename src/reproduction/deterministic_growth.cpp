@@ -116,7 +116,8 @@ exhibit growth_of_error(const setting& setup) {
         told(readings) +
             "; at most 1, to a fifth and two standard errors. The theorem is of integrable systems "
             "near their tori; the chain is chaotic, and shows it from time 50 on",
-        "nysalt compare --system fpu --methods learned:nystrom --steps 0.02 --horizon 2 --metric state"}},
+        "nysalt compare --system fpu --methods learned:nystrom --learn-loss state:1 --steps 0.02 --horizon 2 "
+        "--metric state"}},
       {"Between, the error of the stiff phases goes up and down: it cannot be more than the whole motion."},
       {{"Growth of the error of the learned schemes:", rows}},
       {{{"growth_of_error", {picture}}, "Error of the state of learned schemes against time."}}};

@@ -84,7 +84,7 @@ exhibit parameters_against_omega(const setting& setup) {
             fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas),
                         farthest(all[1], omegas)),
             verdict_of("the coordinates of the loss", readings), told(readings) + "; close: to a hundredth",
-            "nysalt learn --system fpu --omega 50 --step 0.02 --coordinates modes"}},
+            "nysalt learn --system fpu --loss state:1 --omega 50 --step 0.02 --coordinates modes"}},
           {"M = 100 trajectories over Ttr = 1/2, delta = 1/omega."},
           {{"Learned parameters with the errors of the fit:", rows}},
           {{picture_of(all, omegas),
@@ -108,9 +108,10 @@ exhibit convergence_in_trajectories(const setting& setup) {
                            with_error(found.at_least),
                            verdict_of(found.at_least.mean - 2.0 * found.at_least.standard_error < 1e-3),
                            "below 1e-3 within two standard errors",
-                           "nysalt learn --system fpu --step 0.02 --trajectories 2"});
+                           "nysalt learn --system fpu --loss state:1 --step 0.02 --trajectories 2"});
   for (auto& one : result.claims) {
-    if (one.command.empty()) one.command = "nysalt learn --system fpu --step 0.02 --trajectories 256";
+    if (one.command.empty())
+      one.command = "nysalt learn --system fpu --loss state:1 --step 0.02 --trajectories 256";
   }
   return result;
 }

@@ -54,7 +54,7 @@ tested_claim value_of_optimum() {
                       as_printed[0], as_printed[1]),
           verdict_of("the weights of the loss", readings),
           told(readings) + "; to the printed digits",
-          "nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy"};
+          "nysalt learn --system oscillator --loss state:1 --omega 50 --step 0.02 --coordinates energy"};
 }
 
 tested_claim independence_of_omega() {
@@ -98,7 +98,8 @@ tested_claim independence_of_delta() {
           fmt::format("{:.4f} up to 1, {:.4f} up to 2", change_up_to(1.0), change_up_to(2.0)),
           verdict_of("how large the step is", readings),
           told(readings) + "; a change of half the last printed digit (.005) is none",
-          "nysalt learn --system oscillator --omega 50 --steps 0.01,0.02,0.03,0.04 --coordinates energy"};
+          "nysalt learn --system oscillator --loss state:1 --omega 50 --steps 0.01,0.02,0.03,0.04 "
+          "--coordinates energy"};
 }
 
 }  // namespace

@@ -77,7 +77,9 @@ learned_scheme learn_at(const setting& setup, const prepared_problem& system, do
                                 .trajectories = how.trajectories,
                                 .horizon = how.horizon,
                                 .coordinates = how.coordinates,
-                                .fix = {}},
+                                .fix = {},
+                                .loss = "state:1",
+                                .random_starts = 0},
                         .seed = seed_for(role::training, setup.seed(how.repetition)),
                         .held_out_seed = seed_for(role::held_out, setup.seed(how.repetition)),
                         .threads = setup.common.threads};

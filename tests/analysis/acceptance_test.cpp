@@ -13,7 +13,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/families/aba_free.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "nysalt/families/aba.hpp"
-#include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/fg4.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
 #include "nysalt/methods/classical.hpp"

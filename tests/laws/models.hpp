@@ -16,10 +16,10 @@
 #include "../support/draws.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/families/aba.hpp"
-#include "nysalt/families/aba_free.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
 #include "nysalt/method.hpp"
@@ -155,8 +155,8 @@ using rows = decltype(chosen_rows<Kind>(std::make_index_sequence<std::size(class
 
 /// Of those for baths one, as what it is without: its conservative part.
 using classical_types = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, baoab>>;
-using families =
-    std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free>;
+using families = std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>,
+                            aba3_free, aba4_free, aba6_free, bab6_free>;
 using gradient_methods = rows<with_letter<'G'>>;
 using gradient_families = std::tuple<fg_chin, fg4>;
 using fitted_methods =

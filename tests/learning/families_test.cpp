@@ -92,8 +92,7 @@ BOOST_AUTO_TEST_CASE(the_same_seed_finds_the_same_to_the_last_bit) {
                  {.random_starts = 3, .seed = seed, .threads = threads});
   };
   const auto one = found(1, 1);
-  BOOST_TEST(one.summary.starts_tried ==
-             7);  // the family's own three, and three more, and the phase-fitted one
+  BOOST_TEST(one.summary.starts_tried == 6);  // the family's own two, three more, and the phase-fitted one
   for (const int threads : {2, 3}) {
     const auto more = found(threads, 1);
     BOOST_TEST((more.theta == one.theta));
@@ -111,15 +110,16 @@ BOOST_AUTO_TEST_CASE(more_starts_are_never_worse_to_the_judge) {
   const auto of = [&](const fit_options& options) {
     return learn(family, galaxy, sets.data, sets.held_out, options).summary;
   };
-  const auto alone = of({.start = family.starts[1].theta});
-  const auto both = of({});
-  const auto many = of({.random_starts = 4});
+  const loss_choice loss = loss_named("state:1");
+  const auto alone = of({.loss = loss, .start = family.starts[1].theta, .random_starts = 0});
+  const auto both = of({.loss = loss, .random_starts = 0});
+  const auto many = of({.loss = loss, .random_starts = 4});
   BOOST_TEST_CONTEXT(alone.full() << both.full() << many.full()) {
     BOOST_TEST(alone.starts_tried == 1);
-    BOOST_TEST(both.starts_tried == 4);
-    BOOST_TEST(many.starts_tried == 8);
+    BOOST_TEST(both.starts_tried == 3);
+    BOOST_TEST(many.starts_tried == 7);
     BOOST_TEST(both.trajectory_error <= alone.trajectory_error);
-    BOOST_TEST(many.trajectory_error <= both.trajectory_error);
+    BOOST_TEST(many.trajectory_error <= both.trajectory_error * (1.0 + 1e-9));  // where minimisers end
   }
 }
 

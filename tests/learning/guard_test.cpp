@@ -31,7 +31,7 @@ fits fits_at(double step) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
   // From equal steps alone: of all that the family would begin with, one finds stable words.
-  fit_options options{.start = four_kicks.starts[0].theta};
+  fit_options options{.loss = loss_named("state:1"), .start = four_kicks.starts[0].theta, .random_starts = 0};
   const auto guarded = learn(four_kicks, chain, data, held_out, options);
   options.guarded = false;
   return {guarded, learn(four_kicks, chain, data, held_out, options)};

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
       make_learning_problem(family, galaxy, data, data_of(2), {}, state_after_three(measure));
   const auto usual = make_learning_problem(family, galaxy, data, data_of(2), {.loss = loss_named("state:3")});
   const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
-  const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = 3});
+  const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = {3}});
   const auto by_residual = residual_gradients(loss, theta);
   const auto ours = problem.scores(theta);
   const auto with_weights = usual.scores(theta);
@@ -139,9 +139,12 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
   const auto data = data_of(1);
   const two_minima loss(data.share());
   const fit_options options{.start = Eigen::Vector2d(0.46, 0.41),
-                            .further_starts = {{"the other", Eigen::Vector2d(0.54, 0.39)}}};
+                            .further_starts = {{"the other", Eigen::Vector2d(0.54, 0.39)}},
+                            .random_starts = 0};
   auto problem = make_learning_problem(family, galaxy, data, data_of(2), options);
   problem.loss = objective_of(loss);
+  problem.earlier_losses.clear();
+  problem.shorter.reset();
   problem.scores = [&](const Eigen::VectorXd& theta) {
     return trajectory_scores(trajectory_gradients(loss, theta), loss.share());
   };
@@ -197,5 +200,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   loss.steps = 5;
   BOOST_TEST(refused({}, {"5 steps", "longer horizon"}));
   loss.steps = 0;
-  BOOST_TEST(refused({}, {"0 steps"}));
+  BOOST_TEST(refused({}, {"from 1 on", "got 0"}));
 }

@@ -42,7 +42,7 @@ struct repeated {
     const auto held_out = data_of(2, 1);
     for (std::size_t n = 0; n < repetitions; ++n) {
       const auto data = data_of(trajectories, first_seed + n);
-      const auto fit = learn(nystrom{}, chain, data, held_out);
+      const auto fit = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
       const auto naive = errors_without_weights(data, fit.method.parameters());
       for (std::size_t k = 0; k < 2; ++k) {
         const auto& p = fit.summary.parameters[k];

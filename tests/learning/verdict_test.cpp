@@ -30,6 +30,7 @@ fit fit_of(const run_time_family& family, const S& system, const E& law, const R
     return make_flow_map_data(system, law, reference,
                               {.step = step, .horizon = horizon, .trajectories = trajectories, .seed = seed});
   };
+  if (!options.loss) options.loss = loss_named("state:1");
   return learn(family, system, data_of(1), data_of(2), options);
 }
 

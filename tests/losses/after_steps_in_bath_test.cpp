@@ -56,7 +56,7 @@ flow_map_data in_parts(flow_map_data data, int parts) {
 template <Family F>
 double loss_of(const flow_map_data& data, const parameters_of<nystrom>& theta, int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
-  const after_steps<> loss(run_time_family(F()), warm, data, state_error(measure), {.steps = steps});
+  const after_steps<> loss(run_time_family(F()), warm, data, state_error(measure), {.steps = {steps}});
   return loss_value(loss, column_of(theta));
 }
 
@@ -133,7 +133,7 @@ template <Scalar R>
 std::vector<Eigen::VectorXd> gradients(const flow_map_data& data, int threads, int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
   const after_steps<R> loss(run_time_family(symmetric()), warm, data, state_error<R>(measure),
-                            {.steps = steps, .threads = threads});
+                            {.steps = {steps}, .threads = threads});
   return trajectory_gradients(loss, column_of(elsewhere));
 }
 

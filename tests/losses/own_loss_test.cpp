@@ -47,7 +47,7 @@ template <Scalar R>
 squares squares_of(const model& system, const flow_map_data& data, const stretch_error<R>& error,
                    int threads = 1) {
   const after_steps<R> loss(run_time_family(nystrom()), system, data, error,
-                            {.steps = 5, .threads = threads});
+                            {.steps = {5}, .threads = threads});
   return squares_at(loss, elsewhere);
 }
 
@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(any_number_of_residuals_is_told_by_what_is_returned) {
 
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const auto data = data_of(galaxy);
-  const after_steps<> loss(run_time_family(aba<4>()), galaxy, data, own_error(galaxy, bent), {.steps = 5});
+  const after_steps<> loss(run_time_family(aba<4>()), galaxy, data, own_error(galaxy, bent), {.steps = {5}});
   Eigen::VectorXd theta = column_of(aba<4>::start());
   for (Eigen::Index k = 0; k < 3; ++k) theta[k] += 0.01 * static_cast<double>(k + 1);
   const Eigen::VectorXd ours = squares_at(loss, theta).gradient();

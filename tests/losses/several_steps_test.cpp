@@ -29,9 +29,10 @@ struct asked {
   after_steps_options options{};
   bool of_energy = false;
 };
-constexpr asked five_steps{{.steps = 5}};
-constexpr asked apart{{.steps = 5, .overlap = false}};
-constexpr asked ten_of_energy{{.steps = 10}, true};
+const asked five_steps{{.steps = {5}}};
+const asked apart{{.steps = {5}, .apart = 5}};
+const asked several_times{{.steps = {1, 2, 5}, .apart = 3}};
+const asked ten_of_energy{{.steps = {10}}, true};
 
 const henon_heiles galaxy;
 
@@ -70,7 +71,7 @@ void check_bits(const asked& what, std::size_t stretches) {
     auto in_threads = options;
     in_threads.threads = threads;
     const after_steps<> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure), in_threads);
-    BOOST_TEST_CONTEXT(F::name << " over " << options.steps << " steps") {
+    BOOST_TEST_CONTEXT(F::name << " over " << options.steps.back() << " steps") {
       BOOST_TEST(blocks.stretches() == stretches);
       BOOST_TEST(same(squares_at(loss, theta), expected));
       BOOST_TEST(loss_value(loss, theta) == expected.value);
@@ -82,7 +83,7 @@ void check_bits(const asked& what, std::size_t stretches) {
       const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
       using word = typename F::word;
       const std::int64_t of_run =
-          word::evaluations_to_open + options.steps * std::int64_t{word::evaluations_per_step};
+          word::evaluations_to_open + options.steps.back() * std::int64_t{word::evaluations_per_step};
       BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(stretches));
     }
   }
@@ -123,6 +124,7 @@ double energy_loss_by_hand(const flow_map_data& data, const parameters_of<nystro
 BOOST_AUTO_TEST_CASE(bits_are_those_of_stretch_after_stretch) {
   check_bits<nystrom>(five_steps, 1 + 7 + 8 + 5 + 36);
   check_bits<nystrom>(apart, 1 + 2 + 2 + 1 + 8);
+  check_bits<nystrom>(several_times, 1 + 3 + 3 + 2 + 12);
   check_bits<nystrom>(ten_of_energy, 2 + 3 + 31);
 }
 
@@ -157,7 +159,7 @@ BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const auto data = uneven_data();
   const metric measure(galaxy, data, coordinates::qp);
-  for (const auto& what : {five_steps, ten_of_energy}) {
+  for (const auto& what : {five_steps, several_times, ten_of_energy}) {
     const after_steps<> loss(run_time_family(aba<4>()), galaxy, data, error_of(what, data, measure),
                              what.options);
     const Eigen::VectorXd theta = column_of(elsewhere<aba<4>>());
@@ -170,7 +172,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
       // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
       // hundred roundings.
       const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(loss_value(loss, theta)) / s;
-      BOOST_TEST_CONTEXT(what.options.steps << " steps, parameter " << k) {
+      BOOST_TEST_CONTEXT(what.options.steps.back() << " steps, parameter " << k) {
         BOOST_TEST(std::abs(ours[k] - difference(s)) <= 2.0 * error + rounding);
         BOOST_TEST(std::abs(ours[k] - difference(s)) <= 1e-4 * ours.norm());  // which says something
       }
@@ -183,12 +185,20 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const metric measure(galaxy, data, coordinates::qp);
   const auto made = [&](int steps) {
     return [&, steps] {
-      after_steps<>(run_time_family(nystrom()), galaxy, data, state_error(measure), {.steps = steps});
+      after_steps<>(run_time_family(nystrom()), galaxy, data, state_error(measure), {.steps = {steps}});
     };
   };
   BOOST_TEST(refuses<wrong>(made(41), {"41 steps", "longer horizon"}));
-  BOOST_TEST(refuses<wrong>(made(0), {"0 steps"}));
-  BOOST_TEST(refuses<wrong>(made(-1), {"-1 steps"}));
+  BOOST_TEST(refuses<wrong>(made(0), {"from 1 on", "got 0"}));
+  BOOST_TEST(refuses<wrong>(made(-1), {"from 1 on", "got -1"}));
+  const auto of_times = [&](const std::vector<int>& steps) {
+    return [&, steps] {
+      after_steps<>(run_time_family(nystrom()), galaxy, data, state_error(measure), {.steps = steps});
+    };
+  };
+  BOOST_TEST(refuses<wrong>(of_times({}), {"from 1 on"}));
+  BOOST_TEST(refuses<wrong>(of_times({2, 2}), {"rising", "2, 2"}));
+  BOOST_TEST(refuses<wrong>(of_times({4, 3}), {"rising", "4, 3"}));
   BOOST_TEST(!refuses<wrong>(made(40), {}));
   const black_box box;
   const normal_around<1> starts({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);

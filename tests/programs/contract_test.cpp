@@ -92,10 +92,10 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   };
   BOOST_TEST(names("systems") ==
              "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 ");
-  BOOST_TEST(
-      names("families") ==
-      "nystrom aba4 aba5 aba6 bab3 bab4 bab5 bab6 aba3_free aba4_free fg_chin fg4 r_aba2 r_aba4 r_aba6 "
-      "r_fg4 ");
+  BOOST_TEST(names("families") ==
+             "nystrom aba4 aba5 aba6 bab3 bab4 bab5 bab6 aba3_free aba4_free aba6_free bab6_free fg_chin fg4 "
+             "r_aba2 r_aba4 r_aba6 "
+             "r_fg4 ");
   BOOST_TEST(names("metrics") == "path relative state exchange energy acceptance distribution acf ");
   BOOST_TEST(
       names("methods") ==
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {
           "gaps:list starts:text enough:null energy_range:list seed:integer placement:null output:null");
   BOOST_TEST(shape(fit["parameters"]) == "b1:number beta1:number");
   BOOST_TEST(shape(fit["standard_errors"]) == "b1:number beta1:number");
-  BOOST_TEST(fit["samples"] == 100);  // 4 trajectories of 25 steps
+  BOOST_TEST(fit["samples"] == 800);  // 4 trajectories of 200 steps
   BOOST_TEST(fit["step"] == 0.02);
   BOOST_TEST(fit["seconds"].get<double>() ==
              fit["data_seconds"].get<double>() + fit["fit_seconds"].get<double>());
@@ -261,11 +261,14 @@ BOOST_AUTO_TEST_CASE(without_json_it_is_for_people) {
 
 BOOST_AUTO_TEST_CASE(defaults_of_learn) {
   const std::string line = "learn --family nystrom --step 0.02";
-  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --fine-step 1e-4 "
-                               "--trajectories 100 --horizon 0.5 --coordinates qp --seed 1 --threads 1"));
-  const std::string few = line + " --trajectories 8";
-  for (const char* other : {"--pairs 2", "--omega 40", "--fine-step 2e-4", "--horizon 0.4",
-                            "--coordinates modes", "--seed 2", "--fix b1=0.5"}) {
+  BOOST_TEST(same(
+      line, line + " --system fpu --pairs 3 --omega 50 --fine-step 1e-4 "
+                   "--trajectories 100 --horizon 4 --loss trajectory --effort normal --coordinates energy "
+                   "--random-starts 24 --seed 1 --threads 1"));
+  const std::string few = line + " --horizon 0.5";
+  for (const char* other :
+       {"--pairs 2", "--omega 40", "--fine-step 2e-4", "--trajectories 9", "--coordinates modes", "--seed 2",
+        "--fix b1=0.5", "--loss state:1", "--effort quick"}) {
     BOOST_TEST(!same(few, few + ' ' + other), other);
   }
 }
@@ -276,23 +279,59 @@ BOOST_AUTO_TEST_CASE(the_default_family_is_the_best_in_the_mean) {
   BOOST_TEST(!same(line, line + " --family nystrom"));
 }
 
+BOOST_AUTO_TEST_CASE(default_horizons_are_those_of_the_runs_from_16_to_200_steps) {
+  const std::string learn = "learn --system pendulum --family nystrom --trajectories 8 --step 0.1";
+  BOOST_TEST(same(learn, learn + " --horizon 20"));
+  BOOST_TEST(!same(learn, learn + " --horizon 10"));
+  const std::string compare =
+      "compare --system pendulum --methods learned:nystrom --steps 0.1 --trajectories 3 --metric state "
+      "--horizon ";
+  BOOST_TEST(same(compare + "1", compare + "1 --learn-horizon 1.6"));
+  BOOST_TEST(same(compare + "3", compare + "3 --learn-horizon 3"));
+  BOOST_TEST(same(compare + "40", compare + "40 --learn-horizon 20"));
+  BOOST_TEST(!same(compare + "40", compare + "40 --learn-horizon 40"));
+}
+
 // Ten steps, or 0.5 if that is longer.
-BOOST_AUTO_TEST_CASE(default_horizons_hold_ten_steps) {
-  const std::string learn = "learn --system pendulum --family nystrom --trajectories 8 --step ";
+BOOST_AUTO_TEST_CASE(default_horizons_of_losses_after_some_steps_hold_ten_steps) {
+  const std::string learn =
+      "learn --loss state:1 --system pendulum --family nystrom --trajectories 8 --step ";
   BOOST_TEST(same(learn + "0.4", learn + "0.4 --horizon 4"));
   BOOST_TEST(!same(learn + "0.4", learn + "0.4 --horizon 0.5"));
   BOOST_TEST(same(learn + "0.02", learn + "0.02 --horizon 0.5"));
   const std::string compare =
-      "compare --system pendulum --methods learned:nystrom --steps 0.4 --horizon 4 --trajectories 3";
+      "compare --learn-loss state:1 --system pendulum --methods learned:nystrom --steps 0.4 --horizon 4 "
+      "--trajectories 3";
   BOOST_TEST(same(compare, compare + " --learn-horizon 4"));
   BOOST_TEST(!same(compare, compare + " --learn-horizon 0.5"));
 }
 
+// Errors of the phase change no energy.
+BOOST_AUTO_TEST_CASE(compare_learns_with_the_loss_that_suits_what_is_measured) {
+  const auto loss_for = [](const std::string& rest) {
+    const auto all = document(
+        "compare --system henon_heiles --methods learned:nystrom --steps 0.2 --horizon 2 --trajectories 2 "
+        "--learn-trajectories 4 --metric " +
+        rest);
+    return all["fits"][0]["objective"].get<std::string>();
+  };
+  for (const char* of_states : {"state", "path:q1", "path:p2", "energy,state"}) {
+    BOOST_TEST(loss_for(of_states) == "trajectory", of_states);
+  }
+  for (const char* of_energies : {"energy", "path", "path:kinetic_energy", "energy,path"}) {
+    BOOST_TEST(loss_for(of_energies) == "state:1", of_energies);
+  }
+  BOOST_TEST(loss_for("state --friction 0.1 --temperature 0.01 --start law") == "state:1");
+  BOOST_TEST(loss_for("energy --learn-loss trajectory") == "trajectory");
+}
+
 BOOST_AUTO_TEST_CASE(defaults_of_compare) {
   const std::string line = "compare --methods verlet,learned:nystrom --steps 0.02";
-  BOOST_TEST(same(line, line + " --system fpu --pairs 3 --omega 50 --horizon 0.5 --trajectories 400 --seed 1 "
-                               "--metric path --observable stiff_energy "
-                               "--learn-trajectories 100 --learn-horizon 0.5 --coordinates qp --threads 1"));
+  BOOST_TEST(same(
+      line, line + " --system fpu --pairs 3 --omega 50 --horizon 0.5 --trajectories 400 --seed 1 "
+                   "--metric path --observable stiff_energy "
+                   "--learn-trajectories 100 --learn-horizon 0.5 --learn-loss state:1 --learn-effort normal "
+                   "--coordinates qp --threads 1"));
   const std::string few = line + " --trajectories 3 --learn-trajectories 8";
   for (const char* other : {"--horizon 0.4", "--metric exchange", "--observable energy", "--seed 2",
                             "--learn-horizon 0.4", "--coordinates modes", "--equal-cost"}) {

@@ -89,8 +89,8 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
     double beta1;
   };
   for (const auto& [step, b1, beta1] : {known{"0.019", .5248, .4155}, {"0.033", .5265, .4079}}) {
-    const auto fit =
-        document(std::string("learn --family nystrom --placement end --step ") + step + in_the_bath);
+    const auto fit = document(std::string("learn --family nystrom --loss state:1 --placement end --step ") +
+                              step + in_the_bath);
     const auto must_be = [&, step = step](const char* name, double value) {
       BOOST_TEST(is_near(fit["parameters"][name], fit["standard_errors"][name], value, 1e-4),
                  name << " at " << step << ": " << fit["parameters"][name]);
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(the_reference_is_fine_enough_where_nothing_is_stiff) {
 // Measured beforehand by other programs on 2000 trajectories.
 BOOST_AUTO_TEST_CASE(path_errors_are_the_known_ones) {
   const auto all = document(
-      "compare --steps 0.019 --horizon 1 --trajectories 300 --metric relative "
+      "compare --steps 0.019 --horizon 1 --trajectories 300 --metric relative --learn-loss state:1 "
       "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric" +
       in_the_bath);
   const auto& baoab = row_of(all, "baoab");
@@ -239,7 +239,7 @@ BOOST_AUTO_TEST_CASE(a_scheme_keeps_its_bath_and_its_placement) {
   const scratch folder("langevin_scheme");
   const auto in_folder = [&](const std::string& arguments) { return nysalt::test::run(folder, arguments); };
   const std::string bath = " --start law" + in_the_bath;  // no burn-in: any start will do
-  const std::string how = bath + "--trajectories 20 --step 0.02 --output ";
+  const std::string how = bath + "--trajectories 20 --horizon 0.5 --step 0.02 --output ";
   BOOST_REQUIRE(in_folder("learn --family nystrom --placement end" + how + "end.json").code == 0);
   BOOST_REQUIRE(in_folder("learn --family nystrom" + how + "symmetric.json").code == 0);
   const auto scheme = json::parse(contents(folder / "end.json"));

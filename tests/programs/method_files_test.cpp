@@ -86,7 +86,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_is_used_as_it_was_learned, learned) {
   // Beside learning in place, with the same options: the same errors.
   const auto compared =
       json_of(run(folder, errors + "scheme.json,learned:nystrom --steps 0.01,0.02 --learn-trajectories 20 "
-                                   "--learn-horizon 0.2"));
+                                   "--learn-horizon 0.2 --learn-loss trajectory"));
   std::vector<double> errors_at_step;
   int rows_of_file = 0;
   for (const auto& row : compared["rows"]) {

@@ -13,7 +13,7 @@ import nysalt
 from conftest import henon_heiles_by_functions
 
 EXAMPLE = pathlib.Path(__file__).parents[2] / "examples/python/own_hamiltonian.py"
-LEARNING = dict(family="nystrom", step=0.4, horizon=4, trajectories=10, fine_step=0.05)
+LEARNING = dict(family="nystrom", step=0.4, horizon=4, trajectories=10, fine_step=0.05, loss="state:1", random_starts=0)
 
 
 def test_it_learns_the_theta_of_the_compiled_one():

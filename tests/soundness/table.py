@@ -74,9 +74,8 @@ def examine(program, system, family, step):
     """One row: the verdict of the fit, its reason, and how many starts its run loses."""
     with tempfile.TemporaryDirectory() as folder:
         scheme = os.path.join(folder, "scheme.json")
-        horizon = max(0.5, 10.0 * step)
         fit, code, said = ask(program, "learn", "--system", system, "--family", family, "--step", repr(step),
-                              "--horizon", repr(horizon), "--output", scheme)
+                              "--output", scheme)
         if fit is None:
             return {"verdict": "refused", "reason": said.splitlines()[-1] if said else f"exit code {code}"}
         row = {"verdict": fit.get("verdict", "usable" if fit["usable"] else "not usable"),
@@ -87,8 +86,8 @@ def examine(program, system, family, step):
         return row
 
 
-def asked_for(description, what):
-    """The command line, with a list of families or of methods; makes the folder."""
+def asked_for(description, what, **further):
+    """The command line, with a list of families or of methods and further options; makes the folder."""
     parser = argparse.ArgumentParser(description=description.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("folder")
@@ -96,6 +95,8 @@ def asked_for(description, what):
     parser.add_argument("--systems", default=",".join(SYSTEMS))
     parser.add_argument("--" + what)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    for name, default in further.items():
+        parser.add_argument("--" + name, default=default)
     asked = parser.parse_args()
     os.makedirs(asked.folder, exist_ok=True)
     return asked

@@ -26,23 +26,21 @@ namespace nysalt::test {
 /// Refers to system, data and metric.
 template <Family F, SeparableSystem S>
 class sample_blocks {
-  static constexpr int most = S::dimension == Eigen::Dynamic ? Eigen::Dynamic : 2 * S::dimension;
-
  public:
   static constexpr std::size_t parameters = static_cast<std::size_t>(F::parameters);
   using D = dual<double, F::parameters>;
   template <class C>
-  using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1, 0, most, 1>;
+  using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1>;
 
   sample_blocks(const S& system, const flow_map_data& data, const metric& measure,
                 const after_steps_options& options = {}, bool of_energy = false)
       : system_(&system), data_(&data), metric_(&measure), options_(options), of_energy_(of_energy) {
-    const auto steps = static_cast<std::size_t>(options.steps);
+    const auto steps = static_cast<std::size_t>(options.steps.back());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       std::size_t pair = data.first_of[m];
       while (pair + steps <= data.first_of[m + 1]) {
         stretches_.push_back({m, pair});
-        pair += options.overlap ? 1 : steps;
+        pair += static_cast<std::size_t>(options.apart);
       }
     }
     if constexpr (HasEnergy<S>) {
@@ -60,21 +58,25 @@ class sample_blocks {
     const std::size_t pair = stretches_[stretch].first_pair;
     const phase_point<double, S::dimension> first = data_->start[pair];
     auto x = first.template cast<C>();
-    if (options_.steps == 1) {
-      one.step(x);
-    } else {  // a run
-      auto run = one.open(x);
-      one.advance(run, options_.steps);
-      x = one.synchronous(run);
-    }
-    residuals<C> r(residuals_of_stretch());
-    if (of_energy_) {
-      if constexpr (HasEnergy<S, C>) {
-        r[0] = (energy<C>(*system_, x) - energy<C>(*system_, first.template cast<C>())) * energy_scale_;
+    const std::vector<int>& steps = options_.steps;
+    residuals<C> r(residuals_of_stretch() * std::ssize(steps));
+    auto run = one.open(x);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      if (steps.back() == 1) {
+        one.step(x);
+      } else {
+        one.advance(run, steps[k] - run.step);
+        x = one.synchronous(run);
       }
-    } else {
-      const auto last = pair + static_cast<std::size_t>(options_.steps) - 1;
-      metric_->residual(x.q, x.p, data_->finish[last], r.data());
+      C* const of_time = r.data() + static_cast<Eigen::Index>(k) * residuals_of_stretch();
+      if (of_energy_) {
+        if constexpr (HasEnergy<S, C>) {
+          *of_time = (energy<C>(*system_, x) - energy<C>(*system_, first.template cast<C>())) * energy_scale_;
+        }
+      } else {
+        const auto last = pair + static_cast<std::size_t>(steps[k]) - 1;
+        metric_->residual(x.q, x.p, data_->finish[last], of_time);
+      }
     }
     return r;
   }
@@ -96,7 +98,7 @@ class sample_blocks {
       for (const D& r : at(n, lifted)) add(of_stretch, r);
       add(result[stretches_[n].trajectory], of_stretch);
     }
-    const double share = 1.0 / static_cast<double>(stretches());
+    const double share = 1.0 / static_cast<double>(stretches() * options_.steps.size());
     for (auto& part : result) {
       part.value *= share;
       part.half_gradient *= share;

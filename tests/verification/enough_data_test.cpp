@@ -48,7 +48,7 @@ class fits_of {
 
   fit to(const flow_map_data& data) const {
     static const auto held_out = data_of(4, 999'999);
-    return learn(family_, chain, data, held_out, {.threads = 2});
+    return learn(family_, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
   }
 
  private:
@@ -161,7 +161,8 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
 BOOST_AUTO_TEST_CASE(it_learns_until_the_data_are_enough_and_what_that_many_tell_at_once) {
   constexpr double share = 4e-5;
   const auto enough = [](const enough_options& options) {
-    return learn_enough(nystrom(), chain, law, reference, options_of(25, 3), 4, options);
+    return learn_enough(nystrom(), chain, law, reference, options_of(25, 3), 4, options,
+                        {.loss = loss_named("state:1")});
   };
   const auto found = enough({.share = share});
   const auto& stops = found.course.stops;
@@ -174,7 +175,8 @@ BOOST_AUTO_TEST_CASE(it_learns_until_the_data_are_enough_and_what_that_many_tell
     BOOST_TEST(found.summary.trajectories == static_cast<std::size_t>(stops.back().trajectories));
     // The trajectories of the smaller numbers are the first of the larger.
     const std::int64_t last = stops.back().trajectories;
-    const auto at_once = learn(nystrom(), chain, data_of(last, 3), data_of(last, 4), {.threads = 2});
+    const auto at_once = learn(nystrom(), chain, data_of(last, 3), data_of(last, 4),
+                               {.threads = 2, .loss = loss_named("state:1")});
     BOOST_TEST((found.method.parameters() == at_once.method.parameters()));
     BOOST_TEST(found.summary.held_out_loss == at_once.summary.held_out_loss);
     BOOST_TEST(found.method.energies()->low == at_once.method.energies()->low);

@@ -28,7 +28,8 @@ learned<family> learn_at(double step, coordinates which) {
         chain, from, fine_paths(1e-4),
         {.step = step, .horizon = 1.0, .trajectories = 512, .seed = seed, .noise_parts = 1});
   };
-  return learn(family{}, chain, data(starts, 1), data(other_starts, 2), {.coordinates = which});
+  return learn(family{}, chain, data(starts, 1), data(other_starts, 2),
+               {.coordinates = which, .loss = loss_named("state:1")});
 }
 
 struct row {

@@ -25,15 +25,6 @@ struct aba : symmetric_composition<drift, kick, 2 * Kicks + 1> {
   static std::vector<classical_member<base::parameters>> classical_members() {
     return classical_palindromes<base, Kicks>();
   }
-
-  /// Where searches from forty random starts on the FPU chain (omega = 50, step .011 an evaluation) ended:
-  /// few of them come there, and for other systems and steps it is not far.
-  static std::vector<std::array<double, base::free>> further_starts() {
-    if constexpr (Kicks == 4) return {{0.1854, 0.5605, -0.2195}};
-    if constexpr (Kicks == 5) return {{0.106, 0.342, -0.2932, -0.0247}};
-    if constexpr (Kicks == 6) return {{0.1404, -0.3301, -0.015, 0.5495, 0.2152}};
-    return {};
-  }
 };
 
 }  // namespace nysalt

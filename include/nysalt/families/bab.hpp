@@ -32,14 +32,6 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
     if constexpr (Drifts == 6) return {{"srkn6b", base::of(srkn6b())}};
     return {};
   }
-
-  /// Where searches from forty random starts on the FPU chain (omega = 50, step .011 an evaluation) ended:
-  /// few of them come there, and for other systems and steps it is not far.
-  static std::vector<std::array<double, base::free>> further_starts() {
-    if constexpr (Drifts == 4) return {{0.1832, 0.5269, -0.4179}};
-    if constexpr (Drifts == 6) return {{0.0922, 0.2541, 0.3691, 0.5838, -0.0308}};
-    return {};
-  }
 };
 
 }  // namespace nysalt

@@ -44,9 +44,9 @@ struct composition {
 /// the word begins with it.
 template <std::size_t Count>
 constexpr std::array<std::string_view, Count> names_in_turn(bool b_is_first) {
-  constexpr std::array<std::string_view, 5> a{"a1", "a2", "a3", "a4", "a5"};
-  constexpr std::array<std::string_view, 5> b{"b1", "b2", "b3", "b4", "b5"};
-  static_assert(Count <= 10, "nysalt: name the parameters of so large a family");
+  constexpr std::array<std::string_view, 6> a{"a1", "a2", "a3", "a4", "a5", "a6"};
+  constexpr std::array<std::string_view, 6> b{"b1", "b2", "b3", "b4", "b5", "b6"};
+  static_assert(Count <= 12, "nysalt: name the parameters of so large a family");
   std::array<std::string_view, Count> all;
   for (std::size_t k = 0; k < Count; ++k) all[k] = ((k % 2 == 0) != b_is_first ? a : b)[k / 2];
   return all;

@@ -44,6 +44,7 @@ struct fit_summary {
   std::uint64_t held_out_seed = 0;  ///< of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
   std::string loss_name;            ///< see loss_choice
+  int loss_steps = 1;               ///< of the longest stretch that the loss looks at
   bool is_of_data = true;           ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty

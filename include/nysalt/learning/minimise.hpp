@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "nysalt/losses/squares.hpp"
@@ -32,7 +33,7 @@ namespace detail {
 /// a valley, on which Gauss-Newton steps are short: so the search does not end on small changes of the loss,
 /// but on small steps. Where it does not end so, the last quarter of the iterations tells a valley.
 void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
-             minimum& found);
+             minimum& found, double function_tolerance = 0.0);
 
 /// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
 /// to a part in a million.
@@ -40,6 +41,13 @@ void polish(const objective& loss, const std::function<bool(const Eigen::VectorX
             const std::vector<Eigen::Index>& free, minimum& found);
 
 }  // namespace detail
+
+/// Near a minimum, and the loss there: a few steps, until they lower the loss by less than a hundredth. From
+/// a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is infinite.
+std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
+                                                   const std::function<bool(const Eigen::VectorXd&)>& defined,
+                                                   const Eigen::VectorXd& start,
+                                                   const std::vector<Eigen::Index>& free);
 
 /// Minimises over the free parameters. Converged: another Newton step would lower the loss by less than 1e-6
 /// of itself. From a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,13 +20,18 @@
 
 namespace nysalt {
 
+/// How many random starts a search in stages takes: 40, 120 or 400, or a fifth of these for two parameters
+/// and fewer.
+enum class effort { quick, normal, thorough };
+
 /// How to search. What is empty is the family's own.
 struct fit_options {
-  nysalt::coordinates coordinates = nysalt::coordinates::qp;  ///< in which the error counts
-  loss_choice loss{};                                         ///< what is minimised, if not an own_loss
-  std::optional<Eigen::VectorXd> start{};                     ///< instead of the family's own starts
+  std::optional<nysalt::coordinates> coordinates{};  ///< in which the error counts; empty: as suits the loss
+  std::optional<loss_choice> loss{};       ///< what is minimised, if not an own_loss; empty: usual_loss()
+  std::optional<Eigen::VectorXd> start{};  ///< instead of the family's own starts
   std::vector<named_parameters> further_starts{};  ///< beside them, such as the optimum at a smaller step
-  int random_starts = 0;                           ///< beside all these, normal around the first
+  std::optional<int> random_starts{};  ///< beside all these, normal around the first; empty: by the effort
+  nysalt::effort effort = nysalt::effort::normal;  ///< of a search in stages
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
   /// How many steps a run with the method will take at most: so long is a trial run, and over so many, up to
@@ -48,10 +54,11 @@ struct rival_method {
 /// data each has its own part, and the functions are collective: all ranks search together, and find the
 /// same.
 struct learning_problem {
-  run_time_family family;  ///< what is fitted
-  fit_options options;     ///< as they were given
-  double step;             ///< h of the data
-  objective loss;          ///< what is minimised
+  run_time_family family;                   ///< what is fitted
+  fit_options options;                      ///< as they were given
+  double step;                              ///< h of the data
+  objective loss;                           ///< what is minimised
+  std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
   /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   shard held_out;  ///< which held-out trajectories this rank has
@@ -59,10 +66,14 @@ struct learning_problem {
   std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;
   std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
   std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
-  /// What is least for the best of several minima: loss_at_end where the loss is of the state, else the loss
-  /// itself, on the held-out data if it asks data.
+  /// What is least for the best of several minima, see judge_of_minima; of a loss that asks no data, the
+  /// loss.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
+  /// Whether the method stays near the data over all steps that the loss looks at: with an error below a
+  /// twentieth of the motion. Where it does not, phases are lost, and the loss tells little.
+  std::function<bool(const Eigen::VectorXd&)> follows{};
+  std::shared_ptr<learning_problem> shorter{};  ///< the same over a quarter of the steps; null: there is none
   std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was
   std::int64_t trial_starts = 0;       ///< how many there are
   std::int64_t trial_trajectories = 64;  ///< that are enough; in a bath more, as nothing watches their energy
@@ -74,6 +85,7 @@ struct learning_problem {
   /// family's word; nothing if the system does not serve its letters.
   std::function<std::optional<rival_method>(const tabulated&)> rival;
   stability_guard guard;          ///< knows the frequencies of the system
+  bool is_of_black_box = false;   ///< of a force that only double can be given to
   double frequency_to_fit = 0.0;  ///< the highest of the modes; 0: none are declared
   fit_summary facts;              ///< what is known before a search
 };

@@ -33,8 +33,9 @@ struct candidate {
 
 /// What a search is told.
 struct search_task {
-  const run_time_family* family;                             ///< its ranges and where it is defined
-  objective loss;                                            ///< what is minimised
+  const run_time_family* family;            ///< its ranges and where it is defined
+  objective loss;                           ///< what is minimised
+  std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
   std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
   std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
@@ -45,9 +46,13 @@ struct search_task {
   std::optional<named_parameters> refuge{};  ///< the member that is stable farthest, for where the guard acts
 };
 
-/// Theta normal around a start, with the deviation .3 as coefficients are of order one: number n of a seed.
+/// Theta normal around a start, with a deviation of .6, .3, .15 or .075 in turn, as coefficients are of order
+/// one and shorter in long words: number n of a seed.
 Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
                              const std::vector<Eigen::Index>& free, std::uint64_t seed, std::uint64_t n);
+
+/// The theta nearest to this one that lies in all ranges.
+Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
 
 /// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
@@ -56,11 +61,13 @@ struct search_result {
   int tried = 0;                       ///< number of searches
 };
 
-/// From each start to its minimum; the judge takes the best that the guard admits and that withstands a trial
-/// run, of those that converged or ended in a valley. Where there is none, the search goes on among admitted
-/// points only, from the starts that are and from the refuge: what it finds lies at the edge mostly. A single
-/// start is what it was, whatever the judge thinks. Cost: a search for each start, twice where the guard
-/// acts, and a trial run for each of a few candidates.
+/// Where there are earlier losses, each of them in turn is minimised, roughly, from the starts first and then
+/// from the best of its minima that differ, twelve and then three, those first that the guard admits; and
+/// with what is left the search proper begins. From each start to its minimum; the judge takes the best that
+/// the guard admits and that withstands a trial run, of those that converged or ended in a valley. Where
+/// there is none, the search goes on among admitted points only, from the starts that are and from the
+/// refuge: what it finds lies at the edge mostly. A single start is what it was, whatever the judge thinks.
+/// Cost: a search for each start, twice where the guard acts, and a trial run for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,16 +23,16 @@ namespace nysalt {
 
 /// After how many steps an error counts.
 struct after_steps_options {
-  int steps = 1;        ///< K, steps of a stretch
-  bool overlap = true;  ///< a stretch begins at each pair, else where the last one ended
-  int threads = 1;      ///< changes no bit
+  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a stretch
+  int apart = 1;              ///< steps from where one stretch begins to where the next does
+  int threads = 1;            ///< changes no bit
 };
 
 /// The residuals of one stretch, and their derivatives by theta.
 template <Scalar R>
 struct residuals_of_stretch {
   std::size_t parameters;  ///< how many there are
-  std::vector<R> values;   ///< r_k, in the lanes of R
+  std::vector<R> values;   ///< r_k, in the lanes of R; those of an earlier time first
   std::vector<R> slopes;   ///< of residual k by parameter i at [k parameters + i]
 
   /// The derivative of residual k by parameter i.
@@ -42,8 +43,8 @@ struct residuals_of_stretch {
 template <Scalar R>
 using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
 
-/// The mean over all stretches of K steps of the sum over residuals of r^2; a stretch_error says what
-/// they are.
+/// The mean over all stretches and over some times of each of the sum over residuals of r^2; a stretch_error
+/// says what they are.
 ///
 /// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// stretches; neither its lanes nor the threads change a bit of a sum.
@@ -68,7 +69,7 @@ class after_steps {
         step_(data.step),
         options_(options),
         share_(data.share()),
-        starts_(data, static_cast<std::size_t>(std::max(options.steps, 1)), options.overlap) {
+        starts_(data, last_of(options), static_cast<std::size_t>(std::max(options.apart, 1))) {
     if (1 < lanes_in<R> && !system.facts().in_lanes_with_slopes) {
       throw std::invalid_argument(sentence(
           "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
@@ -76,15 +77,15 @@ class after_steps {
           describe(system)));
     }
     const std::int64_t stretches = data.share().ranks().total(std::ssize(starts_.pairs));
-    if (options.steps < 1 || stretches == 0) {
+    if (stretches == 0) {
       throw std::invalid_argument(
           sentence("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
                    "or fewer steps",
-                   options.steps));
+                   options.steps.back()));
     }
-    weight_ = 1.0 / static_cast<double>(stretches);
-    parts_ = std::make_shared<const parts>(
-        gather_stretches<R>(data, starts_, static_cast<std::size_t>(options.steps), noise_wanted(data)));
+    weight_ = 1.0 / static_cast<double>(stretches * std::ssize(options.steps));
+    parts_ =
+        std::make_shared<const parts>(gather_stretches<R>(data, starts_, options.steps, noise_wanted(data)));
   }
 
   /// The loss of another family over the same stretches, which both share. The other word must have its
@@ -102,9 +103,10 @@ class after_steps {
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }               ///< which trajectories this rank has
-  std::size_t residuals() const { return error_.residuals; }  ///< number of those of a stretch
-  const stretch_error<R>& error() const { return error_; }    ///< what they are
+  const shard& share() const { return share_; }  ///< which trajectories this rank has
+  /// Number of those of a stretch, at all of its times.
+  std::size_t residuals() const { return error_.residuals * options_.steps.size(); }
+  const stretch_error<R>& error() const { return error_; }  ///< what they are
   /// Force evaluations of all passes so far at this rank, as `counted` counts them for one stretch after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
@@ -119,7 +121,7 @@ class after_steps {
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
     const run_time_word& word = family_.letters;
-    const std::int64_t steps = options_.steps;
+    const std::int64_t steps = options_.steps.back();
     const std::int64_t of_stretch_of_one =
         detail::evaluations_of(system_,
                                steps == 1 ? word.evaluations_of_plain_step
@@ -135,6 +137,7 @@ class after_steps {
                               noise_of_entries<R>{&part.entries, family_.letters.stochastic_letters});
       }
       auto x = make_state(watched);
+      auto y = make_state(watched);
       residuals_of_stretch<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
                                 std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
       std::vector<C> of_directions(residuals());
@@ -144,7 +147,7 @@ class after_steps {
       Eigen::VectorXd sum = zero;  // of one trajectory
       for (std::size_t entry = 0; entry < part.entries.size(); ++entry) {
         for (std::size_t d = 0; d < steppers.size(); ++d) {
-          residuals_after(steppers[d], part.entries[entry], entry, x, of_directions);
+          residuals_after(steppers[d], part.entries[entry], entry, x, y, of_directions);
           take(of_directions, d, with_slopes, r);
         }
         of_stretch(r, added);
@@ -174,6 +177,18 @@ class after_steps {
   using stepper_type = stepper<model, run_time_word, C, noise_of_entries<R>>;
   using parts = std::vector<stretches_in_lanes<R>>;
 
+  static std::size_t last_of(const after_steps_options& options) {
+    const auto& steps = options.steps;
+    const bool are_rising = std::ranges::adjacent_find(steps, std::greater_equal<>()) == steps.end();
+    if (steps.empty() || steps.front() < 1 || !are_rising) {
+      std::string given;
+      for (const int k : steps) given += (given.empty() ? "" : ", ") + std::to_string(k);
+      throw std::invalid_argument(
+          sentence("a loss counts errors after rising numbers of steps from 1 on, got {}", given));
+    }
+    return static_cast<std::size_t>(steps.back());
+  }
+
   static flow_state<C, N> make_state(const model& system) {
     return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
   }
@@ -198,17 +213,19 @@ class after_steps {
   }
 
   void residuals_after(const stepper_type& stepper, const auto& entry, std::size_t number,
-                       flow_state<C, N>& x, std::vector<C>& r) const {
+                       flow_state<C, N>& x, flow_state<C, N>& y, std::vector<C>& r) const {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       x.q[i] = C(entry.start.q[i]);
       x.p[i] = C(entry.start.p[i]);
     }
-    if (options_.steps == 1) {
+    if (options_.steps.back() == 1) {
       stepper.step(x, number);
-    } else {
-      stepper.run(x, options_.steps, number);
+      error_.of(entry.start, x, entry.finish.front(), r.data());
+      return;
     }
-    error_.of(entry.start, x, entry.finish, r.data());
+    stepper.run(x, y, options_.steps, number, [&](std::size_t k) {
+      error_.of(entry.start, y, entry.finish[k], r.data() + k * error_.residuals);
+    });
   }
 
   static void take(const std::vector<C>& of_directions, std::size_t d, bool with_slopes,

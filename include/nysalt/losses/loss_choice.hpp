@@ -6,11 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "nysalt/bath.hpp"
 #include "nysalt/losses/loss_kind.hpp"
 
 namespace nysalt {
 
-/// A loss and its number of steps; by default the state's error after one, the paper's loss.
+/// A loss and its number of steps; by default that of trajectories.
 struct loss_choice {
   const loss_kind* kind = losses().front();  ///< what the loss is
   int steps = 1;                             ///< K; of no account where the kind counts no steps
@@ -20,6 +21,11 @@ struct loss_choice {
   /// The text that loss_named() reads, such as "state:1".
   std::string description() const;
 };
+
+/// What is minimised where no loss is asked for: that of trajectories; in a bath that of one step, as
+/// friction and noise make an end of phases, and what trajectories gain in phase they lose in the law of
+/// energies.
+loss_choice usual_loss(const bath& around);
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.

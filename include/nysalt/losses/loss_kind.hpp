@@ -4,7 +4,9 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -16,15 +18,27 @@ struct data_loss;    // in src/nysalt/losses/data_loss.hpp
 struct loss_inputs;  // there, too
 }  // namespace detail
 
+/// What is least for the best of several minima: the loss on held-out data; the state's error at the ends of
+/// held-out trajectories; or the loss on the data that were learned from, so that held-out data choose
+/// nothing.
+enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
+
+/// The error after K steps, from four states of each trajectory first, then from each.
+std::vector<after_steps_options> after_each_step(int K, int shortest);
+
 /// A loss that text can name: what it needs, how it is made, and how it is judged. Each is declared in one
 /// file, src/nysalt/losses/NAME.cpp, and listed in losses.cpp there.
 struct loss_kind {
-  std::string_view name;      ///< as in "state:K"
-  bool counts_steps = true;   ///< the number K of steps stands behind its name
-  bool needs_modes = false;   ///< of the system
-  bool needs_bath = false;    ///< with friction and temperature
-  bool is_of_states = false;  ///< several minima are judged by the state's error at the ends of the held-out
-                              ///< trajectories, not by the loss itself on the held-out data
+  std::string_view name;                                   ///< as in "state:K"
+  bool counts_steps = true;                                ///< the number K of steps stands behind its name
+  bool needs_modes = false;                                ///< of the system
+  bool needs_bath = false;                                 ///< with friction and temperature
+  judge_of_minima judge = judge_of_minima::held_out_loss;  ///< who chooses among several minima
+  bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
+  bool is_shortened = false;  ///< over a quarter of the steps, and again, where no method follows the data
+  /// After how many steps errors count, in trajectories of `shortest` steps or more: what a search minimises
+  /// first, ..., and last the loss itself. K stands behind the name.
+  std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
   /// The loss over data; where the loss itself asks none, what held-out data tell of what was learned.
   detail::data_loss (*over_data)(const detail::loss_inputs& from);
   /// The loss of a step, if it asks no data; else nullptr.

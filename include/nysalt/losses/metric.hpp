@@ -19,7 +19,9 @@ namespace nysalt {
 
 /// qp      every q_i and p_i, each weighted with its own mean square increment [li_lu_tao_ye_2023, (3.5)]
 /// modes   the same in the system's orthonormal modes x = U^T M^{1/2} q, y = U^T M^{-1/2} p
-/// energy  omega_k x_k and y_k with one common weight: the energy norm of the quadratic part
+/// energy  omega_k x_k (x_k where omega_k = 0) and y_k with one common weight: the energy norm of the
+/// quadratic
+///         part, as the metric `state` has it
 enum class coordinates { qp, modes, energy };
 
 /// The name: qp, modes or energy.
@@ -29,8 +31,8 @@ std::string to_string(coordinates c);
 /// increment over the data. The weights come from training data, and then judge any data alike.
 class metric {
  public:
-  /// Throws std::invalid_argument if the system has no modes, or (energy) a mode of frequency zero, if
-  /// nothing moves in the data, or so far that a weight is not finite.
+  /// Throws std::invalid_argument if the system has no modes, if nothing moves in the data, or so far that
+  /// a weight is not finite.
   metric(const model& system, const flow_map_data& data, coordinates which);
 
   /// Number of coordinates that count: 2 N less those that never move.

@@ -26,9 +26,9 @@ struct stretches_in_lanes {
   static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
   /// One stretch in each lane.
   struct entry {
-    phase_point<R, N> start;          ///< where the stretches begin
-    phase_point<R, N> finish;         ///< where the data end them
-    std::vector<vector<R, N>> noise;  ///< that of each letter O of the word, step after step
+    phase_point<R, N> start;                ///< where the stretches begin
+    std::vector<phase_point<R, N>> finish;  ///< where the data are at each time that counts
+    std::vector<vector<R, N>> noise;        ///< that of each letter O of the word, step after step
   };
   std::size_t first_trajectory;  ///< that of the first stretch, at this rank
   std::size_t begin;             ///< number of the first stretch, as in stretch_starts
@@ -61,17 +61,16 @@ struct wanted_noise {
   double damping_of_part = 0;  ///< gamma times the length of a part
 };
 
-/// The pairs with which stretches of a number of steps begin, trajectory by trajectory: every pair, or each
-/// one where the last ended. first_of is as in flow_map_data.
+/// The pairs with which stretches of a number of steps begin, trajectory by trajectory. first_of is as in
+/// flow_map_data.
 struct stretch_starts {
   std::vector<std::size_t> pairs;        ///< where stretches begin
   std::vector<std::size_t> first_of{0};  ///< trajectory m has stretches first_of[m] .. first_of[m + 1] - 1
 
-  /// Of all stretches of so many steps that fit into trajectories of the data.
-  stretch_starts(const flow_map_data& data, std::size_t steps, bool overlap) {
+  /// Of the stretches of so many steps that fit into trajectories of the data, and begin so far apart.
+  stretch_starts(const flow_map_data& data, std::size_t steps, std::size_t apart) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
-      for (std::size_t pair = data.first_of[m]; pair + steps <= data.first_of[m + 1];
-           pair += overlap ? 1 : steps) {
+      for (std::size_t pair = data.first_of[m]; pair + steps <= data.first_of[m + 1]; pair += apart) {
         pairs.push_back(pair);
       }
       first_of.push_back(pairs.size());
@@ -83,13 +82,14 @@ namespace detail {
 
 template <Scalar R>
 stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
-                                       std::size_t steps, const wanted_noise& wanted,
+                                       std::span<const int> after, const wanted_noise& wanted,
                                        std::size_t first_trajectory, std::size_t end_trajectory) {
   constexpr std::size_t width = lanes_in<R>;
   stretches_in_lanes<R> result{
       first_trajectory, starts.first_of[first_trajectory], starts.first_of[end_trajectory], {}};
   const coarse_graining coarse(wanted.damping_of_part);
   const auto parts = static_cast<std::size_t>(data.noise_parts);
+  const auto steps = static_cast<std::size_t>(after.back());
   for (std::size_t n = result.begin; n < result.end; n += width) {
     const auto pair = [&](std::size_t k) { return starts.pairs[std::min(n + k, result.end - 1)]; };
     const auto in_lanes = [&](const phase_points& states, std::size_t later) {
@@ -97,7 +97,10 @@ stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_
         return states[pair(static_cast<std::size_t>(k)) + later];
       });
     };
-    result.entries.push_back({in_lanes(data.start, 0), in_lanes(data.finish, steps - 1), {}});
+    result.entries.push_back({in_lanes(data.start, 0), {}, {}});
+    for (const int k : after) {
+      result.entries.back().finish.push_back(in_lanes(data.finish, static_cast<std::size_t>(k) - 1));
+    }
     for (std::size_t step = 0; step < steps; ++step) {
       for (const auto& [begin, end] : wanted.intervals.of_letters) {
         vector<R, Eigen::Dynamic> noise(data.start.dimension());
@@ -116,16 +119,22 @@ stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_
 
 }  // namespace detail
 
-/// All stretches, in parts of whole trajectories that a thread can take: of a thousand or more, so that lanes
-/// are left idle for one in a hundred at most.
+/// All stretches, with the data after these numbers of steps, in parts of whole trajectories that a thread
+/// can take: of some thousand steps or more, so that lanes are left idle for one in a hundred at most.
 template <Scalar R>
 std::vector<stretches_in_lanes<R>> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
-                                                    std::size_t steps, const wanted_noise& wanted) {
+                                                    std::span<const int> after, const wanted_noise& wanted) {
   constexpr std::size_t enough = 1600;
+  const auto is_part = [&](std::size_t stretches) {
+    const bool fills_lanes = stretches % lanes_in<R> == 0;
+    return stretches >= enough ||
+           (fills_lanes && stretches * static_cast<std::size_t>(after.back()) >= enough);
+  };
   std::vector<stretches_in_lanes<R>> result;
   for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {
-    while (end < data.trajectories() && starts.first_of[end] - starts.first_of[first] < enough) ++end;
-    result.push_back(detail::gather_stretches<R>(data, starts, steps, wanted, first, end));
+    do ++end;
+    while (end < data.trajectories() && !is_part(starts.first_of[end] - starts.first_of[first]));
+    result.push_back(detail::gather_stretches<R>(data, starts, after, wanted, first, end));
   }
   return result;
 }

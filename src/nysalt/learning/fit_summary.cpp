@@ -71,8 +71,9 @@ std::string fit_summary::full() const {
                  : gains_nothing
                      ? fmt::format("yes, but nothing is gained over {}: {}", rival, what_to_take())
                      : "yes");
-  line("loss", is_of_data ? fmt::format("{:.6e} ({}) on {} pairs of {} trajectories", loss, loss_name,
-                                        samples, trajectories)
+  const std::string of_steps = is_of_data && 1 < loss_steps ? fmt::format(" over {} steps", loss_steps) : "";
+  line("loss", is_of_data ? fmt::format("{:.6e} ({}{}) on {} pairs of {} trajectories", loss, loss_name,
+                                        of_steps, samples, trajectories)
                           : fmt::format("{:.6e} ({})", loss, loss_name));
   line("held-out loss",
        fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
@@ -81,7 +82,7 @@ std::string fit_summary::full() const {
     line("per coordinate",
          fmt::format("{:.3g} root mean square on held-out data, {} to {:.3g} at the start",
                      std::sqrt(held_out_loss / static_cast<double>(coordinates_used)),
-                     held_out_loss <= held_out_start_loss ? "compared" : "WORSE compared",
+                     held_out_loss > held_out_start_loss ? "WORSE compared" : "compared",
                      std::sqrt(held_out_start_loss / static_cast<double>(coordinates_used))));
   }
   if (!rival.empty()) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -64,6 +66,12 @@ int shortest_of(const flow_map_data& data) {
   return static_cast<int>(std::max<std::int64_t>(of_all, 1));
 }
 
+/// Those that were asked for; else the energy coordinates where the loss is of them and they exist, else qp.
+coordinates coordinates_of(const model& system, const fit_options& options, bool is_of_energy_norm) {
+  if (options.coordinates) return *options.coordinates;
+  return is_of_energy_norm && has_modes(system) ? coordinates::energy : coordinates::qp;
+}
+
 /// A summary must not take one loss for another, and names it in a line.
 void require_name(const std::string& name) {
   std::vector<std::string_view> taken;
@@ -107,9 +115,34 @@ void require_served_with_slopes(const run_time_word& letters, const model& syste
   }
 }
 
-learning_problem make_problem(const run_time_family& family, const model& system, const flow_map_data& data,
-                              const flow_map_data& held_out, const fit_options& options,
-                              const detail::other_loss* other, bool in_lanes) {
+/// The mean over stretches and times of the squared distance from where a stretch begins.
+double motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how) {
+  const auto last = static_cast<std::size_t>(how.steps.back());
+  const stretch_starts starts(data, last, static_cast<std::size_t>(how.apart));
+  const double terms =
+      static_cast<double>(data.share().ranks().total(std::ssize(starts.pairs)) * std::ssize(how.steps));
+  std::vector<double> squares(data.trajectories(), 0.0);
+  Eigen::VectorXd r(measure.residuals());
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = starts.first_of[m]; n < starts.first_of[m + 1]; ++n) {
+      const std::size_t first = starts.pairs[n];
+      for (const int steps : how.steps) {
+        const auto& finish = data.finish[first + static_cast<std::size_t>(steps) - 1];
+        measure.residual(finish.q, finish.p, data.start[first], r.data());
+        for (const double x : r) squares[m] += x * x / terms;
+      }
+    }
+  }
+  return data.share().sum(squares);
+}
+
+/// Of a problem over trajectories of so many steps at most. `before` counts the evaluations of what was tried
+/// over more.
+learning_problem make_problem(
+    const run_time_family& family, const model& system, const flow_map_data& data,
+    const flow_map_data& held_out, const fit_options& options, const detail::other_loss* other, bool in_lanes,
+    int most_steps = std::numeric_limits<int>::max(),
+    const std::function<std::int64_t()>& before = [] { return 0; }) {
   require_valid(data, system);
   require_valid(held_out, system);
   require_served_with_slopes(family.letters, system, in_lanes);
@@ -120,23 +153,36 @@ learning_problem make_problem(const run_time_family& family, const model& system
   if (&held_out.share().ranks() != &data.share().ranks()) {
     throw std::invalid_argument("learn: the data and the held-out data must be shared by the same ranks");
   }
-  const loss_kind& kind = *options.loss.kind;
+  const loss_choice chosen = options.loss.value_or(usual_loss(system.bath()));
+  const loss_kind& kind = *chosen.kind;
   const communicator& ranks = data.share().ranks();
-  const auto measure = std::make_shared<const metric>(system, data, options.coordinates);
-  const auto inputs = [&](const flow_map_data& pairs, int steps, bool overlap = true) {
-    return detail::loss_inputs{
-        family,  system, pairs, measure, {.steps = steps, .overlap = overlap, .threads = options.threads},
-        in_lanes};
+  const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
+  const auto measure = std::make_shared<const metric>(system, data, which);
+  const auto inputs = [&](const flow_map_data& pairs, after_steps_options how) {
+    how.threads = options.threads;
+    return detail::loss_inputs{family, system, pairs, measure, std::move(how), in_lanes};
   };
-  const auto loss_over = [&](const flow_map_data& pairs) {
-    if (other == nullptr) return kind.over_data(inputs(pairs, options.loss.steps));
-    const auto from = inputs(pairs, other->steps);
+  const auto loss_over = [&](const flow_map_data& pairs, const after_steps_options& how) {
+    const auto from = inputs(pairs, how);
+    if (other == nullptr) return kind.over_data(from);
     return in_lanes ? after_steps_of(from, *other->in_lanes) : after_steps_of(from, *other->one_by_one);
   };
-  const auto loss = loss_over(data);
-  const auto held = loss_over(held_out);
-  const auto one_step = detail::of_states(inputs(held_out, 1));
-  const auto at_end = detail::of_states(inputs(held_out, shortest_of(held_out), false));
+  const int shortest = std::min({shortest_of(data), shortest_of(held_out), most_steps});
+  const auto stages =
+      other == nullptr ? kind.stages(chosen.steps, shortest) : after_each_step(other->steps, shortest);
+  std::vector<detail::data_loss> losses_of_stages;
+  for (const auto& stage : stages) losses_of_stages.push_back(loss_over(data, stage));
+  const detail::data_loss loss = losses_of_stages.back();
+  const auto held = loss_over(held_out, stages.back());
+  const auto one_step = detail::of_states(inputs(held_out, {}));
+  const int end = shortest_of(held_out);
+  const auto at_end = detail::of_states(inputs(held_out, {.steps = {end}, .apart = end}));
+  const auto judge = other == nullptr ? kind.judge : judge_of_minima::held_out_loss;
+  const auto passes = [=] {
+    std::int64_t here = held.evaluations() + one_step.evaluations() + at_end.evaluations() + before();
+    for (const auto& stage : losses_of_stages) here += stage.evaluations();
+    return here;
+  };
 
   learning_problem problem{.family = family,
                            .options = options,
@@ -147,23 +193,29 @@ learning_problem make_problem(const run_time_family& family, const model& system
                            .held_out_losses = held.by_trajectory,
                            .one_step_loss = one_step.value,
                            .loss_at_end = at_end.value,
-                           .judge = other == nullptr && kind.is_of_states ? at_end.value : held.value,
+                           .judge = judge == judge_of_minima::held_out_end    ? at_end.value
+                                    : judge == judge_of_minima::training_loss ? loss.value
+                                                                              : held.value,
                            .evaluations =
                                [=, &ranks, of_data = data.evaluations + held_out.evaluations] {
-                                 return of_data + ranks.total(loss.evaluations() + held.evaluations() +
-                                                              one_step.evaluations() + at_end.evaluations());
+                                 return of_data + ranks.total(passes());
                                },
                            .trial = {},
                            .rival = {},
                            .guard = guard_along(system, data, held_out, family.letters.rotates(), options),
                            .facts = {}};
+  const bool asks_data = other != nullptr || kind.asks_data();
+  for (const auto& stage : losses_of_stages) {
+    if (asks_data) problem.earlier_losses.push_back(stage.of_theta);
+  }
   auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
   problem.trial_starts = static_cast<std::int64_t>(starts->size());
   constexpr std::int64_t in_bath = 192;
   if (system.bath().acts()) problem.trial_trajectories = in_bath;
   // Some tenths of a second in lanes. What a black box costs is not known.
   constexpr std::int64_t coordinates_at_once = 400'000'000;
-  if (!is_black_box(system)) problem.trial_evaluations = coordinates_at_once / size(system);
+  problem.is_of_black_box = is_black_box(system);
+  if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
   if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
   const auto run = [system, starts, step = data.step, seed = held_out.seed, threads = options.threads](
                        const run_time_word& letters, const std::vector<double>& coefficients,
@@ -200,7 +252,6 @@ learning_problem make_problem(const run_time_family& family, const model& system
     };
     return result;
   };
-  const bool asks_data = other != nullptr || kind.asks_data();
   if (!asks_data) {  // it is its own judge
     problem.loss = kind.without_data(system, family, data.step);
     problem.judge = [law = problem.loss](const Eigen::VectorXd& theta) { return law(theta).value; };
@@ -210,8 +261,8 @@ learning_problem make_problem(const run_time_family& family, const model& system
   facts.system = data.system;
   facts.reference = data.reference;
   facts.ensemble = data.ensemble;
-  facts.coordinates = to_string(options.coordinates);
-  facts.loss_name = other ? other->description : options.loss.description();
+  facts.coordinates = to_string(which);
+  facts.loss_name = other ? other->description : chosen.description();
   facts.is_of_data = asks_data;
   facts.derivatives = system.facts().derivative_source;
   facts.step = data.step;
@@ -227,6 +278,14 @@ learning_problem make_problem(const run_time_family& family, const model& system
   facts.reference_checked = ranks.total(std::ssize(data.finer)) > 0;
   if (facts.reference_checked) facts.reference_error = error_of_reference(data, *measure);
   facts.data_seconds = data.seconds + held_out.seconds;
+  facts.loss_steps = stages.back().steps.back();
+  if (other == nullptr && kind.is_shortened && shortest > 1) {
+    constexpr double lost = 0.0025;  // an error of a twentieth of the motion
+    problem.follows = [value = loss.value, most = lost * motion_in(data, *measure, stages.back())](
+                          const Eigen::VectorXd& theta) { return value(theta) <= most; };
+    problem.shorter = std::make_shared<learning_problem>(
+        make_problem(family, system, data, held_out, options, other, in_lanes, shortest / 4 + 1, passes));
+  }
   return problem;
 }
 
@@ -239,11 +298,11 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
                                        const fit_options& options, const other_loss* other) {
   if (other != nullptr) {
     require_name(other->name);
-    if (options.loss != loss_choice{}) {
+    if (options.loss) {
       throw std::invalid_argument(
           fmt::format("learn: it is one loss that is minimised, {} or {}: leave the "
                       "loss of the options away",
-                      options.loss.description(), other->description));
+                      options.loss->description(), other->description));
     }
   }
   const bool in_lanes = system.facts().in_lanes_with_slopes && (other == nullptr || other->in_lanes);

@@ -21,7 +21,7 @@ double noise_of_difference(const std::vector<double>& a, const std::vector<doubl
 }
 
 std::string objection(const fit_summary& fit, bool settled, const std::string& instability) {
-  if (!settled) return "the search did not converge";
+  if (!settled) return instability.empty() ? "the search did not converge" : instability;
   // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
   const double one_step_loss = fit.one_step_error * fit.one_step_error;
   if (!(one_step_loss < static_cast<double>(fit.coordinates_used))) {
@@ -36,7 +36,8 @@ std::string objection(const fit_summary& fit, bool settled, const std::string& i
   // few trajectories say of their noise. Equal to rounding is no objection either.
   const double chance =
       std::min(3.0 * fit.held_out_noise, 0.5 * fit.held_out_start_loss) + 1e-9 * fit.held_out_start_loss;
-  const bool may_begin_there = !fit.is_held_by_guard;  // else the guard has objections to the start
+  // Else the guard has objections to the start, or trajectories from there diverge.
+  const bool may_begin_there = !fit.is_held_by_guard && std::isfinite(fit.held_out_start_loss);
   if (may_begin_there &&
       !(fit.held_out_loss <= fit.held_out_start_loss + chance || fit.held_out_loss <= 1e-24)) {
     return "on held-out data it is worse than the parameters that the search began with";

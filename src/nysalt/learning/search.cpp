@@ -73,22 +73,87 @@ std::optional<candidate> first_to_withstand(const search_task& task, const std::
 
 Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
                              const std::vector<Eigen::Index>& free, std::uint64_t seed, std::uint64_t n) {
+  const double deviation = 0.6 * std::exp2(-static_cast<double>(n % 4));
   Eigen::VectorXd normals(theta.size());
   standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::search}, normals);
-  for (const Eigen::Index k : free) {
+  const Eigen::VectorXd around = theta;
+  for (const Eigen::Index k : free) theta[k] += deviation * normals[k];
+  const Eigen::VectorXd moved = inside(family, theta);
+  theta = around;
+  for (const Eigen::Index k : free) theta[k] = moved[k];
+  return theta;
+}
+
+Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta) {
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
     const auto& [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
     const double inset = open ? 1e-3 * (high - low) : 0.0;
-    theta[k] = std::clamp(theta[k] + 0.3 * normals[k], low + inset, high - inset);
+    theta[k] = std::clamp(theta[k], low + inset, high - inset);
   }
   return theta;
 }
 
-search_result search(const search_task& task, const std::vector<named_parameters>& starts) {
+namespace {
+
+/// The best minima of an earlier loss that differ, those first that the guard admits.
+std::vector<named_parameters> most_promising(const search_task& task, const objective& loss,
+                                             const std::vector<named_parameters>& starts, std::size_t most) {
+  constexpr double far_apart = 0.05;  // of coefficients of order one
+  struct found {
+    named_parameters at;
+    double loss;
+  };
+  const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
+  std::vector<found> all;
+  for (const auto& start : starts) {
+    auto [theta, value] = descend_roughly(loss, is_defined, start.theta, task.free);
+    if (!task.family->is_in_range(theta)) {
+      theta = inside(*task.family, std::move(theta));
+      value = is_defined(theta) ? loss(theta).value : std::numeric_limits<double>::infinity();
+    }
+    if (std::isfinite(value)) all.push_back({{start.name, std::move(theta)}, value});
+  }
+  std::ranges::stable_sort(all, {}, &found::loss);
+  std::vector<named_parameters> admitted;
+  std::vector<named_parameters> others;
+  for (const auto& [at, value] : all) {
+    if (admitted.size() == most) break;
+    const auto is_near = [&](const named_parameters& known) {
+      return (known.theta - at.theta).norm() <= far_apart;
+    };
+    if (std::ranges::any_of(admitted, is_near) || std::ranges::any_of(others, is_near)) continue;
+    (task.admits(at.theta) ? admitted : others).push_back(at);
+  }
+  for (const auto& at : others) {
+    if (admitted.size() == most) break;
+    admitted.push_back(at);
+  }
+  return admitted;
+}
+
+}  // namespace
+
+search_result search(const search_task& task, const std::vector<named_parameters>& given) {
+  std::vector<named_parameters> starts = given;
+  std::vector<std::size_t>
+      most_of;  // minima that are carried on: three from the last stage, four times as many before
+  for (std::size_t n = task.earlier_losses.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
+  for (const auto& loss : task.earlier_losses) {
+    const std::size_t most = most_of.back();
+    most_of.pop_back();
+    if (starts.size() <= most) continue;
+    auto next = most_promising(task, loss, starts, most);
+    if (!next.empty()) starts = std::move(next);
+  }
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(descend(task, is_defined, start));
-  search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(all.size())};
+  search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(given.size())};
 
+  if (starts.size() <
+      given.size()) {  // what is left is near its minimum: it may take many steps to come there
+    for (auto& one : all) one.in_valley = !one.converged;
+  }
   std::erase_if(all, [](const candidate& c) { return !c.converged && !c.in_valley; });
   const auto sound = by_judgement(std::move(all));
   if (sound.empty()) return result;
@@ -106,6 +171,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
     return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
   };
   std::vector<named_parameters> refuges = starts;
+  if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
   if (task.refuge) refuges.push_back(*task.refuge);
   for (const auto& start : refuges) {
     if (!is_allowed(start.theta)) continue;

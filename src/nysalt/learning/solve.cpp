@@ -70,9 +70,10 @@ bool is_better(const contender& a, const contender& b, const shard& share) {
 
 }  // namespace
 
-/// Searches from all starts, and judges the best. Throws std::invalid_argument for options that the family
-/// cannot take. Cost: see learn().
-fit solve(const learning_problem& problem) {
+namespace {
+
+/// Searches from all starts, and judges the best.
+fit solve_as_it_is(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;
@@ -82,7 +83,7 @@ fit solve(const learning_problem& problem) {
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  auto starts = starts_of(family, options, free);
+  auto starts = starts_of(problem, free);
   const auto fitted = phase_fitted_member(problem);
   if (fitted && !options.start) {
     starts.push_back(*fitted);
@@ -122,6 +123,7 @@ fit solve(const learning_problem& problem) {
   };
   search_task task{.family = &problem.family,
                    .loss = problem.loss,
+                   .earlier_losses = problem.earlier_losses,
                    .judge = problem.judge,
                    .admits =
                        [&](const Eigen::VectorXd& theta) {
@@ -269,6 +271,19 @@ fit solve(const learning_problem& problem) {
   summary.learning_evaluations = problem.evaluations();
   summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return {theta, summary};
+}
+
+}  // namespace
+
+/// Over fewer steps where the data cannot be followed over so many. Throws std::invalid_argument for options
+/// that the family cannot take. Cost: see learn().
+fit solve(const learning_problem& problem) {
+  fit found = solve_as_it_is(problem);
+  if (problem.shorter == nullptr || problem.follows(found.theta)) return found;
+  fit other = solve(*problem.shorter);
+  if (found.summary.usable && !other.summary.usable) return found;
+  other.summary.fit_seconds += found.summary.fit_seconds;
+  return other;
 }
 
 }  // namespace nysalt

@@ -7,7 +7,9 @@
 #include <span>
 #include <stdexcept>
 
+#include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/search.hpp"
 
 namespace nysalt::detail {
@@ -18,16 +20,46 @@ void fix(const fit_options& options, Eigen::VectorXd& theta) {
   }
 }
 
-std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+namespace {
+
+/// Those of the effort where a search goes in stages, else none; of a black box, whose cost is not known,
+/// few.
+int usual_random_starts(const learning_problem& problem, std::size_t free) {
+  if (problem.earlier_losses.empty()) return 0;
+  if (problem.is_of_black_box) return 4;
+  const int all = problem.options.effort == effort::quick    ? 40
+                  : problem.options.effort == effort::normal ? 120
+                                                             : 400;
+  return free <= 2 ? all / 5 : all;
+}
+
+}  // namespace
+
+std::vector<named_parameters> starts_of(const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free) {
+  const run_time_family& family = problem.family;
+  const fit_options& options = problem.options;
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
   starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
   for (auto& start : starts) fix(options, start.theta);
-  for (int n = 0; n < options.random_starts; ++n) {
+  const std::size_t known = starts.size();
+  const objective on_oscillators =
+      problem.earlier_losses.empty()
+          ? objective()
+          : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
+  const auto is_defined = [&](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
+  const int random_starts = options.random_starts.value_or(usual_random_starts(problem, free.size()));
+  for (int n = 0; n < random_starts; ++n) {
     const auto number = static_cast<std::uint64_t>(n);
-    starts.push_back({fmt::format("random {}", n + 1),
-                      random_start(family, starts.front().theta, free, options.seed, number)});
+    const auto& around = starts[static_cast<std::size_t>(n) / 4 % known];  // each with all deviations
+    named_parameters start{fmt::format("random {}", n + 1),
+                           random_start(family, around.theta, free, options.seed, number)};
+    if (on_oscillators && n % 2 == 1) {
+      start.name += " on oscillators";
+      start.theta = inside(family, descend_roughly(on_oscillators, is_defined, start.theta, free).first);
+    }
+    starts.push_back(std::move(start));
   }
   return starts;
 }
@@ -50,10 +82,10 @@ void require_sound(const run_time_family& family, const fit_options& options) {
     throw std::invalid_argument(
         fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));
   }
-  if (options.max_iterations < 0 || options.random_starts < 0) {
+  if (options.max_iterations < 0 || options.random_starts.value_or(0) < 0) {
     throw std::invalid_argument(
         fmt::format("learn: max_iterations and random_starts must not be negative, got {} and {}",
-                    options.max_iterations, options.random_starts));
+                    options.max_iterations, options.random_starts.value_or(0)));
   }
   const auto count = static_cast<std::size_t>(family.parameters());
   if ((options.start && options.start->size() != family.parameters()) ||

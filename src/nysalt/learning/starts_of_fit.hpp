@@ -14,7 +14,7 @@ namespace nysalt::detail {
 void fix(const fit_options& options, Eigen::VectorXd& theta);
 
 /// Those of the family or the one that was asked for, further ones, and random ones.
-std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+std::vector<named_parameters> starts_of(const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free);
 
 /// Ranks search each by itself with the same sums. They would not take the same steps if their processors'

@@ -50,7 +50,8 @@ trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
     result.push_back(Eigen::VectorXd::Zero(sum.rows()));
     for (Eigen::Index k = 0; k < sum.cols(); ++k) {
       result[m] += by_trajectory[m].col(k);
-      if (deviations != nullptr) result[m] -= sum.col(k) * (*deviations)(k, static_cast<Eigen::Index>(m));
+      if (deviations == nullptr) continue;
+      result[m] -= sum.col(k) * (*deviations)(k % deviations->rows(), static_cast<Eigen::Index>(m));
     }
   }
   return {std::move(result), loss.share()};

@@ -37,6 +37,8 @@ std::optional<loss_choice> find_loss(std::string_view text) {
   return std::nullopt;
 }
 
+loss_choice usual_loss(const bath& around) { return around.acts() ? loss_named("state:1") : loss_choice{}; }
+
 loss_choice loss_named(std::string_view text) {
   if (const auto found = find_loss(text)) return *found;
   throw std::invalid_argument(

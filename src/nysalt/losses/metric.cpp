@@ -63,12 +63,7 @@ void metric::change_coordinates(const model& system, coordinates which) {
     }
     if (which == coordinates::energy) {
       for (Eigen::Index k = 0; k < size_; ++k) {
-        if (modes.frequencies[k] == 0.0) {
-          throw std::invalid_argument(sentence(
-              "the energy coordinates of {} do not exist: mode {} has frequency zero; use modes or qp",
-              describe(system), k + 1));
-        }
-        to_x_.row(k) *= modes.frequencies[k];
+        if (modes.frequencies[k] != 0.0) to_x_.row(k) *= modes.frequencies[k];
       }
     }
   } else {

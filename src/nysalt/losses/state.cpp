@@ -11,6 +11,7 @@ data_loss of_states(const loss_inputs& from) {
 }
 
 extern const loss_kind state_loss;
-constinit const loss_kind state_loss{.name = "state", .is_of_states = true, .over_data = of_states};
+constinit const loss_kind state_loss{
+    .name = "state", .judge = judge_of_minima::held_out_end, .over_data = of_states};
 
 }  // namespace nysalt::detail

@@ -121,19 +121,26 @@ void add_placement(CLI::App& command, std::string& placement) {
 
 void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
-  command.add_option("--coordinates", how.coordinates, "of the loss: qp, modes or energy")
-      ->capture_default_str();
+  command.add_option(
+      "--coordinates", how.coordinates,
+      "of the loss: qp, modes or energy [energy for trajectory where there are modes, else qp]");
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
+  command.add_option(
+      prefix + "loss", how.loss,
+      fmt::format("{}, or {} after K steps [{}]", loss_patterns(false), loss_patterns(true),
+                  prefix == "--" ? "trajectory; in a bath state:1"
+                                 : "trajectory; in a bath, and for metrics of energies, state:1"));
   command
-      .add_option(prefix + "loss", how.loss,
-                  fmt::format("{} after K steps, or {}", loss_patterns(true), loss_patterns(false)))
+      .add_option(prefix + "effort", how.effort, "of the search by trajectories: quick, normal or thorough")
       ->capture_default_str();
-  add_number(command, prefix + "random-starts", how.random_starts, "of the search, beside the family's own");
+  add_number(command, prefix + "random-starts", how.random_starts,
+             "of the search, beside the family's own [by the effort]");
 }
 
 void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
-  add_number(command, prefix + "horizon", how.horizon,
-             "length of each [0.5, or ten steps if that is longer]");
+  add_number(
+      command, prefix + "horizon", how.horizon,
+      "length of each [that of the runs, but 16 to 200 steps; of losses after K steps 0.5 or ten steps]");
 }
 
 void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {
