@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
