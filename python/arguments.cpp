@@ -279,6 +279,7 @@ program::recommend_command recommend_of(const argument_reader& arguments,
   arguments.take("metric", command.metric);
   arguments.take("observable", command.observable);
   arguments.take("hmc_temperature", command.hmc_temperature);
+  arguments.take("looks", command.looks);
   arguments.take("reversible", command.reversible);
   return command;
 }

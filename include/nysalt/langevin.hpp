@@ -130,12 +130,19 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
   return intervals_of_noise(run_time_word(word), coefficients);
 }
 
-/// A word as data with its letters O. Throws std::invalid_argument if it has some already, or if it has no
-/// central letter to split.
+/// A word as data with its letters O. Throws std::invalid_argument if it has some already, if it has no
+/// central letter to split, or if it is processed: the kernel alone decides the temperature of a mode, as a
+/// processor changes no action, and a kernel that was learned with a processor may have any.
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();
   if (w.stochastic_letters > 0) {
     throw std::invalid_argument(sentence("the word {} has its letters O already", letters));
+  }
+  if (w.is_processed()) {
+    throw std::invalid_argument(sentence(
+        "the word {} has a processor, which a bath cannot have: a kernel that is made for a processor "
+        "gives modes another temperature; take a word without one",
+        letters));
   }
   const std::string o(1, ornstein_uhlenbeck::letter);
   if (where == placement::end) return run_time_word(letters + o);

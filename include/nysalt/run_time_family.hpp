@@ -92,6 +92,14 @@ class run_time_family {
   /// central letter to split.
   friend run_time_family thermostatted(const run_time_family& plain, placement where);
 
+  /// A family with a processor P of pairs of letters B A, FAMILY+pPAIRS, whose coefficients are parameters
+  /// p1, p2, ... within [-1, 1] but for the last two: those of A and those of B add up to zero each, so that
+  /// P is the identity but for terms of h^2 and P(-h) K^n P(h)^-1 has order 2 at least, for every P.
+  /// Throws std::invalid_argument unless the family is symmetric and of the letters A, B and G, and there are
+  /// from 2 to most_processor_pairs pairs. Cost of P(h)^-1, once a run, and of P(-h), each time that a run is
+  /// looked at: a force evaluation for each pair.
+  friend run_time_family processed(const run_time_family& kernel, int pairs);
+
  private:
   template <Family F>
   static parameters_of<F> array_from(const Eigen::VectorXd& theta) {
@@ -119,6 +127,9 @@ class run_time_family {
   std::function<std::vector<double>(const Eigen::VectorXd&)> coefficients_;
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
 };
+
+/// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is looked at.
+inline constexpr int most_processor_pairs = 8;
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta);

@@ -57,11 +57,18 @@ class run_time_word {
   template <class C>
   using coefficients = std::vector<C>;
 
-  /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet.
-  /// Throws std::invalid_argument if there is none but O, or one that is not known, or if some
-  /// letters split H in one way and some in the other.
-  explicit run_time_word(std::string letters) : length(letters.size()), letters_(std::move(letters)) {
-    if (letters_.empty()) throw std::invalid_argument("a word needs at least one letter");
+  /// Separates the letters of a kernel from those of its processor.
+  static constexpr char processor_mark = '|';
+
+  /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
+  /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
+  /// those of the kernel, and what is looked at is a copy on which P(-h) has acted.
+  /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
+  /// split H in one way and some in the other, or if a processor is not made of letters A and B in turn, or
+  /// belongs to a kernel with letters O or R.
+  explicit run_time_word(std::string letters)
+      : length(std::min(letters.find(processor_mark), letters.size())), letters_(std::move(letters)) {
+    if (length == 0) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
     bool is_of_k_and_v = false;
     std::vector<bool> reads;
@@ -96,7 +103,7 @@ class run_time_word {
           letters_, letters_of(splitting::kinetic_and_potential),
           letters_of(splitting::quadratic_part_and_rest)));
     }
-    merges = length > 1 && letters_.front() == letters_.back() && additive;
+    merges = length > 1 && letters_.front() == letters_[length - 1] && additive;
     halves_meet = length > 1 && is_of_bath.front() && is_of_bath.back();
     stochastic_letters = static_cast<int>(std::count(is_of_bath.begin(), is_of_bath.end(), true));
     if (stochastic_letters == static_cast<int>(length)) {
@@ -106,9 +113,15 @@ class run_time_word {
     evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives;
     evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
     evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives;
+    kernel_slots = slots;
+    if (is_processed()) take_processor();
   }
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
+
+  bool is_processed() const { return length < letters_.size(); }  ///< it has a processor
+  /// The letters of the processor P; empty of a word that has none.
+  std::string processor() const { return is_processed() ? letters_.substr(length + 1) : std::string(); }
 
   /// Throws std::invalid_argument unless there are as many coefficients as slots.
   void require_one_for_each_slot(const auto& coefficients) const {
@@ -122,7 +135,7 @@ class run_time_word {
   std::size_t first_slot(std::size_t i) const { return first_slots_[i]; }
   /// How many coefficients letter i has.
   std::size_t slots_of(std::size_t i) const {
-    return (i + 1 < length ? first_slots_[i + 1] : slots) - first_slots_[i];
+    return (i + 1 < length ? first_slots_[i + 1] : kernel_slots) - first_slots_[i];
   }
 
   const std::string& letters() const { return letters_; }  ///< as they were given
@@ -133,8 +146,9 @@ class run_time_word {
   /// Which letters evaluate the force, in a plain step and in an open run.
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
-  std::size_t length;             ///< how many letters
-  std::size_t slots = 0;          ///< how many coefficients
+  std::size_t length;             ///< how many letters, those of a processor left out
+  std::size_t slots = 0;          ///< how many coefficients: those of the kernel, then those of the processor
+  std::size_t kernel_slots = 0;   ///< how many without those of the processor
   field reads = field::none;      ///< the force that its letters read
   int force_derivatives = 0;      ///< f'(q) v in a step, one evaluation each
   bool reads_modes = false;       ///< it has a letter R
@@ -142,10 +156,35 @@ class run_time_word {
   bool halves_meet;               ///< first and last letter are of the bath
   int stochastic_letters;         ///< how many letters are of the bath
   int evaluations_per_step;       ///< force evaluations of a step of an open run
-  int evaluations_to_open;        ///< force evaluations to open a run
+  int evaluations_to_open;        ///< force evaluations to open a run, those of P(h)^-1 among them
+  int evaluations_to_look = 0;    ///< force evaluations of P(-h), for each time that a run is looked at
   int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
 
  private:
+  void take_processor() {
+    const std::string letters = processor();
+    const auto is_other = [](char a, char b) { return (a == 'A' && b == 'B') || (a == 'B' && b == 'A'); };
+    bool are_in_turn = letters.front() == 'A' || letters.front() == 'B';
+    for (std::size_t i = 1; i < letters.size(); ++i) {
+      are_in_turn = are_in_turn && is_other(letters[i - 1], letters[i]);
+    }
+    if (!are_in_turn) {
+      throw std::invalid_argument(
+          sentence("the word {} has the processor {}: its letters must be A and B in turn, as in BABA",
+                   letters_, letters));
+    }
+    if (stochastic_letters > 0 || rotates_) {
+      throw std::invalid_argument(sentence(
+          "the word {} has a processor: its kernel must be of the letters A, B and G, as a processor "
+          "changes the temperature of modes in a bath, and is of A and B; leave it away",
+          letters_));
+    }
+    slots += letters.size();
+    evaluations_to_look = static_cast<int>(std::count(letters.begin(), letters.end(), 'B'));
+    evaluations_to_open += evaluations_to_look;
+    evaluations_of_plain_step += 2 * evaluations_to_look;
+  }
+
   /// The known letters of which `is_meant` holds.
   static std::string listed(const auto& is_meant) {
     std::string all;
@@ -162,7 +201,34 @@ class run_time_word {
   detail::evaluation_plan<std::vector<evaluation>> plan_;
 };
 
-/// Whether a method reads the same from both ends, letters and coefficients.
+namespace detail {
+
+/// What acts before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
+inline run_time_word pre_processor(const run_time_word& word) {
+  const std::string letters = word.processor();
+  return run_time_word(std::string(letters.rbegin(), letters.rend()));
+}
+/// The coefficients of P(h)^-1 from those of the whole word.
+template <class C>
+std::vector<C> pre_processor_coefficients(const run_time_word& word, const std::vector<C>& all) {
+  std::vector<C> result;
+  for (std::size_t i = word.slots; i-- > word.kernel_slots;) result.push_back(C(-all[i]));
+  return result;
+}
+/// What acts on a copy that is looked at, P(-h).
+inline run_time_word post_processor(const run_time_word& word) { return run_time_word(word.processor()); }
+/// The coefficients of P(-h) from those of the whole word.
+template <class C>
+std::vector<C> post_processor_coefficients(const run_time_word& word, const std::vector<C>& all) {
+  std::vector<C> result;
+  for (std::size_t i = word.kernel_slots; i < word.slots; ++i) result.push_back(C(-all[i]));
+  return result;
+}
+
+}  // namespace detail
+
+/// Whether the kernel of a method, which is all of it without a processor, reads the same from both ends,
+/// letters and coefficients. A step back undoes a step then, with any processor.
 inline bool is_palindrome(const run_time_word& word, const std::vector<double>& coefficients) {
   for (std::size_t i = 0, j = word.length; i < j--; ++i) {
     if (word.letters()[i] != word.letters()[j]) return false;

@@ -22,8 +22,8 @@
 namespace nysalt {
 
 /// A trajectory under way. `state` is ahead of the synchronous state by the word's first letter where that
-/// letter merges with the last, or behind by half a letter O; the open run is all that is needed to go on, to
-/// the bit.
+/// letter merges with the last, or behind by half a letter O; of a processed word it is that of the kernel
+/// from step 1 on, and the start itself at step 0. The open run is all that is needed to go on, to the bit.
 template <Scalar T, int N>
 struct open_run {
   flow_state<T, N> state;        ///< ahead or behind, as said above
@@ -63,6 +63,7 @@ class stepper {
         noise_(noise),
         acts_(acts_on(system)),
         stochastic_letters_(word.stochastic_letters),
+        is_processed_(is_processed(word)),
         takes_room_(word.force_derivatives > 0 || has_rotation(word)),
         letters_(letters_of(system, word, coefficients, step)),
         quiet_(quiet_letters_of(system, word, coefficients, step)) {
@@ -89,7 +90,8 @@ class stepper {
     require_size(x);
     open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
-      run.state.f[i] = T(0.0);  // a checkpoint has no noise
+      run.state.f[i] = T(0.0);      // a checkpoint has no noise
+    if (is_processed_) return run;  // which advance() opens
     auto cursor = cursor_at<T>(trajectory, 0);
     with_letters([&](const auto& letters) { letters.open(*system_, run.state, cursor); });
     return run;
@@ -106,6 +108,7 @@ class stepper {
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
       decltype(auto) letters = all.in_loop();
+      if (opens_now(run, steps)) all.open(*system_, x, cursor);
       letters.advance(*system_, x, steps, cursor);
     });
     run.state = std::move(x);
@@ -127,6 +130,7 @@ class stepper {
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
       decltype(auto) letters = all.in_loop();
+      if (opens_now(run, steps)) all.open(system, x, cursor);
       std::int64_t step = run.step;
       if constexpr (ErasedSystem<S>) {
         std::int64_t next = (step / every + 1) * every;
@@ -149,9 +153,11 @@ class stepper {
     run.step = end;
   }
 
-  /// The state at the run's step, as a copy: looking does not change the run, and costs no evaluation.
+  /// The state at the run's step, as a copy: looking does not change the run. Cost: the word's
+  /// evaluations_to_look, which only a processed word has.
   template <Scalar T>
   phase_point<T, dimension> synchronous(const open_run<T, dimension>& run) const {
+    if (is_processed_ && run.step == 0) return {run.state.q, run.state.p};
     flow_state<T, dimension> x = run.state;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& letters) { letters.close(*system_, x, cursor); });
@@ -208,6 +214,16 @@ class stepper {
   using quiet_type =
       std::conditional_t<chooses, prepared_word<conservative_word<W>, C, dimension>, std::monostate>;
 
+  static constexpr bool is_processed(const W& word) {
+    if constexpr (TypeLevelWord<W>)
+      return false;
+    else
+      return word.is_processed();
+  }
+  /// Whether the run of a processed word is at its start, and leaves it.
+  bool opens_now(const auto& run, std::int64_t steps) const {
+    return is_processed_ && run.step == 0 && steps > 0;
+  }
   static bool acts_on(const S& system) {
     if constexpr (HasBath<S>) return static_cast<const bath&>(system.bath()).acts();
     return false;
@@ -306,6 +322,7 @@ class stepper {
   Noise noise_;
   bool acts_;  // the bath
   int stochastic_letters_;
+  bool is_processed_;
   bool takes_room_;
   letters_type letters_;
   [[no_unique_address]] quiet_type quiet_;  // in a bath that does not act

@@ -2,6 +2,9 @@
 #include "catalogue.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <system_error>
 
 #include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
@@ -39,22 +42,44 @@ std::vector<std::string> family_names() {
   return names;
 }
 
-const run_time_family& family_named(std::string_view name) {
-  for (const auto& family : families()) {
-    if (family.name == name) return family;
+namespace {
+
+/// The number of pairs that FAMILY+pPAIRS asks for; nothing if the text is no whole number.
+std::optional<int> pairs_in(std::string_view digits) {
+  int pairs = 0;
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), pairs);
+  if (problem != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return pairs;
+}
+
+}  // namespace
+
+run_time_family family_named(std::string_view name) {
+  const auto mark = name.rfind("+p");
+  const std::string_view kernel = name.substr(0, mark);
+  const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
+  if (known == families().end()) {
+    refuse("unknown family '{}': {}", kernel, did_you_mean(kernel, family_names()));
   }
-  refuse("unknown family '{}': {}", name, did_you_mean(name, family_names()));
+  if (mark == std::string_view::npos) return *known;
+  const auto pairs = pairs_in(name.substr(mark + 2));
+  if (!pairs) refuse("unknown family '{}': a processor is written FAMILY+pPAIRS, as in fg4+p3", name);
+  try {
+    return processed(*known, *pairs);
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}", problem.what());
+  }
 }
 
 run_time_family placed(std::string_view name, std::optional<placement> where) {
-  const auto& plain = family_named(name);
+  const auto plain = family_named(name);
   return where ? thermostatted(plain, *where) : plain;
 }
 
-std::string_view source_of_family(std::string_view name) { return family_named(name).source; }
+std::string source_of_family(std::string_view name) { return family_named(name).source; }
 
 tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
-  const auto& family = family_named(name);
+  const auto family = family_named(name);
   if (std::ssize(parameters) != family.parameters()) {
     refuse("the family {} has {} parameters ({}), got {}", name, family.parameters(),
            listed(family.parameter_names), parameters.size());
@@ -69,6 +94,7 @@ const std::vector<classical_method>& classical_methods() {
   static const auto all = [] {
     std::vector<classical_method> rows;
     for (const auto& row : classical_table) rows.push_back({as_data(row), row.source});
+    for (const auto& row : processed_table) rows.push_back({as_data(row), row.source});
     return rows;
   }();
   return all;

@@ -21,13 +21,14 @@ class prepared_problem;
 /// Every family that can be learned.
 const std::vector<run_time_family>& families();
 std::vector<std::string> family_names();
-/// Throws refusal, listing the names, if there is none of that name.
-const run_time_family& family_named(std::string_view name);
+/// FAMILY, or FAMILY+pPAIRS with a processor. Throws refusal, listing the names, if there is none of that
+/// name, and where the family cannot have a processor.
+run_time_family family_named(std::string_view name);
 /// With its letters O, where there is a bath.
 run_time_family placed(std::string_view name, std::optional<placement> where);
 
 /// The key of a family's source in docs/bibliography.bib; empty: not published.
-std::string_view source_of_family(std::string_view name);
+std::string source_of_family(std::string_view name);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
 tabulated family_member(const std::string& family, const std::vector<double>& parameters);

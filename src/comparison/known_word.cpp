@@ -77,11 +77,25 @@ bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
   });
 }
 
+/// Of processed words, of which many do the same.
+bool are_same_to_the_letter(const tabulated& a, const tabulated& b) {
+  return a.letters().letters() == b.letters().letters() &&
+         std::ranges::equal(a.coefficients(), b.coefficients(),
+                            [](double x, double y) { return std::abs(x - y) < same; });
+}
+
 }  // namespace
 
 std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known) {
+  if (method.letters().is_processed()) {
+    for (const tabulated& other : known) {
+      if (are_same_to_the_letter(method, other)) return other.name();
+    }
+    return std::nullopt;
+  }
   const auto letters = merged(letters_of(method.letters(), method.coefficients()), same);
   for (const tabulated& other : known) {
+    if (other.letters().is_processed()) continue;
     const auto one_step = merged(letters_of(other.letters(), other.coefficients()), same);
     for (int n = 1;; ++n) {
       const auto steps = repeated(one_step, n);
@@ -96,7 +110,7 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further) {
-  const run_time_family& named_family = family_named(family);
+  const run_time_family named_family = family_named(family);
   const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
     return tabulated(name, named_family.letters, named_family.coefficients(at),
                      {named_family.order, named_family.symmetric, named_family.requires_quadratic_kinetic});

@@ -105,10 +105,13 @@ scheme scheme_in(const json& document, const document_reader& read) {
         read.file());
   }
   const std::string name = read.text("family");
-  const auto known = family_names();
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    refuse("{}: unknown family '{}': {}", read.file(), name, did_you_mean(name, known));
-  }
+  const run_time_family family = [&] {
+    try {
+      return family_named(name);
+    } catch (const refusal& problem) {
+      refuse("{}: {}", read.file(), problem.what());
+    }
+  }();
   const bool is_curve = document.contains("steps");
   const auto steps = is_curve ? read.numbers("steps") : std::vector<double>{read.number("step")};
   for (std::size_t n = 0; n < steps.size(); ++n) {
@@ -123,8 +126,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
   const auto trajectories = trajectories_in(read);
   const auto energies = energies_in(read);
   return in_file(read.file(), [&] {
-    const auto thetas =
-        parameters_in(read.member("parameters"), family_named(name), steps.size(), is_curve, read);
+    const auto thetas = parameters_in(read.member("parameters"), family, steps.size(), is_curve, read);
     std::optional<placement> where;
     if (document.contains("placement")) where = placement_in(read);
     scheme result{name,
@@ -151,6 +153,10 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
     if (letter == "H") letter = "S";
     sums[letter] += coefficients[word.first_slot(i)];
   }
+  const std::string processor = word.processor();
+  for (std::size_t i = 0; i < processor.size(); ++i) {
+    sums[fmt::format("{} of the processor", processor[i])] += coefficients[word.kernel_slots + i];
+  }
   std::vector<std::string> texts;
   for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
   return listed(texts);
@@ -173,8 +179,10 @@ tabulated table_in(const json& document, const document_reader& read) {
     if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
-      refuse("{}: it is not consistent: {}; each must add up to 1, to ten digits, from moderate coefficients",
-             read.file(), sums_of(word, coefficients));
+      refuse(
+          "{}: it is not consistent: {}; each must add up to {}, to ten digits, from moderate coefficients",
+          read.file(), sums_of(word, coefficients),
+          word.is_processed() ? "1, and of the processor to 0" : "1");
     }
     if (document.contains("order")) {
       const double declared = read.number("order");

@@ -23,6 +23,7 @@ constexpr std::string_view to_learn = "learned:";
 void count(method_source& source, const auto& word) {
   source.evaluations_per_step = word.evaluations_per_step;
   source.force_derivatives = word.force_derivatives;
+  source.evaluations_to_look = word.evaluations_to_look;
 }
 
 void take_file(method_source& source, method_file file) {
@@ -203,7 +204,13 @@ std::optional<placement> placement_in(const method_source& source, const prepare
                                       std::optional<placement> otherwise) {
   if (!system.heat_bath().acts()) return std::nullopt;
   const placement where = source.where.value_or(otherwise.value_or(usual));
-  const run_time_word& word = family_named(*source.family).letters;
+  const run_time_word word = family_named(*source.family).letters;
+  if (word.is_processed()) {
+    refuse(
+        "{}: a processed method cannot run in a bath: a kernel that is learned with a processor gives modes "
+        "another temperature; take {}",
+        source.typed, source.typed.substr(0, source.typed.rfind('+')));
+  }
   if (where == placement::middle && word.length % 2 == 0) {
     refuse("{}: the word {} has no central letter to split: place O at the end, or symmetric", source.typed,
            word.letters());

@@ -24,6 +24,8 @@ std::string to_string(mark which) {
       return "tail";
     case mark::formula:
       return "formula";
+    case mark::processed:
+      return "processed";
     case mark::diverged:
       return "diverged";
   }
@@ -50,6 +52,9 @@ std::string meaning(mark which) {
       return "learned, but nothing was gained: by the loss a classical method of the same cost, named with "
              "the "
              "fit, is as good";
+    case mark::processed:
+      return "the evaluations are those of one look at each trajectory, at its end; every further look takes "
+             "one for each pair of letters of the processor";
     case mark::diverged:
       return "some trajectories diverged; of the others alone, and not ranked";
   }
@@ -107,6 +112,7 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line
   }
   if (has_tail(one)) result.push_back(mark::tail);
   if (line.gains_nothing) result.push_back(mark::formula);
+  if (line.coefficients && line.coefficients->letters().is_processed()) result.push_back(mark::processed);
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }

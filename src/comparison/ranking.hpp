@@ -19,6 +19,7 @@ enum class mark {
   horizon,    // beyond the time for which a path can be followed
   tail,       // few trajectories decide the mean
   formula,    // learned, but a classical method of its cost is as good by the loss
+  processed,  // further looks cost evaluations that are not counted
   diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);

@@ -153,8 +153,10 @@ std::string recommendation::objection_to(const candidate& contender) const {
   const auto& name = contender.source.typed;
   if (const auto text = instability(name, *contender.method, *system_, contender.step)) {
     found->second = *text;
-  } else if (const auto warning = stability_warning(name, *contender.method, *system_, contender.step,
-                                                    seed_for(role::test, common_.seed))) {
+  } else if (const auto warning =
+                 stability_warning(name, *contender.method, *system_, contender.step,
+                                   static_cast<std::int64_t>(options_.horizon / contender.step),
+                                   seed_for(role::test, common_.seed))) {
     found->second = *warning;
   } else {
     const auto trial = try_step(*contender.method, *system_, contender.step,

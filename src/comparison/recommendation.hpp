@@ -69,6 +69,13 @@ class recommendation {
   double seconds_of_step(const candidate& contender) const {
     return step_seconds_.at(contender.source.typed).least;
   }
+  /// Force evaluations of processing per unit time, where trajectories are looked at as often as asked.
+  double processing_of(const candidate& contender) const {
+    return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_look) / options_.horizon;
+  }
+  double seconds_of_processing(const candidate& contender) const {
+    return processing_of(contender) * seconds_of_step(contender) / contender.source.evaluations_per_step;
+  }
   double noise_of(const candidate& contender) const;
   double noise_of(const candidate& a, const candidate& b) const;
   contest at_equal_seconds(double seconds_per_time, const contest* known) const;

@@ -75,7 +75,9 @@ std::vector<tabulated> recommendation::formulas_at(double step) const {
 void recommendation::measure_on_test(std::vector<candidate*> all) {
   measure(all, options_.trajectories, seed_for(role::test, common_.seed));
   for (candidate* contender : all) {
-    if (contender->method) contender->seconds_per_time = seconds_of_step(*contender) / contender->step;
+    if (!contender->method) continue;
+    contender->seconds_per_time =
+        seconds_of_step(*contender) / contender->step + seconds_of_processing(*contender);
   }
 }
 
@@ -91,6 +93,10 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
                                 std::uint64_t seed) {
   const trajectories_plan plan = plan_at(step, count, seed);
   shown_.part(fmt::format("comparing {} at step {:g}", group.size() == 1 ? "one" : "some", step));
+  const auto of_further_looks = [&](const candidate& contender) {  // the first one is counted with the run
+    return static_cast<double>((options_.looks - 1) * contender.source.evaluations_to_look) /
+           options_.horizon;
+  };
   const auto take = [&](candidate& contender, estimate mean, std::vector<double> scores,
                         const auto& diverged_at) {
     contender.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
@@ -104,7 +110,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
       const auto found = system_->acceptance(*contender->method, plan, options_.hmc_temperature, {});
       std::vector<double> rejected;
       for (const double a : found.of_each) rejected.push_back(1.0 - a);
-      contender->evaluations_per_time = found.evaluations_per_time;
+      contender->evaluations_per_time = found.evaluations_per_time + of_further_looks(*contender);
       take(*contender, {1.0 - found.probability.mean, found.probability.standard_error}, std::move(rejected),
            found.diverged_at);
     }
@@ -123,7 +129,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
     if (is_root) {
       for (double& x : scores) x *= x;
     }
-    contender.evaluations_per_time = method.evaluations_per_time;
+    contender.evaluations_per_time = method.evaluations_per_time + of_further_looks(contender);
     if (found.reference_error) contender.reference_error = found.reference_error->mean;
     contender.reference = found.reference;
     take(contender, method.error, std::move(scores), method.diverged_at);

@@ -36,6 +36,7 @@ void recommendation::require_sound_command() {
            options_.trajectories);
   }
   require_positive("--hmc-temperature", options_.hmc_temperature);
+  require_at_least_one("--looks", options_.looks);
   placement_asked(options_.placement);
   if (options_.metric == "distribution" || options_.metric == "acf") {
     refuse(
@@ -73,7 +74,7 @@ void recommendation::plan_families() {
   const std::size_t before = all_.size();
   bool fixes = options_.learning.fix.empty();
   for (const auto& name : names) {
-    const auto& family = family_named(name);
+    const auto family = family_named(name);
     if (!is_fixed_in(family)) continue;
     fixes = true;
     candidate contender{.source = find_method("learned:" + name), .where = {}};
@@ -107,8 +108,13 @@ void recommendation::consider(candidate contender) {
   }
   try {
     const auto otherwise = placement_asked(options_.placement);
-    contender.step =
-        contender.source.evaluations_per_step / options_.budget.value_or(system_->fastest_rate());
+    double rate = system_->fastest_rate();
+    if (options_.budget) rate = *options_.budget - processing_of(contender);
+    if (rate <= 0.0) {
+      return leave_out(fmt::format("its processor alone takes {:g} evaluations per unit time",
+                                   processing_of(contender)));
+    }
+    contender.step = contender.source.evaluations_per_step / rate;
     if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);
     if (options_.budget) {
       plan_at(contender.step, options_.trajectories, 0);

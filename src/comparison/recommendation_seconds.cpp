@@ -77,7 +77,13 @@ contest recommendation::at_equal_seconds(double seconds_per_time, const contest*
                  .statistic = statistic(false)};
   for (const candidate& planned : all_) {
     candidate contender = planned;
-    contender.step = seconds_of_step(contender) / seconds_per_time;
+    const double of_steps = seconds_per_time - seconds_of_processing(contender);
+    if (of_steps <= 0.0) {
+      contender.reason = "its processor alone takes longer";
+      result.all.push_back(std::move(contender));
+      continue;
+    }
+    contender.step = seconds_of_step(contender) / of_steps;
     if (known != nullptr) {
       const auto same = std::ranges::find_if(
           known->all, [&](const candidate& other) { return other.source.typed == contender.source.typed; });

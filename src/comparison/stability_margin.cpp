@@ -258,7 +258,7 @@ std::optional<std::string> instability(const std::string& name, const tabulated&
 }
 
 std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
-                                             const prepared_problem& system, double step,
+                                             const prepared_problem& system, double step, std::int64_t steps,
                                              std::uint64_t seed) {
   if (has_rotation(method.letters())) return std::nullopt;
   const auto chart = chart_of(method);
@@ -283,6 +283,9 @@ std::optional<std::string> stability_warning(const std::string& name, const tabu
         "{} at step {:g}: among its frequencies {:g} to {:g} is z = {:.4g}, where two stability windows "
         "touch, and errors of nonlinear motion add up; {}",
         name, step, band.band.low, band.band.high, *band.touching, advice(judged));
+  }
+  if (const auto near = near_resonance(known.bands, step); near && steps > long_run) {
+    return fmt::format("{} at step {:g}: {}", name, step, in_words(*near));
   }
   return std::nullopt;
 }

@@ -93,10 +93,12 @@ std::optional<std::string> failed_trial(const std::string& name, const tabulated
 std::optional<std::string> instability(const std::string& name, const tabulated& method,
                                        const prepared_problem& system, double step);
 
-/// One sentence where it is stable on that, but near the end of a window, or on frequencies where two touch;
-/// or not stable any more on those of the first starts of a seed. Cost: where there are at most a thousand
-/// coordinates, some hundred force evaluations for each of 16 starts; else nothing.
+/// One sentence where it is stable on that, but near the end of a window, on frequencies where two touch, or,
+/// over so many steps, near a resonance; or not stable any more on those of the first starts of a seed. Cost:
+/// where there are at most a thousand coordinates, some hundred force evaluations for each of 16 starts; else
+/// nothing.
 std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
-                                             const prepared_problem& system, double step, std::uint64_t seed);
+                                             const prepared_problem& system, double step, std::int64_t steps,
+                                             std::uint64_t seed);
 
 }  // namespace nysalt::program

@@ -2,7 +2,10 @@
 // A family as data.
 #include "nysalt/run_time_family.hpp"
 
+#include <stdexcept>
 #include <utility>
+
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 
@@ -67,6 +70,74 @@ run_time_family thermostatted(const run_time_family& plain, placement where) {
   };
   result.jacobian_ = [plain, where](const Eigen::VectorXd& theta) {
     return thermostatted_jacobian(plain, where, theta);
+  };
+  return result;
+}
+
+namespace {
+
+/// Those of the processor from its parameters: of A and of B all but the last are parameters, in the order of
+/// the word, and the last of each is what makes their sum zero.
+void append_processor(std::vector<double>& coefficients, const Eigen::VectorXd& theta, Eigen::Index first,
+                      int pairs) {
+  double sum_of_a = 0.0;
+  double sum_of_b = 0.0;
+  for (int k = 0; k + 1 < pairs; ++k) {
+    const double b = theta[first + 2 * k];
+    const double a = theta[first + 2 * k + 1];
+    coefficients.insert(coefficients.end(), {b, a});
+    sum_of_b += b;
+    sum_of_a += a;
+  }
+  coefficients.insert(coefficients.end(), {-sum_of_b, -sum_of_a});
+}
+
+Eigen::VectorXd with_identity(const Eigen::VectorXd& theta, Eigen::Index further) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(theta.size() + further);
+  result.head(theta.size()) = theta;
+  return result;
+}
+
+}  // namespace
+
+run_time_family processed(const run_time_family& kernel, int pairs) {
+  if (pairs < 2 || pairs > most_processor_pairs) {
+    throw std::invalid_argument(sentence("{}: a processor must have from 2 to {} pairs of letters, got {}",
+                                         kernel.name, most_processor_pairs, pairs));
+  }
+  if (!kernel.symmetric) {
+    throw std::invalid_argument(
+        sentence("{}: the kernel of a processed word must be symmetric, and {} is not; take another family",
+                 kernel.name, kernel.letters.letters()));
+  }
+  run_time_family result = kernel;
+  std::string letters = kernel.letters.letters() + run_time_word::processor_mark;
+  for (int k = 0; k < pairs; ++k) letters += "BA";
+  result.letters = run_time_word(letters);
+  result.name += sentence("+p{}", pairs);
+  result.order = 2;
+  const Eigen::Index known = kernel.parameters();
+  const Eigen::Index further = 2 * (pairs - 1);
+  for (Eigen::Index k = 0; k < further; ++k) {
+    result.parameter_names.push_back(sentence("p{}", k + 1));
+    result.ranges.push_back({-1.0, 1.0, false});
+  }
+  for (auto& start : result.starts) start.theta = with_identity(start.theta, further);
+  if (result.refuge) result.refuge = with_identity(*result.refuge, further);
+  result.coefficients_ = [kernel, known, pairs](const Eigen::VectorXd& theta) {
+    auto all = kernel.coefficients(theta.head(known));
+    append_processor(all, theta, known, pairs);
+    return all;
+  };
+  result.jacobian_ = [kernel, known, further](const Eigen::VectorXd& theta) {
+    const Eigen::MatrixXd of_kernel = kernel.jacobian(theta.head(known));
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(of_kernel.rows() + further + 2, known + further);
+    all.topLeftCorner(of_kernel.rows(), known) = of_kernel;
+    for (Eigen::Index k = 0; k < further; ++k) {
+      all(of_kernel.rows() + k, known + k) = 1.0;
+      all(of_kernel.rows() + further + k % 2, known + k) = -1.0;
+    }
+    return all;
   };
   return result;
 }

@@ -4,6 +4,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/sample_blocks.hpp"
@@ -89,6 +91,32 @@ struct a_fork : potential_only {  // takes a branch, and says so
   static constexpr int lanes = 1;
 };
 }  // namespace
+
+// Each trajectory adds its part of the mean to the whole: the mean over some has their parts, and no others.
+BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
+  const henon_heiles galaxy;
+  const normal_around<2> starts({vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)}, 0.1, 0.2);
+  constexpr int trajectories = 23;
+  const auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
+                                       {.step = 0.4, .horizon = 3.2, .trajectories = trajectories});
+  const metric measure(galaxy, data, coordinates::qp);
+  const run_time_family family{nystrom()};
+  const auto parts_of = [&](int every) {
+    const after_steps<> loss(family, galaxy, data, state_error<detail::lanes>(measure),
+                             {.steps = {1, 3}, .apart = 2, .every = every});
+    return trajectory_losses(loss, column_of(theta));
+  };
+  const auto all = parts_of(1);
+  for (const int every : {2, 5, 23, 40}) {
+    const auto some = parts_of(every);
+    const int counted = (trajectories + every - 1) / every;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      const bool counts = static_cast<int>(m) % every == 0;
+      const double expected = counts ? all[m] * trajectories / counted : 0.0;
+      BOOST_TEST(std::abs(some[m] - expected) <= 4e-16 * expected);  // two weights, each rounded
+    }
+  }
+}
 
 BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   using packs = detail::lanes;

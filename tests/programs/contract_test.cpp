@@ -101,7 +101,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
       names("methods") ==
       "verlet verlet_aba verlet_2x mclachlan2 bcss2 bcss3 bcss4 predescu3 forest_ruth pefrl vefrl "
       "omelyan5v omelyan5p mclachlan_atela4 mclachlan5 blanes_moan_s6 srkn6b srkn11b srkn14a "
-      "takahashi_imada chin4a omelyan_fg4 impulse baoab baoab_2x aboba obabo s_aia2 phase_fitted_chin4a "
+      "takahashi_imada chin4a omelyan_fg4 impulse baoab baoab_2x aboba obabo takahashi_imada_processed "
+             "fg4_processed s_aia2 phase_fitted_chin4a "
       "phase_fitted_omelyan_fg4 phase_fitted_pefrl phase_fitted_vefrl phase_fitted_mclachlan5 "
       "phase_fitted_omelyan5v phase_fitted_srkn6b ");
 }

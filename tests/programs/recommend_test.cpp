@@ -39,7 +39,12 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
   for (const auto& row : all["rows"]) {
     const double step = row["step_size"];
     const double evaluations = row["evaluations_per_step"];
-    BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
+    const bool is_processed = row["method"].get<std::string>().ends_with("_processed");
+    if (is_processed) {
+      BOOST_TEST(step > evaluations / 80.0);  // what the processor takes is not left for steps
+    } else {
+      BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
+    }
     if (!stands(row)) continue;
     const double ranked = row[all["judged_by"] == "mean" ? "error" : "error_of_95_percent"];
     BOOST_TEST(ranked >= last);

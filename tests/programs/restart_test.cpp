@@ -31,6 +31,9 @@ const std::string with_losses =
 const std::string alone =
     "run --system pendulum --method srkn6b --step 0.1 --horizon 4000 --sample-every 10 ";
 
+const std::string processed =
+    "run --system pendulum --method takahashi_imada_processed --step 0.1 --horizon 4000 --sample-every 10 ";
+
 std::string with_checkpoint(const std::string& line, const std::string& name, int every = 100) {
   return line + "--output " + name + ".csv --checkpoint " + name + ".checkpoint --every " +
          std::to_string(every) + " ";
@@ -54,7 +57,7 @@ void refused(const scratch& folder, const std::string& arguments, const std::str
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(killed_again_and_again_it_comes_to_the_same_bytes) {
-  for (const auto& line : {in_bath, with_losses, alone}) {
+  for (const auto& line : {in_bath, with_losses, alone, processed}) {
     const scratch folder("restart");
     const std::string expected = whole(folder, line);
     const std::string command = with_checkpoint(line, "cut");

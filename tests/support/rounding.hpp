@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "nysalt/method.hpp"
 
@@ -107,12 +108,10 @@ template <Method M>
 double magnification(const M& method, double step, const shears& at) {
   double product = 1.0;
   const auto word = word_of(method);
-  const std::string letters = word.letters();
   const auto c = method.coefficients();
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    const std::size_t slot = word.first_slot(i);
+  const auto magnify = [&](char letter, std::size_t slot) {
     const double time = 2.0 * std::abs(c[slot] * step);
-    switch (letters[i]) {
+    switch (letter) {
       case 'A':
         product *= 1.0 + time * at.kinetic;
         break;
@@ -130,6 +129,13 @@ double magnification(const M& method, double step, const shears& at) {
       default:
         break;
     }
+  };
+  for (std::size_t i = 0; i < word.length; ++i) magnify(word.letters()[i], word.first_slot(i));
+  if constexpr (std::is_same_v<std::remove_const_t<decltype(word)>, run_time_word>) {
+    const std::string processor = word.processor();
+    for (int times = 0; times < 2; ++times) {  // before and after
+      for (std::size_t i = 0; i < processor.size(); ++i) magnify(processor[i], word.kernel_slots + i);
+    }
   }
   return product;
 }
@@ -145,7 +151,9 @@ inline double roundings(const std::string& letters, Eigen::Index n) {
 }
 template <Method M>
 double roundings(const M& method, Eigen::Index n) {
-  return roundings(word_of(method).letters(), n);
+  const std::string letters = word_of(method).letters();
+  const auto mark = std::min(letters.find(run_time_word::processor_mark), letters.size());
+  return roundings(letters, n) + roundings(letters.substr(mark), n);  // a processor acts before and after
 }
 
 }  // namespace nysalt::test

@@ -80,6 +80,7 @@ typename conservative_word<W>::template coefficients<C> conservative_part(
 template <class C>
 std::vector<C> conservative_part(const run_time_word& w, const std::vector<C>& all) {
   w.require_one_for_each_slot(all);
+  if (w.stochastic_letters == 0) return all;
   std::vector<C> result;
   detail::keep_conservative(w, all, [&](const C& c) { result.push_back(c); });
   return result;

@@ -26,8 +26,12 @@ class prepared_word<run_time_word, C, N> {
   /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
   /// coefficient for each slot.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& around)
-      : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.evaluations_to_open > 0) {
+      : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.plan().is_known_when_open) {
     w.require_one_for_each_slot(c);
+    if (w.is_processed()) {
+      before_ = plain(detail::pre_processor(w), detail::pre_processor_coefficients(w, c), h, around);
+      after_ = plain(detail::post_processor(w), detail::post_processor_coefficients(w, c), h, around);
+    }
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
     run_.calls = plain_.calls = w.stochastic_letters > 0;
     if (halves_meet_) run_.loop.push_back({.number = seam_of_steps});
@@ -39,7 +43,7 @@ class prepared_word<run_time_word, C, N> {
       if (i < w.first_in_loop() || is_at_seam) continue;
       letter in_run = one;
       if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
-        const std::array both{C(c.back() + c.front()), C(0.0)};
+        const std::array both{C(c[w.kernel_slots - 1] + c.front()), C(0.0)};
         in_run = prepare(w, i, both.data(), h, around);
       }
       run_.loop.push_back(evaluating(in_run, w.plan().in_loop[i]));
@@ -65,6 +69,7 @@ class prepared_word<run_time_word, C, N> {
   /// Opens a run. Cost: the word's evaluations_to_open.
   template <class T, System S>
   [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    take(system, before_, x, 1, cursor, {});
     if (evaluates_to_open_) evaluate<T>(system, x);
     if (merges_) apply_known(system, first_, x, cursor);
   }
@@ -92,7 +97,7 @@ class prepared_word<run_time_word, C, N> {
                           .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
                           .context = const_cast<void*>(static_cast<const void*>(&see))});
   }
-  /// What an open state is at its step. No evaluation.
+  /// What an open state is at its step. Cost: the word's evaluations_to_look.
   template <class T, System S>
   [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (merges_) apply_known(system, run_.undo.front(), x, cursor);
@@ -104,6 +109,7 @@ class prepared_word<run_time_word, C, N> {
     if constexpr (is_noisy<decltype(cursor)>) {
       if (halves_meet_) seam_.begin(system, cursor, x);
     }
+    take(system, before_, x, 1, cursor, {});
     take(system, plain_, x, 1, cursor, {});
     end(system, x, cursor);
   }
@@ -156,9 +162,24 @@ class prepared_word<run_time_word, C, N> {
     }
   }
 
+  /// A plain step of a word of letters that take no other number than their coefficient.
+  detail::step_program<C> plain(const run_time_word& w, const std::vector<C>& c, double h,
+                                const surroundings_of_word& around) {
+    detail::step_program<C> result;
+    result.reads = field::whole;
+    for (std::size_t i = 0; i < w.length; ++i) {
+      result.loop.push_back(evaluating(prepare(w, i, &c[w.first_slot(i)], h, around), w.plan().in_step[i]));
+    }
+    result.last = result.loop;
+    result.find_pairs();
+    return result;
+  }
+
+  /// Nothing of an empty program.
   template <class T, System S>
   void take(const S& system, const detail::step_program<C>& letters, flow_state<T, S::dimension>& x,
             std::int64_t steps, auto& cursor, const detail::watch<T>& watched) const {
+    if (letters.loop.empty()) return;
     const auto act = [&](int number) {
       if constexpr (is_noisy<decltype(cursor)>) {
         if (number == seam_of_steps) return seam_.cross(system, cursor, x);
@@ -195,10 +216,12 @@ class prepared_word<run_time_word, C, N> {
   template <class Cursor>
   static constexpr bool is_noisy = std::remove_cvref_t<Cursor>::is_noisy;
 
-  void end(const auto& system, auto& x, auto& cursor) const {
+  template <class T, System S>
+  void end(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (is_noisy<decltype(cursor)>) {
       if (halves_meet_) seam_.end(system, cursor, x);
     }
+    take(system, after_, x, 1, cursor, {});
   }
 
   bool merges_;
@@ -206,6 +229,8 @@ class prepared_word<run_time_word, C, N> {
   bool evaluates_to_open_;
   detail::step_program<C> run_;
   detail::step_program<C> plain_;
+  detail::step_program<C> before_;  // P(h)^-1 of a processed word, else empty
+  detail::step_program<C> after_;   // P(-h)
   letter first_{};
   std::vector<ornstein_uhlenbeck::prepared<C>> noise_;  // of the letters O, in their order
   std::vector<std::shared_ptr<const turn>> turns_;      // that the programs refer to

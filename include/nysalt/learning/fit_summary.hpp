@@ -80,6 +80,7 @@ struct fit_summary {
     double high;  ///< where it ends
   };
   std::vector<gap> gaps;           ///< of z, between the bands, where it is unstable
+  std::string resonance;           ///< of planned runs that are long: which one is near; empty: none
   double one_step_error = 0.0;     ///< root of the one-step loss on held-out data
   double trajectory_error = 0.0;   ///< the same at the end of the held-out trajectories
   double reference_error = 0.0;    ///< of the reference itself, in the measure of one_step_error

@@ -25,6 +25,7 @@ namespace nysalt {
 struct after_steps_options {
   std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a stretch
   int apart = 1;              ///< steps from where one stretch begins to where the next does
+  int every = 1;              ///< trajectory counts whose number this divides
   int threads = 1;            ///< changes no bit
 };
 
@@ -69,7 +70,8 @@ class after_steps {
         step_(data.step),
         options_(options),
         share_(data.share()),
-        starts_(data, last_of(options), static_cast<std::size_t>(std::max(options.apart, 1))) {
+        starts_(data, last_of(options), static_cast<std::size_t>(std::max(options.apart, 1)),
+                std::max(options.every, 1)) {
     if (1 < lanes_in<R> && !system.facts().in_lanes_with_slopes) {
       throw std::invalid_argument(sentence(
           "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
@@ -125,7 +127,8 @@ class after_steps {
     const std::int64_t of_stretch_of_one =
         detail::evaluations_of(system_,
                                steps == 1 ? word.evaluations_of_plain_step
-                                          : word.evaluations_to_open + steps * word.evaluations_per_step,
+                                          : word.evaluations_to_open + steps * word.evaluations_per_step +
+                                                std::ssize(options_.steps) * word.evaluations_to_look,
                                steps * word.force_derivatives);
     const auto visit = [&](std::int64_t index) {
       const auto& part = (*parts_)[static_cast<std::size_t>(index)];

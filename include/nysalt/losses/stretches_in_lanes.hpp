@@ -67,10 +67,13 @@ struct stretch_starts {
   std::vector<std::size_t> pairs;        ///< where stretches begin
   std::vector<std::size_t> first_of{0};  ///< trajectory m has stretches first_of[m] .. first_of[m + 1] - 1
 
-  /// Of the stretches of so many steps that fit into trajectories of the data, and begin so far apart.
-  stretch_starts(const flow_map_data& data, std::size_t steps, std::size_t apart) {
+  /// Of the stretches of so many steps that fit into trajectories of the data whose number, among those of
+  /// all ranks, `every` divides, and begin so far apart.
+  stretch_starts(const flow_map_data& data, std::size_t steps, std::size_t apart, std::int64_t every = 1) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
-      for (std::size_t pair = data.first_of[m]; pair + steps <= data.first_of[m + 1]; pair += apart) {
+      const bool counts = (data.share().first() + static_cast<std::int64_t>(m)) % every == 0;
+      for (std::size_t pair = data.first_of[m]; counts && pair + steps <= data.first_of[m + 1];
+           pair += apart) {
         pairs.push_back(pair);
       }
       first_of.push_back(pairs.size());

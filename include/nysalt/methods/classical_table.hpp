@@ -140,6 +140,29 @@ inline constexpr classical_row classical_table[] = {
     {"aboba", "ABOBA", std::array{0.5, 0.5, 1.0, 0.5, 0.5}, 2, "leimkuhler_matthews_2013"},
     {"obabo", "OBABO", std::array{0.5, 0.5, 1.0, 0.5, 0.5}, 2, "bussi_parrinello_2007"},
 };
+
+/// Classical kernels with processors P = B A B A ..., with which P(-h) K^n P(h)^-1 agrees with the flow to
+/// h^order for every n: 5 equations for the order 4, 11 for the order 6 [blanes_casas_ros_1999], which
+/// docs/notation.md lists. Of their solutions these have a small sum of squares. They are words as data
+/// alone.
+inline constexpr classical_row processed_table[] = {
+    {.name = "takahashi_imada_processed", .letters = "AGA|BABABA",
+     .coefficients = [] {
+       constexpr double x = 0.16047247800761, y = 0.0991774456676410, z = 0.25964992367525;
+       return std::array{0.5, 1.0, 1.0 / 24.0, 0.5, -x, y, z, -z, -y, x};
+     }(), .order = 4, .source = "takahashi_imada_1984", .requires_quadratic_kinetic = true},
+    // a, b, c are those with which the kernel fg4 is conjugate to a method of order 6.
+    {.name = "fg4_processed", .letters = "ABAGABA|BABABABABABABA",
+     .coefficients = [] {
+       constexpr double a = -0.06826103839186301, b = 0.2621129352517028, c = 0.01640111281607833;
+       return std::array{a, b, 0.5 - a, 1.0 - 2.0 * b, c, 0.5 - a, b, a,
+                         0.03373311281826821, 0.2281381917462715, 0.06392082841500404,
+                         -0.3744804007903129, 0.2530866083518434, 0.1696191837204259,
+                         -0.3353442653699947, -0.18691655686842, -0.2605352967581503,
+                         0.3336701560859482, -0.1419773137996439, -0.2506475135961628,
+                         0.3871163263426732, 0.08061693970225002};
+     }(), .order = 6, .source = "blanes_casas_ros_1999", .requires_quadratic_kinetic = true},
+};
 // clang-format on
 
 }  // namespace nysalt

@@ -11,16 +11,16 @@ namespace nysalt {
 
 /// Several steps of a method with an equal part of the step each, as one method: the first coefficient of a
 /// letter goes with h, the second, of gradient kicks, with h^3. Throws std::invalid_argument unless there is
-/// at least one step, or if the word has letters O.
+/// at least one step, or, of several steps, if the word has letters O or a processor.
 inline tabulated repeated(const tabulated& method, int times) {
   const run_time_word& word = method.letters();
-  if (times < 1 || word.stochastic_letters > 0) {
+  if (times == 1) return method;
+  if (times < 1 || word.stochastic_letters > 0 || word.is_processed()) {
     throw std::invalid_argument(
-        sentence("repeated: the number of steps must be at least 1 and the word without letters O, got {} "
-                 "steps of {}; place the letters O afterwards",
+        sentence("repeated: the number of steps must be at least 1 and the word without letters O and "
+                 "processor, got {} steps of {}; place the letters O afterwards",
                  times, word.letters()));
   }
-  if (times == 1) return method;
   const double part = 1.0 / times;
   std::string letters;
   std::vector<double> coefficients;

@@ -18,7 +18,8 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
   if (!is_black_box(system)) {
     run_time_word word = method.letters();
     if (!system.bath().acts()) word = conservative_part(word);
-    return evaluations_of(system, word.evaluations_to_open + steps * word.evaluations_per_step,
+    const int to_look = steps > 0 ? word.evaluations_to_look : 0;
+    return evaluations_of(system, word.evaluations_to_open + steps * word.evaluations_per_step + to_look,
                           steps * word.force_derivatives);
   }
   const model watched = system.separate();
@@ -29,7 +30,9 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
     before_last = watched.calls();
     stepper.advance(run, 1);  // the first may find no force at hand
   }
-  return watched.calls() + std::max<std::int64_t>(steps - 2, 0) * (watched.calls() - before_last);
+  const std::int64_t more = std::max<std::int64_t>(steps - 2, 0) * (watched.calls() - before_last);
+  stepper.synchronous(run);
+  return watched.calls() + more;
 }
 
 }  // namespace nysalt::detail

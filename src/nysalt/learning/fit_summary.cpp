@@ -104,6 +104,7 @@ std::string fit_summary::full() const {
     line("gap",
          fmt::format("unstable for z = {:.4g} to {:.4g}, which the motion meets rarely or never", low, high));
   }
+  if (!resonance.empty()) line("resonance", resonance);
   line("one-step error",
        fmt::format("{:.3e}, the reference's own {}", one_step_error,
                    reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));

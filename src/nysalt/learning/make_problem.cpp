@@ -136,6 +136,16 @@ double motion_in(const flow_map_data& data, const metric& measure, const after_s
   return data.share().sum(squares);
 }
 
+/// Of large systems the stages of a search look at some of the trajectories alone, 16 at least: a trajectory
+/// of a hundred coordinates tells as much of where minima lie as some ten of a few.
+int trajectories_apart(const flow_map_data& data, Eigen::Index coordinates) {
+  constexpr std::int64_t enough = 1200;  // coordinates of all trajectories
+  constexpr std::int64_t least = 16;
+  const std::int64_t all = data.share().total();
+  return static_cast<int>(
+      std::clamp<std::int64_t>(all * coordinates / enough, 1, std::max<std::int64_t>(all / least, 1)));
+}
+
 /// Of a problem over trajectories of so many steps at most. `before` counts the evaluations of what was tried
 /// over more.
 learning_problem make_problem(
@@ -171,8 +181,12 @@ learning_problem make_problem(
   const auto stages =
       other == nullptr ? kind.stages(chosen.steps, shortest) : after_each_step(other->steps, shortest);
   std::vector<detail::data_loss> losses_of_stages;
-  for (const auto& stage : stages) losses_of_stages.push_back(loss_over(data, stage));
-  const detail::data_loss loss = losses_of_stages.back();
+  const int every = trajectories_apart(data, size(system));
+  for (auto stage : stages) {
+    stage.every = every;
+    losses_of_stages.push_back(loss_over(data, stage));
+  }
+  const detail::data_loss loss = every == 1 ? losses_of_stages.back() : loss_over(data, stages.back());
   const auto held = loss_over(held_out, stages.back());
   const auto one_step = detail::of_states(inputs(held_out, {}));
   const int end = shortest_of(held_out);
@@ -181,6 +195,7 @@ learning_problem make_problem(
   const auto passes = [=] {
     std::int64_t here = held.evaluations() + one_step.evaluations() + at_end.evaluations() + before();
     for (const auto& stage : losses_of_stages) here += stage.evaluations();
+    if (every > 1) here += loss.evaluations();
     return here;
   };
 
@@ -235,7 +250,8 @@ learning_problem make_problem(
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
     run_time_family alone(method.name(), method.letters(), method.coefficients());
     if (family.letters.stochastic_letters > 0) {
-      if (!place || (*place == placement::middle && alone.letters.length % 2 == 0)) return std::nullopt;
+      if (!place || alone.letters.is_processed()) return std::nullopt;
+      if (*place == placement::middle && alone.letters.length % 2 == 0) return std::nullopt;
       alone = thermostatted(alone, *place);
     }
     try {

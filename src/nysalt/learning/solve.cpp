@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "length_of_trial.hpp"
+#include "nysalt/derivatives/stability_margin.hpp"
 #include "nysalt/detail/together.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
@@ -233,6 +234,11 @@ fit solve_as_it_is(const learning_problem& problem) {
          problem.guard.gaps(family.letters, family.coefficients(theta), problem.step)) {
       summary.gaps.push_back({low, high});
     }
+  }
+
+  if (options.planned_steps > long_run && !family.letters.rotates()) {
+    const auto near = near_resonance(problem.guard.frequencies(met::often), problem.step);
+    if (near) summary.resonance = in_words(*near);
   }
 
   // The strongest rival of the same cost, whether the family contains it or not.

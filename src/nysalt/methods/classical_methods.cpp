@@ -21,6 +21,7 @@ std::vector<tabulated> classical_methods() {
     const bool is_for_baths = row.letters.find(ornstein_uhlenbeck::letter) != std::string_view::npos;
     if (!is_for_baths && !row.repeats) result.push_back(as_data(row));
   }
+  for (const auto& row : processed_table) result.push_back(as_data(row));
   return result;
 }
 
@@ -29,6 +30,7 @@ std::vector<tabulated> classical_methods_of_cost(int evaluations) {
   for (const auto& method : classical_methods()) {
     const int each = method.letters().evaluations_per_step;
     if (evaluations % each != 0) continue;
+    if (evaluations != each && method.letters().is_processed()) continue;
     result.push_back(repeated(method, evaluations / each));
   }
   return result;

@@ -47,7 +47,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
   for (const auto& text :
-       {stability_warning(command.method, *method, *system, plan.step, plan.seed),
+       {stability_warning(command.method, *method, *system, plan.step, plan.steps, plan.seed),
         failed_trial(command.method, *method, *system, plan.step, plan.steps, plan.seed, plan.threads),
         warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSL-1.0
+// Processed words: P(h)^-1 once, the kernel step by step, and P(-h) on what is looked at.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "../laws/run_laws.hpp"
+#include "../laws/trials.hpp"
+#include "../support/refusal.hpp"
+#include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/families/free_composition.hpp"
+#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/repeated.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/run_time_family.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+tabulated random_member(const run_time_family& family, draws& random) {
+  Eigen::VectorXd theta = family.starts.front().theta;
+  for (Eigen::Index k = theta.size() - family.letters.processor().size() + 2; k < theta.size(); ++k) {
+    theta[k] = random.uniform(-0.3, 0.3);
+  }
+  return {family.name,
+          family.letters,
+          family.coefficients(theta),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
+}
+
+/// Members of families with processors, and the classical ones.
+std::vector<tabulated> processed_methods(draws& random) {
+  std::vector<tabulated> all{random_member(processed(run_time_family(fg4()), 3), random),
+                             random_member(processed(run_time_family(bab<4>()), 2), random),
+                             random_member(processed(run_time_family(fg_chin()), 5), random)};
+  for (const auto& row : processed_table) all.push_back(as_data(row));
+  return all;
+}
+
+/// f(system, method, step, x) for processed methods on systems of all kinds.
+void try_processed(auto&& f) {
+  draws random;
+  for (int n = 0; n < 3; ++n) {
+    for (const auto& method : processed_methods(random)) try_on_method<various_systems>(method, f);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_letters_of_kernel_and_processor) {
+  const run_time_word word("ABA|BABA");
+  BOOST_TEST(word.is_processed());
+  BOOST_TEST(word.letters() == "ABA|BABA");
+  BOOST_TEST(word.processor() == "BABA");
+  BOOST_TEST(word.length == 3U);
+  BOOST_TEST(word.kernel_slots == 3U);
+  BOOST_TEST(word.slots == 7U);
+  BOOST_TEST(word.evaluations_per_step == 1);
+  BOOST_TEST(word.evaluations_to_open == 2);
+  BOOST_TEST(word.evaluations_to_look == 2);
+  BOOST_TEST(word.evaluations_of_plain_step == 5);
+  BOOST_TEST(!run_time_word("ABA").is_processed());
+  BOOST_TEST(detail::pre_processor(word).letters() == "ABAB");
+  BOOST_TEST((detail::pre_processor_coefficients<double>(word, {0.5, 1.0, 0.5, 1.0, 2.0, 3.0, 4.0}) ==
+              std::vector{-4.0, -3.0, -2.0, -1.0}));
+  BOOST_TEST((detail::post_processor_coefficients<double>(word, {0.5, 1.0, 0.5, 1.0, 2.0, 3.0, 4.0}) ==
+              std::vector{-1.0, -2.0, -3.0, -4.0}));
+}
+
+BOOST_AUTO_TEST_CASE(words_that_are_none) {
+  const auto none = [](const std::string& letters, const std::string& what) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{letters}; }, {what}), letters);
+  };
+  none("|BA", "at least one letter");
+  none("ABA|", "processor");
+  none("ABA|BBA", "in turn");
+  none("ABA|BGA", "in turn");
+  none("ABA|BA|BA", "in turn");
+  none("ABA|OA", "in turn");
+  none("BAOAB|BA", "temperature");
+  none("RSR|BA", "leave it away");
+}
+
+BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
+  draws random;
+  for (const auto& method : processed_methods(random)) {
+    try_on_method<various_systems>(method, [](const auto& system, const auto& each, double, const auto& x) {
+      BOOST_TEST(symplecticity_broken(system, each, x) <= 1.0);
+    });
+  }
+}
+
+// n steps forth, momenta turned, n steps forth, and momenta turned: the start. Rounding is that of 200 steps
+// of some 20 letters at a quarter of a radian, magnified by less than 100: 1e-12 of the state.
+BOOST_AUTO_TEST_CASE(there_and_back_returns_to_rounding) {
+  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto turned = [&](auto y) {
+      y.p = -y.p;
+      return y;
+    };
+    if constexpr (NystromSystem<std::remove_cvref_t<decltype(system)>>) {
+      const auto fixed = make_stepper(system, method, step);
+      const auto there = run_finish(fixed, x, 20);
+      const auto back = turned(run_finish(fixed, turned(there), 20));
+      BOOST_TEST(distance(back, x) <= 1e-12 * size_of(x));
+      const auto backwards = make_stepper(system, method, -step);
+      BOOST_TEST(distance(run_finish(backwards, there, 20), x) <= 1e-12 * size_of(x));
+    }
+  });
+}
+
+// P K^n P^-1, which the literature has, is reversible only as far as P is even in h.
+BOOST_AUTO_TEST_CASE(the_same_processor_before_and_after_is_not_reversible) {
+  draws random;
+  const auto method = processed_methods(random).front();
+  const pendulum system;
+  const auto x = random.state(system, 1.0);
+  const run_time_word& word = method.letters();
+  const auto c = method.coefficients();
+  auto same = detail::post_processor_coefficients(word, c);
+  for (double& one : same) one = -one;
+  const stepper<pendulum, run_time_word> before(system, detail::pre_processor(word),
+                                                detail::pre_processor_coefficients(word, c), 0.25);
+  const stepper<pendulum, run_time_word> after(system, detail::post_processor(word), same, 0.25);
+  const stepper<pendulum, run_time_word> kernel(
+      system, run_time_word(word.letters().substr(0, word.length)),
+      {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, 0.25);
+  auto y = x;
+  for (int turn = 0; turn < 2; ++turn) {
+    before.step(y);
+    kernel.step(y);
+    after.step(y);
+    y.p = -y.p;
+  }
+  BOOST_TEST(distance(y, x) > 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_its_parts) {
+  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
+    using system_type = std::remove_cvref_t<decltype(system)>;
+    const run_time_word& word = method.letters();
+    const auto c = method.coefficients();
+    const auto part = [&](const run_time_word& letters, const std::vector<double>& all, auto& y) {
+      stepper<system_type, run_time_word>(system, letters, all, step).step(y);
+    };
+    auto y = x;
+    part(detail::pre_processor(word), detail::pre_processor_coefficients(word, c), y);
+    const stepper<system_type, run_time_word> kernel(
+        system, run_time_word(word.letters().substr(0, word.length)),
+        {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, step);
+    y = run_finish(kernel, y, 7);
+    part(detail::post_processor(word), detail::post_processor_coefficients(word, c), y);
+    BOOST_TEST(same_bits(run_finish(make_stepper(system, method, step), x, 7), y));
+  });
+}
+
+BOOST_AUTO_TEST_CASE(cut_and_observed_runs_have_the_bits_of_one_go) {
+  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto fixed = make_stepper(system, method, step);
+    const auto whole = run_finish(fixed, x, 20);
+    BOOST_TEST(same_bits(watched_finish(fixed, x, 20, 3), whole));
+    BOOST_TEST(same_bits(observed_finish(system, method, step, x, 20, 1), whole));
+    for (const int first : {0, 1, 13, 20}) {
+      BOOST_TEST(same_bits(cut_finish(system, method, step, x, 20, first), whole));
+    }
+    // Processing anew at every step is another trajectory.
+    BOOST_TEST(!same_bits(reopened_finish(system, method, step, x, 20), whole));
+  });
+}
+
+BOOST_AUTO_TEST_CASE(the_sample_at_the_start_is_the_start) {
+  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
+    const auto fixed = make_stepper(system, method, step);
+    BOOST_TEST(same_bits(fixed.synchronous(fixed.open(x)), x));
+  });
+}
+
+BOOST_AUTO_TEST_CASE(models_and_lanes_have_the_same_bits) {
+  draws random;
+  const fpu_chain<3> system(50.0);
+  for (const auto& method : processed_methods(random)) {
+    const auto fixed = make_stepper(system, method, 0.01);
+    BOOST_TEST(lanes_are_alone<4>(fixed, random, 0.1), method.name());
+    const auto x = random.state(system, 0.1);
+    const model erased(system);
+    const auto other = make_stepper(erased, method, 0.01);
+    const phase_point<double, Eigen::Dynamic> start{x.q, x.p};
+    const auto expected = run_finish(fixed, x, 20);
+    BOOST_TEST(
+        same_bits(run_finish(other, start, 20), phase_point<double, Eigen::Dynamic>{expected.q, expected.p}),
+        method.name());
+    BOOST_TEST(same_bits(watched_finish(other, start, 20, 3), run_finish(other, start, 20)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
+  draws random;
+  const pendulum system;
+  for (const auto& method : processed_methods(random)) {
+    const auto x = random.state(system, 1.0);
+    const run_time_word& word = method.letters();
+    BOOST_TEST_CONTEXT(method.name()) {
+      const std::int64_t of_looks = 5 * word.evaluations_to_look;
+      BOOST_TEST(nysalt::test::evaluations_of_run(system, method, 0.1, x, 5) ==
+                 word.evaluations_to_open + 5 * word.evaluations_per_step + of_looks);
+      BOOST_TEST(nysalt::evaluations_of_run(system, method, 0.1, 5, x) ==
+                 word.evaluations_to_open + 5 * word.evaluations_per_step + word.evaluations_to_look);
+      BOOST_TEST(evaluations_of_step(system, method, 0.1, x) == word.evaluations_of_plain_step);
+    }
+  }
+}
+
+// The error of n steps: terms of P that are odd in h do not cancel, and are not seen after one step where the
+// kernel has such terms too.
+BOOST_AUTO_TEST_CASE(processors_reach_their_order) {
+  draws random;
+  for (const auto& method : processed_methods(random)) {
+    BOOST_TEST(taylor_order(method).quadratic_kinetic == method.order, method.name());
+  }
+  for (const auto& row : processed_table) {
+    auto method = as_data(row);
+    auto c = method.coefficients();
+    std::fill(c.begin() + static_cast<std::ptrdiff_t>(method.letters().kernel_slots), c.end(), 0.0);
+    BOOST_TEST(taylor_order(method.letters(), c).quadratic_kinetic == 2,
+               method.name());  // of the kernel alone
+    c = method.coefficients();
+    c.back() += 1e-6;
+    BOOST_TEST(taylor_order(method.letters(), c).quadratic_kinetic == 0, method.name());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(families_with_a_processor) {
+  const auto family = processed(run_time_family(fg4()), 3);
+  BOOST_TEST(family.name == "fg4+p3");
+  BOOST_TEST(family.letters.letters() == "ABAGABA|BABABA");
+  BOOST_TEST(family.parameters() == 3 + 4);
+  BOOST_TEST(family.starts.front().theta.size() == family.parameters());
+  Eigen::VectorXd theta(7);
+  theta << 0.1, 0.2, 0.01, 0.3, -0.4, 0.5, 0.25;
+  const auto c = family.coefficients(theta);
+  BOOST_TEST(c.size() == family.letters.slots);
+  BOOST_TEST(std::abs(c[8] + c[10] + c[12]) <= 4e-16);  // three additions of numbers below one
+  BOOST_TEST(std::abs(c[9] + c[11] + c[13]) <= 4e-16);
+  const Eigen::MatrixXd slopes = family.jacobian(theta);
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    Eigen::VectorXd moved = theta;
+    moved[k] +=
+        0.125;  // exact, as coefficients are linear but for products of a and b, of which there are none
+    const auto there = family.coefficients(moved);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      BOOST_TEST(std::abs((there[i] - c[i]) / 0.125 - slopes(static_cast<Eigen::Index>(i), k)) <= 1e-14);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(families_that_cannot_have_one) {
+  const auto none = [](const run_time_family& family, int pairs, const std::string& what) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { processed(family, pairs); }, {what}), what);
+  };
+  none(run_time_family(fg4()), 1, "from 2 to 8 pairs");
+  none(run_time_family(fg4()), 9, "from 2 to 8 pairs");
+  none(run_time_family(bab6_free()), 3, "must be symmetric");
+  none(processed(run_time_family(fg4()), 3), 3, "in turn");
+}
+
+BOOST_AUTO_TEST_CASE(not_in_a_bath_and_not_repeated) {
+  draws random;
+  const auto method = processed_methods(random).front();
+  for (const auto where : placements) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { thermostat(method, where); }, {"bath", "temperature"}));
+    BOOST_TEST(refuses<std::invalid_argument>(
+        [&] { thermostatted(processed(run_time_family(fg4()), 3), where); }, {"bath"}));
+  }
+  BOOST_TEST(refuses<std::invalid_argument>([&] { repeated(method, 2); }, {"processor"}));
+}
