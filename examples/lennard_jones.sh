@@ -18,8 +18,8 @@ awk -F , '$2 != "step" { printf "trajectory %d  t = %5.1f  H = %.2f\n", $1, $3, 
 
 # Expected output:
 # fg_chin at step 0.045 for lennard_jones(space=2, atoms=7)
-#   b                     0.1678100065072384  (held by the guard)
-#   c                     0.01356633041281389  (held by the guard)
+#   b                     0.16781019717227752  (held by the guard)
+#   c                     0.013566312104606498  (held by the guard)
 #   usable                yes
 #   uncertainty           not known
 #   stability             estimated 0..26.98 along 704 states, 0..21.11 in nine tenths of them

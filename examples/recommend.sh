@@ -18,40 +18,42 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # henon_heiles(), 100 fresh trajectories over 20, state error, 5 evaluations per unit time
 # starts: normal_around(0.1, 0.1)
 #
-# method                    order  step  evaluations/time  ns/time     error  standard error  95 % err below  diverged
-# ------------------------  -----  ----  ----------------  -------  --------  --------------  --------------  --------
-# learned:bab6                  2   1.2               5.0~4.45e-06            tail        8.95e-06     0/100
-# learned:fg_chin               2   0.6               5.0~2.80e-05            tail        5.02e-05     0/100
-# phase_fitted_omelyan5v        4     1               5.0~2.71e-05            tail        5.30e-05     0/100
-# phase_fitted_omelyan_fg4      4   0.8               5.0~3.15e-05            tail        5.84e-05     0/100
-# phase_fitted_chin4a           4   0.6               5.0~3.18e-05            tail        6.65e-05     0/100
-# phase_fitted_srkn6b           4   1.2               5.0~3.89e-05            tail        7.65e-05     0/100
-# phase_fitted_mclachlan5       4     1               5.0~6.53e-05            tail        1.27e-04     0/100
-# phase_fitted_pefrl            4   0.8               5.0~6.88e-05            tail        1.30e-04     0/100
-# chin4a                        4   0.6               5.0~9.75e-05            tail        1.82e-04     0/100
-# omelyan5v                     4     1               5.0~1.13e-04            tail        1.90e-04     0/100
-# blanes_moan_s6                4   1.2               5.0~1.13e-04            tail        1.91e-04     0/100
-# omelyan_fg4                   4   0.8               5.0~1.14e-04            tail        1.98e-04     0/100
-# srkn6b                        4   1.2               5.0~1.19e-04            tail        2.10e-04     0/100
-# mclachlan5                    4     1               5.0~1.48e-04            tail        2.37e-04     0/100
-# srkn11b                       6   2.2               5.0~1.38e-04            tail        2.58e-04     0/100
-# mclachlan_atela4              4   0.8               5.0~1.45e-04            tail        2.59e-04     0/100
-# pefrl                         4   0.8               5.0~1.63e-04            tail        2.67e-04     0/100
-# omelyan5p                     4     1               5.0~2.53e-04            tail        4.48e-04     0/100
-# srkn14a                       6   2.8               5.0~2.75e-04            tail        4.86e-04     0/100
-# phase_fitted_vefrl            4   0.8               5.0~2.47e-04            tail        5.11e-04     0/100
-# impulse                       2   0.2               5.0~6.52e-04            tail        1.23e-03     0/100
-# vefrl                         4   0.8               5.0~1.10e-03            tail        1.87e-03     0/100
-# takahashi_imada               2   0.4               5.0~2.25e-03            tail        3.59e-03     0/100
-# verlet                        2   0.2               5.0~4.05e-03            tail        6.12e-03     0/100
-# verlet_aba                    2   0.2               5.0~3.95e-03         1.4e-04        6.22e-03     0/100
-# bcss2                         2   0.4               5.0~4.19e-03         1.4e-04        6.35e-03     0/100
-# bcss3                         2   0.6               5.0~4.45e-03         1.5e-04        6.74e-03     0/100
-# mclachlan2                    2   0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
-# s_aia2                        2   0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
-# predescu3                     2   0.6               5.0~4.66e-03         1.6e-04        6.91e-03     0/100
-# bcss4                         2   0.8               5.0~4.76e-03         1.6e-04        7.10e-03     0/100
-# forest_ruth                   4   0.6               5.0~2.72e-02            tail        4.61e-02     0/100
+# method                     order    step  evaluations/time  ns/time     error  standard error  95 % err below  diverged
+# -------------------------  -----  ------  ----------------  -------  --------  --------------  --------------  --------
+# learned:bab6                   2     1.2               5.0~4.45e-06            tail        8.95e-06     0/100
+# learned:fg_chin                2     0.6               5.0~2.80e-05            tail        5.02e-05     0/100
+# phase_fitted_omelyan5v         4       1               5.0~2.71e-05            tail        5.30e-05     0/100
+# phase_fitted_omelyan_fg4       4     0.8               5.0~3.15e-05            tail        5.84e-05     0/100
+# phase_fitted_chin4a            4     0.6               5.0~3.18e-05            tail        6.65e-05     0/100
+# phase_fitted_srkn6b            4     1.2               5.0~3.89e-05            tail        7.65e-05     0/100
+# phase_fitted_mclachlan5        4       1               5.0~6.53e-05            tail        1.27e-04     0/100
+# phase_fitted_pefrl             4     0.8               5.0~6.88e-05            tail        1.30e-04     0/100
+# chin4a                         4     0.6               5.0~9.75e-05            tail        1.82e-04     0/100
+# omelyan5v                      4       1               5.0~1.13e-04            tail        1.90e-04     0/100
+# blanes_moan_s6                 4     1.2               5.0~1.13e-04            tail        1.91e-04     0/100
+# omelyan_fg4                    4     0.8               5.0~1.14e-04            tail        1.98e-04     0/100
+# srkn6b                         4     1.2               5.0~1.19e-04            tail        2.10e-04     0/100
+# mclachlan5                     4       1               5.0~1.48e-04            tail        2.37e-04     0/100
+# takahashi_imada_processed      4  0.4255               5.0~1.38e-04            tail        2.45e-04     0/100
+# srkn11b                        6     2.2               5.0~1.38e-04            tail        2.58e-04     0/100
+# mclachlan_atela4               4     0.8               5.0~1.45e-04            tail        2.59e-04     0/100
+# pefrl                          4     0.8               5.0~1.63e-04            tail        2.67e-04     0/100
+# omelyan5p                      4       1               5.0~2.53e-04            tail        4.48e-04     0/100
+# srkn14a                        6     2.8               5.0~2.75e-04            tail        4.86e-04     0/100
+# phase_fitted_vefrl             4     0.8               5.0~2.47e-04            tail        5.11e-04     0/100
+# fg4_processed                  6  0.9302               5.0~3.87e-04            tail        7.69e-04     0/100
+# impulse                        2     0.2               5.0~6.52e-04            tail        1.23e-03     0/100
+# vefrl                          4     0.8               5.0~1.10e-03            tail        1.87e-03     0/100
+# takahashi_imada                2     0.4               5.0~2.25e-03            tail        3.59e-03     0/100
+# verlet                         2     0.2               5.0~4.05e-03            tail        6.12e-03     0/100
+# verlet_aba                     2     0.2               5.0~3.95e-03         1.4e-04        6.22e-03     0/100
+# bcss2                          2     0.4               5.0~4.19e-03         1.4e-04        6.35e-03     0/100
+# bcss3                          2     0.6               5.0~4.45e-03         1.5e-04        6.74e-03     0/100
+# mclachlan2                     2     0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
+# s_aia2                         2     0.4               5.0~4.54e-03         1.5e-04        6.74e-03     0/100
+# predescu3                      2     0.6               5.0~4.66e-03         1.6e-04        6.91e-03     0/100
+# bcss4                          2     0.8               5.0~4.76e-03         1.6e-04        7.10e-03     0/100
+# forest_ruth                    4     0.6               5.0~2.72e-02            tail        4.61e-02     0/100
 # tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than
 #
 # Take learned:bab6 at step 1.2: its error is 6.09 times smaller (95 %: 4.43 to 7.71) than that of phase_fitted_omelyan5v, the best classical method, at ~

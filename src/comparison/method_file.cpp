@@ -158,7 +158,7 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
     sums[fmt::format("{} of the processor", processor[i])] += coefficients[word.kernel_slots + i];
   }
   std::vector<std::string> texts;
-  for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {}", letter, sum));
+  for (const auto& [letter, sum] : sums) texts.push_back(fmt::format("{} adds up to {:.10g}", letter, sum));
   return listed(texts);
 }
 

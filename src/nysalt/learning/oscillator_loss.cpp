@@ -10,12 +10,14 @@ namespace nysalt::detail {
 
 namespace {
 
-/// What defects of z^2 are multiplied with to be those of the matrix itself, its four entries counted.
-Eigen::VectorXd weights_of_defects(Eigen::Index count, double z) {
+/// What defects of z^2 are multiplied with to be those of the matrix itself, its four entries counted. Of a
+/// kernel the phase alone counts, which is the first: a processor does the rest.
+Eigen::VectorXd weights_of_defects(Eigen::Index count, double z, bool is_kernel) {
   const double root =
       std::numbers::sqrt2;  // the half trace stands for two entries, and so does the difference
   Eigen::VectorXd weights(4);
   weights << root * std::pow(z, 4), std::pow(z, 3), std::pow(z, 3), root * z * z;
+  if (is_kernel) weights.tail(3).setZero();
   return weights.head(count);
 }
 
@@ -38,7 +40,7 @@ objective oscillator_loss(const run_time_family& family, const std::vector<frequ
     const auto coefficients = family.coefficients(theta);
     for (const double z : angles) {
       Eigen::VectorXd r = defect_of_rotation(family.letters, coefficients, family.symmetric, z * z);
-      const Eigen::VectorXd weights = weights_of_defects(r.size(), z);
+      const Eigen::VectorXd weights = weights_of_defects(r.size(), z, family.letters.is_processed());
       r = r.cwiseProduct(weights);
       const Eigen::MatrixXd slopes = weights.asDiagonal() * jacobian_of_defect(family, theta, z * z);
       sum.value += r.squaredNorm();

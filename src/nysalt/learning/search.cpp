@@ -131,6 +131,22 @@ std::vector<named_parameters> most_promising(const search_task& task, const obje
   return admitted;
 }
 
+/// Those with the least losses, in their order.
+void keep_least(std::vector<named_parameters>& starts, const objective& loss, std::size_t most) {
+  if (starts.size() <= most) return;
+  std::vector<double> losses;
+  for (const auto& start : starts) losses.push_back(loss(start.theta).value);
+  std::vector<double> sorted = losses;
+  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(most) - 1,
+                           [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
+  const double largest = sorted[most - 1];
+  std::size_t n = 0;
+  std::erase_if(starts, [&](const named_parameters&) { return !(losses[n++] <= largest); });
+}
+
+/// Starts from which a search goes along the edge of stability, which takes many passes over the data.
+constexpr std::size_t most_at_edge = 12;
+
 }  // namespace
 
 search_result search(const search_task& task, const std::vector<named_parameters>& given) {
@@ -172,9 +188,10 @@ search_result search(const search_task& task, const std::vector<named_parameters
   };
   std::vector<named_parameters> refuges = starts;
   if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
-  if (task.refuge) refuges.push_back(*task.refuge);
+  std::erase_if(refuges, [&](const named_parameters& start) { return !is_allowed(start.theta); });
+  keep_least(refuges, task.loss, most_at_edge);
+  if (task.refuge && is_allowed(task.refuge->theta)) refuges.push_back(*task.refuge);
   for (const auto& start : refuges) {
-    if (!is_allowed(start.theta)) continue;
     candidate one{
         .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
     one.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free);

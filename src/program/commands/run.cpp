@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <cstdint>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -189,8 +190,12 @@ int run(const run_command& asked, const common_settings& common) {
     output->describe(document);
     document["steps"] = plan.steps;
     document["seed"] = common.seed;
-    if (!was_finished || common.json)
-      document["evaluations"] = system.count_evaluations(*planned.method, plan);
+    if (!was_finished || common.json) {
+      const std::int64_t further_looks =
+          std::max<std::int64_t>(plan.steps / command.sample_every - 1, 0);  // one is counted with the run
+      document["evaluations"] = system.count_evaluations(*planned.method, plan) +
+                                further_looks * planned.method->letters().evaluations_to_look;
+    }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     document["warnings"] = warnings;
     if (common.json) {
