@@ -76,7 +76,7 @@ struct recommendation_options {
   std::string placement{};                       ///< of the letters O in a bath: end, symmetric or middle
   double hmc_temperature = 1.0;                  ///< kT of the acceptance, an energy
   bool reversible = false;                       ///< symmetric methods alone
-  std::int64_t looks = 1;  ///< at each trajectory of the runs to come, for which processed methods pay
+  std::int64_t looks = 1;  ///< at each trajectory of later runs: processed methods pay for each
 };
 
 }  // namespace nysalt

@@ -164,7 +164,7 @@ class run_time_word {
   void take_processor() {
     const std::string letters = processor();
     const auto is_other = [](char a, char b) { return (a == 'A' && b == 'B') || (a == 'B' && b == 'A'); };
-    bool are_in_turn = letters.front() == 'A' || letters.front() == 'B';
+    bool are_in_turn = letters.starts_with('A') || letters.starts_with('B');
     for (std::size_t i = 1; i < letters.size(); ++i) {
       are_in_turn = are_in_turn && is_other(letters[i - 1], letters[i]);
     }
@@ -173,10 +173,16 @@ class run_time_word {
           sentence("the word {} has the processor {}: its letters must be A and B in turn, as in BABA",
                    letters_, letters));
     }
-    if (stochastic_letters > 0 || rotates_) {
+    if (stochastic_letters > 0) {
       throw std::invalid_argument(sentence(
-          "the word {} has a processor: its kernel must be of the letters A, B and G, as a processor "
-          "changes the temperature of modes in a bath, and is of A and B; leave it away",
+          "the word {} has letters O and a processor: a kernel that is made for a processor gives the "
+          "modes another temperature; leave one of them away",
+          letters_));
+    }
+    if (rotates_) {
+      throw std::invalid_argument(sentence(
+          "the word {} has a processor: its kernel must be of the letters A, B and G, as the letters A "
+          "and B of a processor do not mix with R, S and H; take another kernel",
           letters_));
     }
     slots += letters.size();

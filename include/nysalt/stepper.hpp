@@ -84,7 +84,8 @@ class stepper {
   const Noise& noise() const { return noise_; }  ///< a copy of its source
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
-  /// word's evaluations_to_open. Throws std::invalid_argument if x has not the system's dimension.
+  /// word's evaluations_to_open, which a processed word pays with its first step. Throws
+  /// std::invalid_argument if x has not the system's dimension.
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x, std::uint64_t trajectory = 0) const {
     require_size(x);
@@ -116,7 +117,8 @@ class stepper {
   }
 
   /// The same, watched: calls look(n, x) with the synchronous state at each step n that `every` divides. The
-  /// run stays in a local copy, and looking does not change it.
+  /// run stays in a local copy, and looking does not change it. Cost: the word's evaluations_to_look each
+  /// time.
   template <Scalar T, class Look>
   void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
     if (steps < 0 || every < 1) {
@@ -164,9 +166,21 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
+  /// The same of the kernel of a processed word, without P(-h); else synchronous(). No evaluation.
+  template <Scalar T>
+  phase_point<T, dimension> of_kernel(const open_run<T, dimension>& run) const {
+    if (!is_processed_) return synchronous(run);
+    flow_state<T, dimension> x = run.state;
+    auto cursor = cursor_at<T>(run.trajectory, run.step);
+    if constexpr (!TypeLevelWord<W>) {
+      if (run.step > 0) letters_.close_kernel(*system_, x, cursor);
+    }
+    return {std::move(x.q), std::move(x.p)};
+  }
+
   /// One plain step, letter by letter, from q and p alone (f is scratch): what learning and the
-  /// analyses differentiate. Its noise is that of step n of the trajectory. Cost: the word's
-  /// evaluations_of_plain_step.
+  /// analyses differentiate; of a processed word P(-h) K P(h)^-1, which is not what n steps of a run repeat.
+  /// Its noise is that of step n of the trajectory. Cost: the word's evaluations_of_plain_step.
   template <SteppedBy<C> T>
   void step(flow_state<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     auto cursor = cursor_at<T>(trajectory, n);
@@ -189,8 +203,8 @@ class stepper {
 
   /// A run from x (whose f is scratch) that calls look(k) after each number after[k] of steps, which rise,
   /// with the synchronous state in y: what losses over several steps differentiate. Its noise is that of
-  /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, and as many times its
-  /// evaluations_per_step as there are steps.
+  /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, as many times its
+  /// evaluations_per_step as there are steps, and its evaluations_to_look each time.
   template <SteppedBy<C> T, class Look>
   void run(flow_state<T, dimension>& x, flow_state<T, dimension>& y, std::span<const int> after,
            std::uint64_t trajectory, Look&& look) const {

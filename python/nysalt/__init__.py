@@ -406,7 +406,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
 def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
               budget_seconds: Optional[float] = None, error: Optional[float] = None,
               trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
-              hmc_temperature: Optional[float] = None, reversible: bool = False,
+              hmc_temperature: Optional[float] = None, looks: Optional[int] = None, reversible: bool = False,
               families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
               learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
               learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,

@@ -59,7 +59,8 @@ run_time_family family_named(std::string_view name) {
   const std::string_view kernel = name.substr(0, mark);
   const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
   if (known == families().end()) {
-    refuse("unknown family '{}': {}", kernel, did_you_mean(kernel, family_names()));
+    refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()),
+           mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3");
   }
   if (mark == std::string_view::npos) return *known;
   const auto pairs = pairs_in(name.substr(mark + 2));

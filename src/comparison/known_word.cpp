@@ -50,7 +50,7 @@ std::vector<letter> merged(const std::vector<letter>& all, double zero) {
 std::vector<letter> letters_of(const run_time_word& word, const std::vector<double>& coefficients) {
   std::vector<letter> result;
   std::size_t slot = 0;
-  for (const char name : word.letters()) {
+  for (const char name : word.letters().substr(0, word.length)) {
     letter one{name, coefficients[slot++], 0.0};
     if (name == 'G' || name == 'H') one.gradient = coefficients[slot++];
     result.push_back(one);
@@ -77,6 +77,13 @@ bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
   });
 }
 
+/// Whether the processor is the identity.
+bool is_trivial(const tabulated& method) {
+  const auto c = method.coefficients();
+  return std::all_of(c.begin() + static_cast<std::ptrdiff_t>(method.letters().kernel_slots), c.end(),
+                     [](double x) { return std::abs(x) < same; });
+}
+
 /// Of processed words, of which many do the same.
 bool are_same_to_the_letter(const tabulated& a, const tabulated& b) {
   return a.letters().letters() == b.letters().letters() &&
@@ -87,7 +94,7 @@ bool are_same_to_the_letter(const tabulated& a, const tabulated& b) {
 }  // namespace
 
 std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known) {
-  if (method.letters().is_processed()) {
+  if (method.letters().is_processed() && !is_trivial(method)) {
     for (const tabulated& other : known) {
       if (are_same_to_the_letter(method, other)) return other.name();
     }

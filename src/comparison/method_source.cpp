@@ -153,6 +153,8 @@ constexpr placement usual = placement::symmetric;  // the best of the three for 
 tabulated adapted_to_bath(const method_source& source, tabulated method, const prepared_problem& system,
                           std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const bool has_letters = method.letters().stochastic_letters > 0;
+  if (method.letters().is_processed() && source.where)
+    refuse("{}: a processed method has no place for letters O: leave the placement away", source.typed);
   if (has_letters && source.where)
     refuse("{}: it has its letters O already, in {}", source.typed, method.letters().letters());
   if (!system.heat_bath().acts()) {

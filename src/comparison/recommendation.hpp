@@ -71,7 +71,8 @@ class recommendation {
   }
   /// Force evaluations of processing per unit time, where trajectories are looked at as often as asked.
   double processing_of(const candidate& contender) const {
-    return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_look) / options_.horizon;
+    return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_look) /
+           options_.horizon;
   }
   double seconds_of_processing(const candidate& contender) const {
     return processing_of(contender) * seconds_of_step(contender) / contender.source.evaluations_per_step;
@@ -93,6 +94,7 @@ class recommendation {
   std::string advice() const;
   std::string advice_of(const contest& among) const;
   std::string advice_on_seconds() const;
+  std::string advice_on_looks() const;
   std::string costs(const candidate& contender, const candidate& other) const;
   std::string as_options(const candidate& contender) const;
   std::string bound_of(const contest& among, const candidate& contender) const;

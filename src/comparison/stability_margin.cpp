@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "stability.hpp"
 
@@ -284,8 +285,9 @@ std::optional<std::string> stability_warning(const std::string& name, const tabu
         "touch, and errors of nonlinear motion add up; {}",
         name, step, band.band.low, band.band.high, *band.touching, advice(judged));
   }
-  if (const auto near = near_resonance(known.bands, step); near && steps > long_run) {
-    return fmt::format("{} at step {:g}: {}", name, step, in_words(*near));
+  if (steps > long_run && !system.heat_bath().acts()) {
+    const auto near = near_resonance(method.letters(), method.coefficients(), known.bands, step);
+    if (near) return fmt::format("{} at step {:g}: {}", name, step, in_words(*near));
   }
   return std::nullopt;
 }

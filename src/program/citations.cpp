@@ -64,10 +64,14 @@ void add_reference(const cited_setup& setup, collected& to) {
 void add_setup(const cited_setup& setup, collected& to) {
   if (!setup.system.empty()) to.add(source_of_system(setup.system), "the system " + setup.system);
   for (const auto& name : setup.methods) to.add(source_of_method(name), name);
-  for (const auto& name : setup.families) to.add(source_of_family(name), "the family " + name);
+  const auto add_family = [&](const std::string& name) {
+    to.add(source_of_family(name), "the family " + name);
+    if (family_named(name).letters.is_processed()) to.add("blanes_casas_ros_1999", "processing");
+  };
+  for (const auto& name : setup.families) add_family(name);
   for (const auto& name : setup.learned) {
     to.add(paper, "learning the integrator");
-    to.add(source_of_family(name), "the family " + name);
+    add_family(name);
     to.add("ceres", "the search for parameters");
   }
   for (const auto& metric : setup.metrics) add_metric(metric, to);

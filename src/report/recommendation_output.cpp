@@ -127,7 +127,18 @@ std::string recommendation::advice_on_seconds() const {
       fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
 }
 
-std::string recommendation::advice() const { return advice_of(asked()) + advice_on_seconds(); }
+/// What a processed method pays for, where one is advised.
+std::string recommendation::advice_on_looks() const {
+  const candidate* best = taken(asked());
+  if (best == nullptr || best->source.evaluations_to_look == 0) return {};
+  return fmt::format(
+      " {} is counted with {} look{} at each trajectory (--looks): every further one takes {} evaluations.",
+      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", best->source.evaluations_to_look);
+}
+
+std::string recommendation::advice() const {
+  return advice_of(asked()) + advice_on_seconds() + advice_on_looks();
+}
 
 std::optional<std::string> recommendation::scheme() const {
   const candidate* winner = asked().winner();

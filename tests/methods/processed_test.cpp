@@ -12,6 +12,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/detail/lockstep.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/free_composition.hpp"
@@ -87,7 +88,7 @@ BOOST_AUTO_TEST_CASE(words_that_are_none) {
   none("ABA|BA|BA", "in turn");
   none("ABA|OA", "in turn");
   none("BAOAB|BA", "temperature");
-  none("RSR|BA", "leave it away");
+  none("RSR|BA", "do not mix");
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
@@ -216,6 +217,26 @@ BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
                  word.evaluations_to_open + 5 * word.evaluations_per_step + word.evaluations_to_look);
       BOOST_TEST(evaluations_of_step(system, method, 0.1, x) == word.evaluations_of_plain_step);
     }
+  }
+}
+
+// A run that is watched over for divergence pays for no look that nobody asked for.
+BOOST_AUTO_TEST_CASE(watching_over_a_run_takes_no_evaluation) {
+  draws random;
+  const pendulum system;
+  for (const auto& method : processed_methods(random)) {
+    const counted<pendulum> watched(system);
+    const auto fixed = make_stepper(watched, method, 0.1);
+    const auto x = random.state(system, 1.0);
+    lockstep<std::remove_const_t<decltype(fixed)>, double> run(fixed, x, 1);
+    run.go_on(200);  // over three checks
+    const run_time_word& word = method.letters();
+    BOOST_TEST(watched.evaluations == word.evaluations_to_open + 200 * word.evaluations_per_step,
+               method.name());
+    run.synchronous();
+    BOOST_TEST(watched.evaluations ==
+                   word.evaluations_to_open + 200 * word.evaluations_per_step + word.evaluations_to_look,
+               method.name());
   }
 }
 

@@ -3,12 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <numbers>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "nysalt/derivatives/stability_window.hpp"
@@ -37,48 +32,6 @@ struct step_range {
   double low;   ///< the least step
   double high;  ///< the largest step; may be infinite
 };
-
-/// A resonance of an explicit word, whatever its coefficients: a step turns a stiff oscillation by k half
-/// turns, and small nonlinear errors add up from step to step.
-struct resonance {
-  frequency_band band;  ///< of which a frequency comes near
-  int half_turns;       ///< k of h omega = k pi
-  step_range near;      ///< the steps that are too near for this band
-};
-
-/// From how many steps on a run is long: in shorter ones nothing was seen of a resonance that is as far as
-/// resonance_distance or a few times nearer.
-inline constexpr std::int64_t long_run = 10'000;
-/// The share of k pi that h omega should keep from it in long runs. On the FPU chain (omega = 50) the largest
-/// energy error of 20 000 steps was, over that of the first tenth of them, 1.0 to 1.5 for learned fg4 up to
-/// 16 % below 2 pi, 1.6 at 10 %, 2.1 at 7 % and 3 at 10 % above; for learned aba6 1.0 at 28 %, 3 at 13 %.
-inline constexpr double resonance_distance = 0.1;
-
-/// The nearest resonance, relative to k pi, of a band that does not begin at zero, where it is nearer than
-/// resonance_distance; nothing if there is none. Slow motion is far from pi, or unstable.
-inline std::optional<resonance> near_resonance(const std::vector<frequency_band>& bands, double step) {
-  std::optional<resonance> nearest;
-  double least = resonance_distance;
-  for (const auto& band : bands) {
-    if (!(band.low > 0.0)) continue;
-    const double low = step * band.low / std::numbers::pi;
-    const double high = step * band.high / std::numbers::pi;
-    for (const double k : {std::max(1.0, std::floor(low)), std::max(1.0, std::ceil(low)), std::ceil(high)}) {
-      const double distance = std::max({0.0, 1.0 - high / k, low / k - 1.0});
-      if (!(distance < least)) continue;
-      least = distance;
-      const double step_at = k * std::numbers::pi;
-      nearest = {band,
-                 static_cast<int>(k),
-                 {(1.0 - resonance_distance) * step_at / band.high,
-                  (1.0 + resonance_distance) * step_at / band.low}};
-    }
-  }
-  return nearest;
-}
-
-/// "h omega comes within 10 % of 2 pi for the frequencies 49 to 51: ...", with the steps to take.
-std::string in_words(const resonance& near);
 
 /// Every step at which each band lies in a window, from small to large. Without bands all steps.
 inline std::vector<step_range> stable_steps(const std::vector<stability_window>& windows,

@@ -105,7 +105,7 @@ class lockstep {
       good_ = run_;
       const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
       advance(next);
-      const condition failed = both(diverged_(stepper_->synchronous(run_)), live_);
+      const condition failed = both(diverged_(stepper_->of_kernel(run_)), live_);
       const bool all_well = !any(failed);
       if (!all_well) drop(failed, next);
       seen(next, all_well);
@@ -121,7 +121,7 @@ class lockstep {
     while (any(unknown)) {
       stepper_->advance(run, 1);
       condition found = unknown;  // at the end of the stretch at the latest
-      if (run.step < end) found = both(unknown, diverged_(stepper_->synchronous(run)));
+      if (run.step < end) found = both(unknown, diverged_(stepper_->of_kernel(run)));
       for (int k = 0; k < lanes; ++k) {
         if (lane(found, k)) diverged_at_[static_cast<std::size_t>(k)] = run.step;
       }

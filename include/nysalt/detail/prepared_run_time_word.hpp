@@ -100,8 +100,13 @@ class prepared_word<run_time_word, C, N> {
   /// What an open state is at its step. Cost: the word's evaluations_to_look.
   template <class T, System S>
   [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if (merges_) apply_known(system, run_.undo.front(), x, cursor);
+    close_kernel(system, x, cursor);
     end(system, x, cursor);
+  }
+  /// The same without the bath and without P(-h). No evaluation.
+  template <class T, System S>
+  void close_kernel(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if (merges_) apply_known(system, run_.undo.front(), x, cursor);
   }
   /// One step from q and p alone. Cost: the word's evaluations_of_plain_step.
   template <class T, System S>

@@ -86,6 +86,7 @@ struct learning_problem {
   std::function<std::optional<rival_method>(const tabulated&)> rival;
   stability_guard guard;          ///< knows the frequencies of the system
   bool is_of_black_box = false;   ///< of a force that only double can be given to
+  bool is_in_bath = false;        ///< that acts
   double frequency_to_fit = 0.0;  ///< the highest of the modes; 0: none are declared
   fit_summary facts;              ///< what is known before a search
 };

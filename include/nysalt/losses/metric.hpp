@@ -51,18 +51,27 @@ class metric {
       const Eigen::Index row = active_[k];
       const bool is_q = row < size_;
       const Eigen::Index i = is_q ? row : row - size_;
-      r[k] = is_q ? difference<T>(aq, b.q, to_x_, i, weight_[row])
-                  : difference<T>(ap, b.p, to_y_, i, weight_[row]);
+      r[k] = is_q ? difference<T>(aq, b.q, sums_of_q_, i, weight_[row])
+                  : difference<T>(ap, b.p, sums_of_p_, i, weight_[row]);
     }
   }
 
  private:
+  /// A coordinate of the system, and its factor in a mode: modes of chains have few that are not zero.
+  struct term {
+    Eigen::Index coordinate;
+    double factor;
+  };
+  using sums = std::vector<std::vector<term>>;  // one a mode; empty for qp
+
   template <class T>
-  T difference(const auto& a, const auto& target, const Eigen::MatrixXd& to, Eigen::Index i,
-               double weight) const {
-    if (to.size() == 0) return (a[i] - target[i]) * weight;
-    T sum = (a[0] - target[0]) * to(i, 0);
-    for (Eigen::Index j = 1; j < size_; ++j) sum += (a[j] - target[j]) * to(i, j);
+  T difference(const auto& a, const auto& target, const sums& modes, Eigen::Index i, double weight) const {
+    if (modes.empty()) return (a[i] - target[i]) * weight;
+    const auto& terms = modes[static_cast<std::size_t>(i)];
+    T sum = (a[terms.front().coordinate] - target[terms.front().coordinate]) * terms.front().factor;
+    for (std::size_t k = 1; k < terms.size(); ++k) {
+      sum += (a[terms[k].coordinate] - target[terms[k].coordinate]) * terms[k].factor;
+    }
     return sum * weight;
   }
 
@@ -71,8 +80,10 @@ class metric {
   std::string name_of(Eigen::Index row, coordinates which) const;
 
   Eigen::Index size_;
-  Eigen::MatrixXd to_x_;  // empty for qp
-  Eigen::MatrixXd to_y_;
+  static sums sums_in(const Eigen::MatrixXd& to);
+
+  sums sums_of_q_;
+  sums sums_of_p_;
   Eigen::VectorXd weight_;
   Eigen::MatrixXd deviations_;
   std::vector<Eigen::Index> active_;

@@ -18,9 +18,10 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
   if (!is_black_box(system)) {
     run_time_word word = method.letters();
     if (!system.bath().acts()) word = conservative_part(word);
-    const int to_look = steps > 0 ? word.evaluations_to_look : 0;
-    return evaluations_of(system, word.evaluations_to_open + steps * word.evaluations_per_step + to_look,
-                          steps * word.force_derivatives);
+    if (word.is_processed() && steps == 0) return 0;
+    return evaluations_of(
+        system, word.evaluations_to_open + steps * word.evaluations_per_step + word.evaluations_to_look,
+        steps * word.force_derivatives);
   }
   const model watched = system.separate();
   const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise

@@ -136,8 +136,8 @@ double motion_in(const flow_map_data& data, const metric& measure, const after_s
   return data.share().sum(squares);
 }
 
-/// Of large systems the stages of a search look at some of the trajectories alone, 16 at least: a trajectory
-/// of a hundred coordinates tells as much of where minima lie as some ten of a few.
+/// The stages of a search look at some of the trajectories alone, 16 at least, where all have more
+/// coordinates together than tell where minima lie: a hundred trajectories of a dozen.
 int trajectories_apart(const flow_map_data& data, Eigen::Index coordinates) {
   constexpr std::int64_t enough = 1200;  // coordinates of all trajectories
   constexpr std::int64_t least = 16;
@@ -230,6 +230,7 @@ learning_problem make_problem(
   // Some tenths of a second in lanes. What a black box costs is not known.
   constexpr std::int64_t coordinates_at_once = 400'000'000;
   problem.is_of_black_box = is_black_box(system);
+  problem.is_in_bath = system.bath().acts();
   if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
   if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
   const auto run = [system, starts, step = data.step, seed = held_out.seed, threads = options.threads](

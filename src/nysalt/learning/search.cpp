@@ -131,17 +131,18 @@ std::vector<named_parameters> most_promising(const search_task& task, const obje
   return admitted;
 }
 
-/// Those with the least losses, in their order.
+/// Those with the least losses, from the least on; none without a finite one.
 void keep_least(std::vector<named_parameters>& starts, const objective& loss, std::size_t most) {
   if (starts.size() <= most) return;
-  std::vector<double> losses;
-  for (const auto& start : starts) losses.push_back(loss(start.theta).value);
-  std::vector<double> sorted = losses;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(most) - 1,
-                           [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
-  const double largest = sorted[most - 1];
-  std::size_t n = 0;
-  std::erase_if(starts, [&](const named_parameters&) { return !(losses[n++] <= largest); });
+  std::vector<std::pair<double, named_parameters>> all;
+  for (auto& start : starts) {
+    const double value = loss(start.theta).value;
+    if (std::isfinite(value)) all.emplace_back(value, std::move(start));
+  }
+  std::ranges::stable_sort(all, {}, &std::pair<double, named_parameters>::first);
+  if (all.size() > most) all.resize(most, {0.0, {}});
+  starts.clear();
+  for (auto& [value, start] : all) starts.push_back(std::move(start));
 }
 
 /// Starts from which a search goes along the edge of stability, which takes many passes over the data.

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "length_of_trial.hpp"
-#include "nysalt/derivatives/stability_margin.hpp"
+#include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/detail/together.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
@@ -236,8 +236,9 @@ fit solve_as_it_is(const learning_problem& problem) {
     }
   }
 
-  if (options.planned_steps > long_run && !family.letters.rotates()) {
-    const auto near = near_resonance(problem.guard.frequencies(met::often), problem.step);
+  if (options.planned_steps > long_run && !problem.is_in_bath) {
+    const auto near = near_resonance(family.letters, family.coefficients(theta),
+                                     problem.guard.frequencies(met::often), problem.step);
     if (near) summary.resonance = in_words(*near);
   }
 
@@ -248,6 +249,8 @@ fit solve_as_it_is(const learning_problem& problem) {
     for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
       // Rotations are not counted, and are not free: words with them are compared with each other.
       if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
+      // Nor do words without a processor pay for looking.
+      if (method.letters().evaluations_to_look > family.letters.evaluations_to_look) continue;
       methods.push_back(problem.rival(method));
       const auto& known = methods.back();
       if (!known) continue;

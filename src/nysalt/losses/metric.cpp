@@ -19,22 +19,22 @@ double mean_of(const Eigen::VectorXd& values) {
   return sum / static_cast<double>(values.size());
 }
 
-double size_of_terms(const Eigen::MatrixXd& to, Eigen::Index i, const auto& a) {
-  if (to.size() == 0) return std::abs(a[i]);
+double size_of_terms(const auto& sums, Eigen::Index i, const auto& a) {
+  if (sums.empty()) return std::abs(a[i]);
   double sum = 0.0;
-  for (Eigen::Index j = 0; j < a.size(); ++j) sum += std::abs(to(i, j) * a[j]);
+  for (const auto& [j, factor] : sums[static_cast<std::size_t>(i)]) sum += std::abs(factor * a[j]);
   return sum;
 }
 
 /// sizes += x^2/total for each coordinate's sum x of absolute terms: what its rounding is relative to.
-void add_sizes_of_terms(const auto& x, const Eigen::MatrixXd& to_x_, const Eigen::MatrixXd& to_y_,
-                        double total, Eigen::VectorXd& sizes) {
-  const Eigen::Index size_ = x.size();
-  for (Eigen::Index i = 0; i < size_; ++i) {
-    const double of_x = size_of_terms(to_x_, i, x.q);
-    const double of_y = size_of_terms(to_y_, i, x.p);
+void add_sizes_of_terms(const auto& x, const auto& sums_of_q, const auto& sums_of_p, double total,
+                        Eigen::VectorXd& sizes) {
+  const Eigen::Index size = x.size();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double of_x = size_of_terms(sums_of_q, i, x.q);
+    const double of_y = size_of_terms(sums_of_p, i, x.p);
     sizes[i] += of_x * of_x / total;
-    sizes[size_ + i] += of_y * of_y / total;
+    sizes[size + i] += of_y * of_y / total;
   }
 }
 
@@ -52,24 +52,36 @@ metric::metric(const model& system, const flow_map_data& data, coordinates which
 void metric::change_coordinates(const model& system, coordinates which) {
   if (has_modes(system)) {
     const normal_modes modes = system.modes();
-    to_x_ = modes.basis.transpose();
-    to_y_ = to_x_;
+    Eigen::MatrixXd to_x = modes.basis.transpose();
+    Eigen::MatrixXd to_y = to_x;
     if (!system.has_unit_mass()) {
       for (Eigen::Index i = 0; i < size_; ++i) {
         const double root = std::sqrt(system.inverse_mass(i));
-        to_x_.col(i) /= root;
-        to_y_.col(i) *= root;
+        to_x.col(i) /= root;
+        to_y.col(i) *= root;
       }
     }
     if (which == coordinates::energy) {
       for (Eigen::Index k = 0; k < size_; ++k) {
-        if (modes.frequencies[k] != 0.0) to_x_.row(k) *= modes.frequencies[k];
+        if (modes.frequencies[k] != 0.0) to_x.row(k) *= modes.frequencies[k];
       }
     }
+    sums_of_q_ = sums_in(to_x);
+    sums_of_p_ = sums_in(to_y);
   } else {
     throw std::invalid_argument(sentence("the {} coordinates of {} are not known: it has no modes(); use qp",
                                          to_string(which), describe(system)));
   }
+}
+
+metric::sums metric::sums_in(const Eigen::MatrixXd& to) {
+  sums result(static_cast<std::size_t>(to.rows()));
+  for (Eigen::Index i = 0; i < to.rows(); ++i) {
+    for (Eigen::Index j = 0; j < to.cols(); ++j) {
+      if (to(i, j) != 0.0) result[static_cast<std::size_t>(i)].push_back({j, to(i, j)});
+    }
+  }
+  return result;
 }
 
 void metric::weigh(const flow_map_data& data, coordinates which) {
@@ -84,7 +96,7 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
     for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
       residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
       squares[m] += increment.cwiseAbs2() / total;
-      add_sizes_of_terms(data.finish[n], to_x_, to_y_, total, sizes[m]);
+      add_sizes_of_terms(data.finish[n], sums_of_q_, sums_of_p_, total, sizes[m]);
     }
     if (which == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
   }

@@ -41,9 +41,10 @@ std::string readable(const json& all) {
     of_families.add(
         {f["name"], f["letters"], parameters, f["order"].dump(), f["evaluations_per_step"].dump()});
   }
-  text += of_families.text() +
-          "\nFAMILY+pJ is a symmetric family of letters A, B and G with a processor of J pairs of letters, as "
-          "in fg4+p3.\n\nMetrics of compare:\n\n";
+  text +=
+      of_families.text() +
+      "\nFAMILY+pJ is a symmetric family whose letters are among A, B and G, with a processor of J pairs of "
+      "letters, as in fg4+p3.\n\nMetrics of compare:\n\n";
   table of_metrics({"metric", "what it is"}, 2);
   for (const auto& m : all["metrics"]) of_metrics.add({m["name"], m["meaning"]});
   return text + of_metrics.text();
