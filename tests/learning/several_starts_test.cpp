@@ -153,3 +153,31 @@ BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
   BOOST_TEST(std::abs(sum / many) <= 4.0 / 20.0);
   BOOST_TEST(std::abs(std::sqrt(squares / many) - 1.0) <= 4.0 / std::sqrt(2.0 * many));
 }
+
+// The stage leads all starts into the left well, and the one-step loss has its minimum in the right one.
+BOOST_AUTO_TEST_CASE(a_search_in_stages_begins_at_the_minimum_of_the_one_step_loss_too) {
+  const auto least_at = [](double x0) {
+    return [x0](const Eigen::VectorXd& theta) -> squares {
+      const double r = theta[0] - x0;
+      return {r * r, number(r), Eigen::MatrixXd::Ones(1, 1)};
+    };
+  };
+  std::vector<named_parameters> starts;
+  for (const double x : {-1.3, -1.2, -1.1, 1.2}) starts.push_back({"start", number(x)});
+  const auto begun_at = [&](const objective& one_step) {
+    const auto of_loss = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; };
+    return search({.family = &family,
+                   .loss = two_wells,
+                   .earlier_losses = {least_at(-1.0)},
+                   .one_step_loss = one_step,
+                   .judge = of_loss,
+                   .admits = all,
+                   .free = {0},
+                   .max_iterations = 100},
+                  starts);
+  };
+  const auto found = begun_at(least_at(1.1));
+  BOOST_TEST(found.best.from == "one step");
+  BOOST_TEST(std::abs(found.best.theta[0] - 1.0) <= near_rounding);
+  BOOST_TEST(std::abs(begun_at({}).best.theta[0] - left_minimum()) <= near_rounding);
+}

@@ -59,6 +59,7 @@ struct learning_problem {
   double step;                              ///< h of the data
   objective loss;                           ///< what is minimised
   std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
+  objective one_step_before{};              ///< gives a search in stages one more start; empty: none
   /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   shard held_out;  ///< which held-out trajectories this rank has

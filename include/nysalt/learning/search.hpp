@@ -36,6 +36,7 @@ struct search_task {
   const run_time_family* family;            ///< its ranges and where it is defined
   objective loss;                           ///< what is minimised
   std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
+  objective one_step_loss{};                ///< the least of its minima is a start, too; empty: none is
   std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
   std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
@@ -63,11 +64,13 @@ struct search_result {
 
 /// Where there are earlier losses, each of them in turn is minimised, roughly, from the starts first and then
 /// from the best of its minima that differ, twelve and then three, those first that the guard admits; and
-/// with what is left the search proper begins. From each start to its minimum; the judge takes the best that
-/// the guard admits and that withstands a trial run, of those that converged or ended in a valley. Where
-/// there is none, the search goes on among admitted points only, from the starts that are and from the
-/// refuge: what it finds lies at the edge mostly. A single start is what it was, whatever the judge thinks.
-/// Cost: a search for each start, twice where the guard acts, and a trial run for each of a few candidates.
+/// with what is left the search proper begins, and with the least of the minima of the one-step loss that
+/// those of the first stage lead to: valleys of trajectories at small steps are narrow. From each start to
+/// its minimum; the judge takes the best that the guard admits and that withstands a trial run, of those that
+/// converged or ended in a valley. Where there is none, the search goes on among admitted points only, from
+/// the starts that are and from the refuge: what it finds lies at the edge mostly. A single start is what it
+/// was, whatever the judge thinks. Cost: a search for each start, twice where the guard acts, and a trial run
+/// for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

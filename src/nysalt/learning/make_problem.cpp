@@ -187,6 +187,11 @@ learning_problem make_problem(
     losses_of_stages.push_back(loss_over(data, stage));
   }
   const detail::data_loss loss = every == 1 ? losses_of_stages.back() : loss_over(data, stages.back());
+  const bool has_whole_trajectories = other == nullptr && kind.is_shortened && shortest > 1;
+  std::optional<detail::data_loss> one_step_before;
+  if (has_whole_trajectories) {
+    one_step_before = loss_over(data, {.steps = {1}, .apart = std::max(shortest / 8, 1), .every = every});
+  }
   const auto held = loss_over(held_out, stages.back());
   const auto one_step = detail::of_states(inputs(held_out, {}));
   const int end = shortest_of(held_out);
@@ -196,6 +201,7 @@ learning_problem make_problem(
     std::int64_t here = held.evaluations() + one_step.evaluations() + at_end.evaluations() + before();
     for (const auto& stage : losses_of_stages) here += stage.evaluations();
     if (every > 1) here += loss.evaluations();
+    if (one_step_before) here += one_step_before->evaluations();
     return here;
   };
 
@@ -223,6 +229,7 @@ learning_problem make_problem(
   for (const auto& stage : losses_of_stages) {
     if (asks_data) problem.earlier_losses.push_back(stage.of_theta);
   }
+  if (one_step_before) problem.one_step_before = one_step_before->of_theta;
   auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
   problem.trial_starts = static_cast<std::int64_t>(starts->size());
   constexpr std::int64_t in_bath = 192;
@@ -296,7 +303,7 @@ learning_problem make_problem(
   if (facts.reference_checked) facts.reference_error = error_of_reference(data, *measure);
   facts.data_seconds = data.seconds + held_out.seconds;
   facts.loss_steps = stages.back().steps.back();
-  if (other == nullptr && kind.is_shortened && shortest > 1) {
+  if (has_whole_trajectories) {
     constexpr double lost = 0.0025;  // an error of a twentieth of the motion
     problem.follows = [value = loss.value, most = lost * motion_in(data, *measure, stages.back())](
                           const Eigen::VectorXd& theta) { return value(theta) <= most; };

@@ -131,6 +131,23 @@ std::vector<named_parameters> most_promising(const search_task& task, const obje
   return admitted;
 }
 
+/// The least minimum of the one-step loss that the first few starts lead to, if one of them converges.
+std::optional<named_parameters> one_step_minimum(const search_task& task,
+                                                 const std::vector<named_parameters>& starts) {
+  constexpr std::size_t most = 3;
+  const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
+  std::optional<named_parameters> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < std::min(most, starts.size()); ++n) {
+    const auto end =
+        minimise(task.one_step_loss, is_defined, starts[n].theta, task.free, task.max_iterations);
+    if (!(end.loss < least) || !task.family->is_in_range(end.theta)) continue;
+    least = end.loss;
+    best = {"one step", end.theta};
+  }
+  return best;
+}
+
 /// Those with the least losses, from the least on; none without a finite one.
 void keep_least(std::vector<named_parameters>& starts, const objective& loss, std::size_t most) {
   if (starts.size() <= most) return;
@@ -155,13 +172,16 @@ search_result search(const search_task& task, const std::vector<named_parameters
   std::vector<std::size_t>
       most_of;  // minima that are carried on: three from the last stage, four times as many before
   for (std::size_t n = task.earlier_losses.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
+  std::optional<named_parameters> of_one_step;
   for (const auto& loss : task.earlier_losses) {
     const std::size_t most = most_of.back();
     most_of.pop_back();
     if (starts.size() <= most) continue;
     auto next = most_promising(task, loss, starts, most);
     if (!next.empty()) starts = std::move(next);
+    if (task.one_step_loss && !of_one_step) of_one_step = one_step_minimum(task, starts);
   }
+  if (of_one_step) starts.push_back(*of_one_step);
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(descend(task, is_defined, start));

@@ -125,6 +125,7 @@ fit solve_as_it_is(const learning_problem& problem) {
   search_task task{.family = &problem.family,
                    .loss = problem.loss,
                    .earlier_losses = problem.earlier_losses,
+                   .one_step_loss = problem.one_step_before,
                    .judge = problem.judge,
                    .admits =
                        [&](const Eigen::VectorXd& theta) {
