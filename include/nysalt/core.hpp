@@ -9,6 +9,7 @@
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/bab.hpp"
+#include "nysalt/families/fd_chin.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/free_composition.hpp"

@@ -24,8 +24,8 @@ struct flow_room : lifted_room<T, N> {
   flow_room() = default;
   /// For so many degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
-  vector<T, N> x;  ///< of a rotation, or M^-1 f of a gradient kick
-  vector<T, N> y;  ///< of a rotation, or f'(q) M^-1 f
+  vector<T, N> x;  ///< of a rotation, M^-1 f of a gradient kick, or the displaced q
+  vector<T, N> y;  ///< of a rotation, f'(q) M^-1 f, or the force at the displaced q
 };
 
 /// The flow of the bath: its `stochastic` is true, and it draws noise.
@@ -43,7 +43,7 @@ concept QuadraticFlow = requires {
 /// What the words that a letter stands in split H into; `any` of a letter that belongs to all of them.
 enum class splitting {
   any,
-  kinetic_and_potential,   ///< K and V: A, B, G
+  kinetic_and_potential,   ///< K and V: A, B, D, G
   quadratic_part_and_rest  ///< K with the quadratic part of V, and the rest of V: R, S, H
 };
 
@@ -72,6 +72,26 @@ constexpr splitting splitting_of() {
     return L::splits;
   } else {
     return splitting::any;
+  }
+}
+
+/// How many forces at displaced points a letter evaluates itself; 0 where it declares none.
+template <class L>
+constexpr int displaced_forces_of() {
+  if constexpr (requires { L::displaced_forces; }) {
+    return L::displaced_forces;
+  } else {
+    return 0;
+  }
+}
+
+/// Whether a letter is symplectic, which it need not declare.
+template <class L>
+constexpr bool is_symplectic() {
+  if constexpr (requires { L::symplectic; }) {
+    return L::symplectic;
+  } else {
+    return true;
   }
 }
 
@@ -125,6 +145,8 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 ///   needs              the sentence for who does not serve it, and require_served<S, T>(), the same while
 ///                      compiling; both of letters that not every system serves
 ///   invertible         with all coefficients negated it is its inverse
+///   displaced_forces   how many forces at displaced points it evaluates itself, if any
+///   symplectic         false of one that is not
 ///   same_order_as      the letter of K and V in whose place it obeys the same order conditions
 ///   on_oscillator(stiffness, c, q, p)   its action on an oscillator, unless it is of the bath
 template <class L>

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
@@ -24,8 +25,8 @@ namespace nysalt {
 
 /// Every flow that a word can name by its letter at run time: what is said of letters elsewhere is asked of
 /// these.
-using known_letters =
-    std::tuple<drift, kick, gradient_kick, rotation, soft_kick, soft_gradient_kick, ornstein_uhlenbeck>;
+using known_letters = std::tuple<drift, kick, gradient_kick, displaced_kick, rotation, soft_kick,
+                                 soft_gradient_kick, ornstein_uhlenbeck>;
 
 namespace detail {
 /// f(flow) for the flow of that letter among the given ones; false if there is none.
@@ -79,6 +80,8 @@ class run_time_word {
         first_slots_.push_back(slots);
         slots += flow.slots;
         force_derivatives += flow.force_derivatives;
+        displaced_forces += detail::displaced_forces_of<decltype(flow)>();
+        is_symplectic = is_symplectic && detail::is_symplectic<decltype(flow)>();
         if (flow.reads != field::none) this->reads = flow.reads;
         reads.push_back(flow.reads != field::none);
         moves.push_back(flow.moves_q);
@@ -110,9 +113,9 @@ class run_time_word {
       throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
-    evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives;
+    evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives + displaced_forces;
     evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
-    evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives;
+    evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives + displaced_forces;
     kernel_slots = slots;
     if (is_processed()) take_processor();
   }
@@ -151,6 +154,8 @@ class run_time_word {
   std::size_t kernel_slots = 0;   ///< how many without those of the processor
   field reads = field::none;      ///< the force that its letters read
   int force_derivatives = 0;      ///< f'(q) v in a step, one evaluation each
+  int displaced_forces = 0;       ///< forces at displaced points in a step
+  bool is_symplectic = true;      ///< each of its letters is
   bool reads_modes = false;       ///< it has a letter R
   bool merges;                    ///< last and first letter are applied as one
   bool halves_meet;               ///< first and last letter are of the bath
@@ -181,7 +186,7 @@ class run_time_word {
     }
     if (rotates_) {
       throw std::invalid_argument(sentence(
-          "the word {} has a processor: its kernel must be of the letters A, B and G, as the letters A "
+          "the word {} has a processor: its kernel must be of the letters A, B, D and G, as the letters A "
           "and B of a processor do not mix with R, S and H; take another kernel",
           letters_));
     }

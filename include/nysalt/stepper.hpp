@@ -64,7 +64,7 @@ class stepper {
         acts_(acts_on(system)),
         stochastic_letters_(word.stochastic_letters),
         is_processed_(is_processed(word)),
-        takes_room_(word.force_derivatives > 0 || has_rotation(word)),
+        takes_room_(word.force_derivatives + word.displaced_forces > 0 || has_rotation(word)),
         letters_(letters_of(system, word, coefficients, step)),
         quiet_(quiet_letters_of(system, word, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
@@ -100,7 +100,7 @@ class stepper {
 
   /// Takes so many steps: THE loop. Cost: steps times the word's evaluations_per_step, and a normal number
   /// for each momentum and letter O. Allocates nothing that the force does not; of a dynamic size, one vector
-  /// with noise and a few for the letters G, R, H. Throws std::invalid_argument if steps < 0. If the force
+  /// with noise and a few for the letters D, G, R, H. Throws std::invalid_argument if steps < 0. If the force
   /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {

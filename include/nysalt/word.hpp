@@ -109,7 +109,7 @@ struct word {
   static constexpr bool has_one_splitting = !(holds(splitting::kinetic_and_potential) && rotates());
   static_assert(
       has_one_splitting,
-      "nysalt: the letters A, B, G split H into K and V, and R, S, H into its quadratic part and the "
+      "nysalt: the letters A, B, D, G split H into K and V, and R, S, H into its quadratic part and the "
       "rest: a word has those of one splitting");
 
   static constexpr bool reads_modes = (QuadraticFlow<L> || ...);  ///< it has a letter R
@@ -141,11 +141,16 @@ struct word {
   /// How many f'(q) v a step evaluates, each of which counts as one force evaluation.
   static constexpr int force_derivatives =
       (0 + ... + L::force_derivatives);  // none is in a letter that merges
+  /// How many forces at displaced points a step evaluates.
+  static constexpr int displaced_forces = (0 + ... + detail::displaced_forces_of<L>());
+  /// Each of its letters is symplectic, and so is the step.
+  static constexpr bool is_symplectic = (detail::is_symplectic<L>() && ...);
   /// Force evaluations of a step of an open run.
-  static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives;
+  static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives + displaced_forces;
   static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< those to open a run
   /// Those of a plain step, which begins with q and p alone.
-  static constexpr int evaluations_of_plain_step = plan.count(plan.in_step) + force_derivatives;
+  static constexpr int evaluations_of_plain_step =
+      plan.count(plan.in_step) + force_derivatives + displaced_forces;
 };
 
 namespace detail {

@@ -9,6 +9,7 @@
 #include "did_you_mean.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/bab.hpp"
+#include "nysalt/families/fd_chin.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/free_composition.hpp"
@@ -32,7 +33,7 @@ std::vector<run_time_family> families_of() {
 const std::vector<run_time_family>& families() {
   static const auto all =
       families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free,
-                  aba6_free, bab6_free, fg_chin, fg4, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+                  aba6_free, bab6_free, fg_chin, fg4, fd_chin, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
   return all;
 }
 

@@ -40,6 +40,7 @@ struct candidate {
   std::optional<placement> where;  // of the letters O of a family that is learned
   int order = 0;
   bool symmetric = false;
+  bool is_symplectic = true;
   bool rotates = false;
   double step = 0.0;
   std::optional<learned_scheme> learned{};

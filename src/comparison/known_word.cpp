@@ -14,7 +14,8 @@ namespace {
 
 constexpr double same = 1e-6;
 
-/// One letter: c, and of a gradient kick the coefficient of its gradient part.
+/// One letter: c, and of a gradient kick the coefficient of its gradient part, of a displaced kick that of
+/// its displacement.
 struct letter {
   char name;
   double c;
@@ -26,6 +27,7 @@ bool is_soft_kick(char name) { return name == 'S' || name == 'H'; }
 
 /// All that kicks of one force do is added up, as q does not move between them.
 bool act_as_one(const letter& a, const letter& b) {
+  if (a.name == 'D' && b.name == 'D') return a.gradient == b.gradient;
   return a.name == b.name || (is_kick(a.name) && is_kick(b.name)) ||
          (is_soft_kick(a.name) && is_soft_kick(b.name));
 }
@@ -36,10 +38,10 @@ std::vector<letter> merged(const std::vector<letter>& all, double zero) {
   for (letter one : all) {
     if (!result.empty() && act_as_one(result.back(), one)) {
       one.c += result.back().c;
-      one.gradient += result.back().gradient;
+      if (one.name != 'D') one.gradient += result.back().gradient;
       result.pop_back();
     }
-    const bool has_gradient = std::abs(one.gradient) > zero;
+    const bool has_gradient = one.name != 'D' && std::abs(one.gradient) > zero;
     if (is_kick(one.name)) one.name = has_gradient ? 'G' : 'B';
     if (is_soft_kick(one.name)) one.name = has_gradient ? 'H' : 'S';
     if (std::abs(one.c) > zero || has_gradient) result.push_back(one);
@@ -52,19 +54,20 @@ std::vector<letter> letters_of(const run_time_word& word, const std::vector<doub
   std::size_t slot = 0;
   for (const char name : word.letters().substr(0, word.length)) {
     letter one{name, coefficients[slot++], 0.0};
-    if (name == 'G' || name == 'H') one.gradient = coefficients[slot++];
+    if (name == 'G' || name == 'H' || name == 'D') one.gradient = coefficients[slot++];
+    if (name == 'D' && one.gradient == 0.0) one.name = 'B';
     result.push_back(one);
   }
   return result;
 }
 
-/// n steps of h/n: gradient parts go with h^3.
+/// n steps of h/n: gradient parts go with h^3, displacements with h^2.
 std::vector<letter> repeated(const std::vector<letter>& one_step, int n) {
   std::vector<letter> result;
   for (int k = 0; k < n; ++k) {
     for (letter one : one_step) {
       one.c /= n;
-      one.gradient /= std::pow(n, 3.0);
+      one.gradient /= std::pow(n, one.name == 'D' ? 2.0 : 3.0);
       result.push_back(one);
     }
   }

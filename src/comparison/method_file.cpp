@@ -149,7 +149,7 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
   for (std::size_t i = 0; i < word.length; ++i) {
     std::string letter(1, word.letters()[i]);
     if (letter[0] == bath_letter) continue;
-    if (letter == "G") letter = "B";  // the first coefficient of G is that of a kick
+    if (letter == "G" || letter == "D") letter = "B";  // their first coefficient is that of a kick
     if (letter == "H") letter = "S";
     sums[letter] += coefficients[word.first_slot(i)];
   }

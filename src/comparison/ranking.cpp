@@ -26,6 +26,8 @@ std::string to_string(mark which) {
       return "formula";
     case mark::processed:
       return "processed";
+    case mark::volume:
+      return "volume";
     case mark::diverged:
       return "diverged";
   }
@@ -55,6 +57,9 @@ std::string meaning(mark which) {
     case mark::processed:
       return "the evaluations are those of one look at each trajectory, at its end; every further look takes "
              "one for each pair of letters of the processor";
+    case mark::volume:
+      return "the method keeps volume and is reversible, but it is not symplectic: it is for sampling, and "
+             "nothing bounds its energy over long runs";
     case mark::diverged:
       return "some trajectories diverged; of the others alone, and not ranked";
   }
@@ -113,6 +118,9 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line
   if (has_tail(one)) result.push_back(mark::tail);
   if (line.gains_nothing) result.push_back(mark::formula);
   if (line.coefficients && line.coefficients->letters().is_processed()) result.push_back(mark::processed);
+  if (line.coefficients && !line.coefficients->letters().is_symplectic && !metric.is_acceptance()) {
+    result.push_back(mark::volume);
+  }
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }

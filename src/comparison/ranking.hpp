@@ -20,6 +20,7 @@ enum class mark {
   tail,       // few trajectories decide the mean
   formula,    // learned, but a classical method of its cost is as good by the loss
   processed,  // further looks cost evaluations that are not counted
+  volume,     // the method is not symplectic
   diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);

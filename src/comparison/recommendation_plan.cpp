@@ -60,6 +60,7 @@ void recommendation::plan_classical() {
       if (!has_bath && method.letters().stochastic_letters > 0) continue;
       contender.order = method.order;
       contender.symmetric = method.symmetric;
+      contender.is_symplectic = method.letters().is_symplectic;
       contender.rotates = has_rotation(method.letters());
     } else {
       contender.order = contender.source.adaptive->properties.order;
@@ -80,6 +81,7 @@ void recommendation::plan_families() {
     candidate contender{.source = find_method("learned:" + name), .where = {}};
     contender.order = family.order;
     contender.symmetric = family.symmetric;
+    contender.is_symplectic = family.letters.is_symplectic;
     contender.rotates = has_rotation(family.letters);
     consider(std::move(contender));
   }
@@ -106,13 +108,16 @@ void recommendation::consider(candidate contender) {
   if ((options_.reversible || options_.metric == "acceptance") && !contender.symmetric) {
     return leave_out("it is not reversible");
   }
+  if (options_.metric != "acceptance" && !contender.is_symplectic) {
+    return leave_out("it is not symplectic, and for sampling alone");
+  }
   try {
     const auto otherwise = placement_asked(options_.placement);
     double rate = system_->fastest_rate();
     if (options_.budget) rate = *options_.budget - processing_of(contender);
     if (rate <= 0.0) {
-      return leave_out(fmt::format("its processor alone takes {:g} evaluations per unit time",
-                                   processing_of(contender)));
+      return leave_out(
+          fmt::format("its processor alone takes {:g} evaluations per unit time", processing_of(contender)));
     }
     contender.step = contender.source.evaluations_per_step / rate;
     if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);

@@ -106,9 +106,8 @@ std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, 
 
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
-  for (const mark one :
-       {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::formula, mark::processed,
-        mark::diverged}) {
+  for (const mark one : {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::formula,
+                         mark::processed, mark::volume, mark::diverged}) {
     const bool is_there = std::ranges::any_of(
         all.rows(), [&](const row& line) { return std::ranges::count(marks_of(all, m, line), one) > 0; });
     if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));

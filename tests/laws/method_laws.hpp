@@ -28,6 +28,17 @@ double symplecticity_broken(const S& system, const M& method, const phase_point<
   return symplecticity_defect(system, method, step, x) / jacobian_rounding(system, method, step, at);
 }
 
+/// How far the determinant of the Jacobian is from one. Where the entries of J err by d, det J errs by
+/// sum_ij |adj J|_ij d: 4 n^2 terms, adj J = J^-1 for det J = 1, and J^-1 is the Jacobian of the step back.
+template <SeparableSystem S, Method M>
+double volume_broken(const S& system, const M& method, const phase_point<double, S::dimension>& x) {
+  const auto at = shears_at(system, x);
+  const double step = gentle_step(at);
+  const double volume = jacobian(step_map(system, method, step), x).determinant();
+  const double terms = 4.0 * static_cast<double>(size(system));
+  return std::abs(volume - 1.0) / (terms * jacobian_rounding(system, method, step, at));
+}
+
 /// Two steps, whose letters each round every coordinate twice.
 template <SeparableSystem S, Method M>
 double reversibility_broken(const S& system, const M& method, const phase_point<double, S::dimension>& x) {

@@ -17,6 +17,7 @@
 #include "../support/systems.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/bab.hpp"
+#include "nysalt/families/fd_chin.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/free_composition.hpp"
@@ -159,6 +160,8 @@ using families = std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab
                             aba3_free, aba4_free, aba6_free, bab6_free>;
 using gradient_methods = rows<with_letter<'G'>>;
 using gradient_families = std::tuple<fg_chin, fg4>;
+using displaced_methods = rows<with_letter<'D'>>;
+using displaced_families = std::tuple<fd_chin>;
 using fitted_methods =
     std::tuple<phase_fitted<fg_chin, chin4a>, phase_fitted<fg4, omelyan_fg4>, phase_fitted<aba<4>, pefrl>,
                phase_fitted<bab<4>, vefrl>, phase_fitted<aba<5>, mclachlan5>, phase_fitted<bab<5>, omelyan5v>,
@@ -166,7 +169,7 @@ using fitted_methods =
 using rotating_methods = rows<with_letter<'R'>>;
 using rotating_families = std::tuple<r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>;
 
-using all_families = joined<families, gradient_families, rotating_families>;
+using all_families = joined<families, gradient_families, displaced_families, rotating_families>;
 
 template <class List>
 struct members_of_list;
@@ -176,7 +179,8 @@ template <class List>
 using members_of = typename members_of_list<List>::type;
 
 using methods = joined<fitted_methods, classical_types, members_of<families>, gradient_methods,
-                       members_of<gradient_families>, rotating_methods, members_of<rotating_families>>;
+                       members_of<gradient_families>, displaced_methods, members_of<displaced_families>,
+                       rotating_methods, members_of<rotating_families>>;
 
 /// A theta well inside the ranges and near the start, where coefficients are of moderate size.
 template <Family F>

@@ -123,6 +123,11 @@ double magnification(const M& method, double step, const shears& at) {
       case 'H':
         product *= 1.0 + time * at.potential + 4.0 * std::abs(c[slot + 1] * step * step * step) * at.gradient;
         break;
+      case 'D': {  // of the force at a point that is itself a kick away, and whose f' may be as large again
+        const double displaced = 2.0 * std::abs(c[slot + 1] * step * step) * at.potential * at.kinetic;
+        product *= 1.0 + time * at.potential * (1.0 + displaced);
+        break;
+      }
       case 'R':
         product *= (1.0 + time * at.kinetic) * (1.0 + time * at.potential);
         break;
@@ -140,12 +145,14 @@ double magnification(const M& method, double step, const shears& at) {
   return product;
 }
 
-/// How often a step rounds a coordinate, in units of the two roundings of a kick: a gradient kick has two
-/// terms more, and each entry of a rotated state is two sums over n modes or coordinates.
+/// How often a step rounds a coordinate, in units of the two roundings of a kick: a gradient or displaced
+/// kick has two terms more, and each entry of a rotated state is two sums over n modes or coordinates.
 inline double roundings(const std::string& letters, Eigen::Index n) {
   double sum = 0.0;
   for (const char letter : letters) {
-    sum += letter == 'R' ? 2.0 * static_cast<double>(n + 2) : letter == 'G' || letter == 'H' ? 3.0 : 1.0;
+    sum += letter == 'R'                                     ? 2.0 * static_cast<double>(n + 2)
+           : letter == 'G' || letter == 'H' || letter == 'D' ? 3.0
+                                                             : 1.0;
   }
   return sum;
 }

@@ -141,6 +141,9 @@ class prepared_word<run_time_word, C, N> {
         turns_.push_back(std::make_shared<const turn>(std::move(folded)));
         result.what = detail::action::rotation;
         result.turn = turns_.back().get();
+      } else if constexpr (detail::displaced_forces_of<L>() > 0) {
+        result.what = detail::action::displaced_kick;
+        result.displaced = folded;
       } else if constexpr (L::slots == 2) {
         result.what = detail::action::gradient_kick;
         result.gradient = folded;

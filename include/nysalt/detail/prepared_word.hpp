@@ -62,8 +62,9 @@ class prepared_word<word<L...>, C, N> {
  public:
   /// One for each slot.
   using coefficients = typename W::template coefficients<C>;
-  /// The cursor of the word holds a flow_room: there is a letter G, R or H.
-  static constexpr bool needs_room = W::force_derivatives > 0 || (QuadraticFlow<L> || ...);
+  /// The cursor of the word holds a flow_room: there is a letter D, G, R or H.
+  static constexpr bool needs_room = W::force_derivatives + W::displaced_forces > 0 ||
+                                     (QuadraticFlow<L> || ...);
 
   /// Folds step and surroundings into the coefficients.
   prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& around)

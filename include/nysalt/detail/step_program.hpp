@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"
@@ -14,7 +15,7 @@
 namespace nysalt::detail {
 
 /// What kernels do themselves; letters of the bath are called back.
-enum class action : std::uint8_t { drift, kick, gradient_kick, rotation, call };
+enum class action : std::uint8_t { drift, kick, gradient_kick, displaced_kick, rotation, call };
 
 /// A letter as data, with the step folded into the coefficients.
 template <Scalar C>
@@ -24,6 +25,7 @@ struct step_program_letter {
   int number = 0;                           ///< what is called back
   C coefficient{0.0};
   gradient_kick_coefficients<C> gradient{};
+  displaced_kick_coefficients<C> displaced{};
   const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
 };
 

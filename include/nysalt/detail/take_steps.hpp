@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "nysalt/detail/step_program.hpp"
+#include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
@@ -72,6 +73,17 @@ template <field F, class S, class State, class C>
 }
 
 template <class S, class State, class C>
+[[gnu::noinline]] void apply_displaced_kick(const S& system, const step_program_letter<C>& letter, State& x,
+                                            auto& room) {
+  using T = typename State::scalar_type;
+  if constexpr (displaced_kick::serves<S, T>) {
+    const displaced_kick_coefficients<C> c = letter.displaced;
+    if (letter.evaluates != evaluation::none) force<T>(system, x.q, x.f);
+    displaced_kick::apply(system, c, x, room);
+  }
+}
+
+template <class S, class State, class C>
 [[gnu::noinline]] void apply_rotation(const S& system, const step_program_letter<C>& letter, State& x,
                                       auto& room) {
   if constexpr (rotation::serves<S, typename State::scalar_type>) {
@@ -101,6 +113,9 @@ template <field F, class S, class State, class C>
     }
     case action::gradient_kick:
       apply_gradient_kick<F>(system, letter, x, room);
+      break;
+    case action::displaced_kick:
+      apply_displaced_kick(system, letter, x, room);
       break;
     case action::rotation:
       apply_rotation(system, letter, x, room);

@@ -124,6 +124,8 @@ using srkn14a = classical<"srkn14a">;
 using takahashi_imada = classical<"takahashi_imada">;
 /// 4A: B(1/6) A(1/2) G(2/3, 1/72) A(1/2) B(1/6), order 4 without going back in time; three evaluations.
 using chin4a = classical<"chin4a">;
+/// Chin's method 4A with a displaced kick: three evaluations, not symplectic.
+using chin4a_displaced = classical<"chin4a_displaced">;
 /// A(a) B(b) A(1/2 - a) G(1 - 2 b, c) A(1/2 - a) B(b) A(a) with the least norm of the error's leading
 /// coefficients: order 4, four evaluations; 4MN3F1GP in lattice field theory.
 using omelyan_fg4 = classical<"omelyan_fg4">;

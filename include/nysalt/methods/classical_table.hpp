@@ -122,6 +122,10 @@ inline constexpr classical_row classical_table[] = {
     {.name = "chin4a", .letters = "BAGAB",
      .coefficients = std::array{1.0 / 6.0, 0.5, 2.0 / 3.0, 1.0 / 72.0, 0.5, 1.0 / 6.0},
      .order = 4, .source = "chin_1997", .requires_quadratic_kinetic = true},
+    // G(2/3, 1/72) with its force at q + 2 c/b h^2 M^-1 f, which is it up to h^5.
+    {.name = "chin4a_displaced", .letters = "BADAB",
+     .coefficients = std::array{1.0 / 6.0, 0.5, 2.0 / 3.0, 1.0 / 24.0, 0.5, 1.0 / 6.0},
+     .order = 4, .source = "yin_mawhinney_2011", .requires_quadratic_kinetic = true},
     // Equation (44): a = 1/2 - 1/sqrt(24 b), b, and c = (1 - (1 - b) sqrt(6 b))/12.
     {.name = "omelyan_fg4", .letters = "ABAGABA", .coefficients = [] {
        constexpr double b = 0.2470939580390842;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "../losses/data_loss.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/require_valid.hpp"
@@ -165,6 +166,12 @@ learning_problem make_problem(
   }
   const loss_choice chosen = options.loss.value_or(usual_loss(system.bath()));
   const loss_kind& kind = *chosen.kind;
+  if (other == nullptr && !family.letters.is_symplectic && !kind.is_for_sampling) {
+    throw std::invalid_argument(sentence(
+        "learn: {} has the letter D, and is not symplectic: it is for sampling; take the loss acceptance or "
+        "energy:K, or the family fg_chin",
+        family.name));
+  }
   const communicator& ranks = data.share().ranks();
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
   const auto measure = std::make_shared<const metric>(system, data, which);

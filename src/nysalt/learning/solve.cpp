@@ -250,6 +250,7 @@ fit solve_as_it_is(const learning_problem& problem) {
     for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
       // Rotations are not counted, and are not free: words with them are compared with each other.
       if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
+      if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
       // Nor do words without a processor pay for looking.
       if (method.letters().evaluations_to_look > family.letters.evaluations_to_look) continue;
       methods.push_back(problem.rival(method));

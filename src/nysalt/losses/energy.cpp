@@ -25,14 +25,12 @@ double scale_of_energies(const model& system, const flow_map_data& data) {
   return 1.0 / std::sqrt(data.share().sum(squares) / static_cast<double>(data.all_pairs()));
 }
 
-namespace {
 data_loss of_energies(const loss_inputs& from) {
   return from.in_lanes ? after_steps_of(from, energy_error<lanes>(from.system, from.data))
                        : after_steps_of(from, energy_error<double>(from.system, from.data));
 }
-}  // namespace
 
 extern const loss_kind energy_loss;
-constinit const loss_kind energy_loss{.name = "energy", .over_data = of_energies};
+constinit const loss_kind energy_loss{.name = "energy", .is_for_sampling = true, .over_data = of_energies};
 
 }  // namespace nysalt::detail

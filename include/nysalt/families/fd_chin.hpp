@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "nysalt/families/composition.hpp"
+#include "nysalt/flows/displaced_kick.hpp"
+#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/kick.hpp"
+
+namespace nysalt {
+
+/// B(b) A(1/2) D(1 - 2 b, c) A(1/2) B(b): three evaluations, none of them a derivative. At b = 1/6, c = 1/24
+/// Chin's method 4A with a displaced kick; not symplectic, and for sampling alone.
+struct fd_chin : composition<2> {
+  using word = nysalt::word<kick, drift, displaced_kick, drift, kick>;
+  static constexpr std::string_view name = "fd_chin";
+  static constexpr std::string_view source = "yin_mawhinney_2011";
+  static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = true;
+
+  static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 24.0}; }
+
+  /// Two equal steps of kick-drift-kick.
+  static std::array<double, 2> refuge() { return {0.25, 0.0}; }
+
+  template <Scalar C>
+  static std::array<C, 6> coefficients(const std::array<C, 2>& theta) {
+    const auto& [b, c] = theta;
+    return {b, C(0.5), C(1.0) - b * 2.0, c, C(0.5), b};
+  }
+};
+
+}  // namespace nysalt
