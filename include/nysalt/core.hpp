@@ -37,3 +37,4 @@
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4_lattice.hpp"

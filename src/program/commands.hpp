@@ -17,6 +17,7 @@ int learn(const learn_command& command, const common_settings& common);
 int new_system(const new_command& command, const common_settings& common);
 int run(const run_command& command, const common_settings& common);
 int compare(const compare_command& command, const common_settings& common);
+int sample(const sample_command& command, const common_settings& common);
 int recommend(const recommend_command& command, const common_settings& common);
 int stability(const stability_command& command, const common_settings& common);
 

@@ -90,6 +90,20 @@ struct stability_command {
   bool plot = false;
 };
 
+struct sample_command {
+  system_settings system;
+  std::string method = "bcss3";
+  std::optional<double> step;        // kept, unless an acceptance is asked for
+  std::optional<double> acceptance;  // to which the step is tuned
+  std::optional<double> length;
+  double temperature = 1.0;
+  std::int64_t chains = 4;
+  std::int64_t burn_in = 1000;
+  std::int64_t draws = 1000;
+  bool diagonal_masses = false;
+  std::string output;
+};
+
 struct list_command {
   std::string system;  // the file of one, listed too; empty: none
 };

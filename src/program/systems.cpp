@@ -16,18 +16,22 @@
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/user_system_checks.hpp"
+#include "thermal_starts.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-bath bath_of(const bath_settings& settings) {
+/// --start names a file of positions.
+bool is_file_of_starts(const std::string& start) { return start.ends_with(".csv"); }
+
+bath bath_of(const bath_settings& settings, bool takes_temperature) {
   if (settings.sigma && settings.temperature) {
     refuse("--sigma and --temperature say the same twice: give one (kT = sigma^2/(2 friction))");
   }
   if (!settings.friction) {
     if (settings.sigma) refuse("--sigma needs --friction, 0 for none");
-    if (settings.temperature) refuse("--temperature needs --friction");
+    if (settings.temperature && !takes_temperature) refuse("--temperature needs --friction");
     return bath::of_sigma(0.0, 0.0);
   }
   if (!settings.sigma && !settings.temperature) {
@@ -58,9 +62,10 @@ double spread_of(const std::optional<double>& asked, start where) {
 start start_of(const std::string& asked, const bath& heat_bath) {
   const bool is_warm = heat_bath.acts() && heat_bath.has_temperature() && heat_bath.temperature() > 0.0;
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
-  if (asked == "law") return start::law;
+  if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse("unknown --start '{}': it is one of law, gibbs, trajectory", asked);
+    refuse("unknown --start '{}': it is one of law, gibbs, trajectory, or a file of positions NAME.csv",
+           asked);
   }
   if (!is_warm) {
     refuse("--start {} needs a bath with a temperature above 0: give --friction and --temperature", asked);
@@ -69,8 +74,11 @@ start start_of(const std::string& asked, const bath& heat_bath) {
 }
 
 surroundings surroundings_of(const system_settings& settings) {
-  const bath heat_bath = bath_of(settings.bath);
+  const bath heat_bath = bath_of(settings.bath, is_file_of_starts(settings.start));
   const start where = start_of(settings.start, heat_bath);
+  if (is_file_of_starts(settings.start) && settings.spread) {
+    refuse("--spread belongs to the law of starts: {} has the positions", settings.start);
+  }
   return {heat_bath, where, spread_of(settings.spread, where)};
 }
 
@@ -159,12 +167,18 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
     std::visit([&](auto number) { named.push_back({parameter.name, number}); }, value);
   }
   if (!declared.identity.empty()) named.push_back({"source", declared.identity});
-  if (declared.is_checked) {
-    return std::make_unique<prepared_problem>(declared.make(values, conditions.bath, conditions.spread),
-                                              named, conditions);
-  }
-  try {
+  const auto make = [&] {
     initial_value_problem made = declared.make(values, conditions.bath, conditions.spread);
+    if (is_file_of_starts(settings.start)) {
+      const bool is_warm = conditions.bath.acts() && conditions.bath.has_temperature();
+      const double usual = is_warm ? conditions.bath.temperature() : 1.0;
+      made.starts = starts_in(settings.start, made.system, settings.bath.temperature.value_or(usual));
+    }
+    return made;
+  };
+  if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions);
+  try {
+    initial_value_problem made = make();
     examine(made, declared.name);
     return std::make_unique<prepared_problem>(std::move(made), named, conditions);
   } catch (const refusal&) {

@@ -37,6 +37,7 @@ struct search_task {
   objective loss;                           ///< what is minimised
   std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
   objective one_step_loss{};                ///< the least of its minima is a start, too; empty: none is
+  std::vector<named_parameters> kept{};     ///< further starts of the last stage alone
   std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
   std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for

@@ -28,7 +28,9 @@ enum class noise_purpose : std::uint8_t {
   burn_in = 5,         ///< of the run that makes an initial state
   burn_in_halves = 6,  ///< as bath_halves, of that run
   search = 7,          ///< from where one begins
-  perturbation = 8     ///< of a start
+  perturbation = 8,    ///< of a start
+  momenta = 9,         ///< of a trajectory of Hybrid Monte Carlo, and whether it is accepted
+  duration = 10        ///< of such trajectories
 };
 
 /// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives

@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "../sampling/metropolis.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/together.hpp"
@@ -43,27 +44,11 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
       m));
 }
 
-void require_metropolis_applies(const model& system, const tabulated& method, double temperature) {
-  if (!method.symmetric) {
-    throw std::invalid_argument(
-        sentence("acceptance: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
-                 "a symmetric method",
-                 method.name()));
-  }
-  if (system.bath().acts()) {
-    throw std::invalid_argument(
-        sentence("acceptance: H is not conserved in {}; take the system without its bath", describe(system)));
-  }
-  if (!(temperature > 0.0) || !std::isfinite(temperature)) {
-    throw std::invalid_argument(sentence("acceptance: kT must be positive and finite, got {}", temperature));
-  }
-}
-
 }  // namespace
 
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
-  require_metropolis_applies(system, method, temperature);
+  require_metropolis_applies("acceptance", system, method, temperature);
   together(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;

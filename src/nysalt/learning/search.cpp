@@ -182,6 +182,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
     if (task.one_step_loss && !of_one_step) of_one_step = one_step_minimum(task, starts);
   }
   if (of_one_step) starts.push_back(*of_one_step);
+  starts.insert(starts.end(), task.kept.begin(), task.kept.end());
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(descend(task, is_defined, start));

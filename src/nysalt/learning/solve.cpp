@@ -73,6 +73,51 @@ bool is_better(const contender& a, const contender& b, const shard& share) {
 
 namespace {
 
+/// Of a processed family, the best member without a processor: what is learned is no worse than the kernel,
+/// which the first stages of a search with a processor lose sight of. Nothing of other families.
+std::optional<named_parameters> best_kernel(search_task task, const std::vector<named_parameters>& all) {
+  const run_time_family& family = *task.family;
+  if (!family.letters.is_processed() || task.earlier_losses.empty()) return std::nullopt;
+  const Eigen::Index of_processor = std::ssize(family.letters.processor()) - 2;  // two follow from the others
+  const Eigen::Index of_kernel = family.parameters() - of_processor;
+  std::vector<named_parameters> starts;
+  constexpr std::size_t apart = 3;  // of the starts: a kernel has fewer parameters
+  for (std::size_t n = 0; n < all.size(); n += apart) {
+    starts.push_back(all[n]);
+    for (const Eigen::Index k : task.free) {
+      if (k >= of_kernel) starts.back().theta[k] = 0.0;
+    }
+  }
+  std::erase_if(task.free, [&](Eigen::Index k) { return k >= of_kernel; });
+  task.withstands = {};
+  task.refuge = {};
+  task.one_step_loss = {};
+  constexpr int some_iterations = 20;  // as the search goes on from here
+  task.max_iterations = some_iterations;
+  return named_parameters{"kernel alone", search(task, starts).best.theta};
+}
+
+/// What a search by the one-step loss finds where the guard let no minimum of the loss itself through, if the
+/// judge likes it better.
+void try_one_step(search_task task, const std::vector<named_parameters>& starts, search_result& found) {
+  const auto is_sound = [withstands = task.withstands](const candidate& one) {
+    return one.admitted && (!withstands || withstands(one.theta));
+  };
+  const bool was_sound = is_sound(found.best);
+  if (!task.one_step_loss || (was_sound && !found.best.is_held)) return;
+  const objective whole = task.loss;
+  task.loss = task.one_step_loss;
+  task.earlier_losses = {task.one_step_loss};
+  task.one_step_loss = {};
+  task.kept = {};
+  const search_result other = search(task, starts);
+  found.tried += other.tried;
+  if (!is_sound(other.best) || (was_sound && !(other.best.judged < found.best.judged))) return;
+  found.best = other.best;
+  found.best.loss = whole(other.best.theta).value;
+  found.best.is_held = true;  // no minimum of the loss itself
+}
+
 /// Searches from all starts, and judges the best.
 fit solve_as_it_is(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
@@ -142,7 +187,9 @@ fit solve_as_it_is(const learning_problem& problem) {
     task.refuge = named_parameters{"refuge", *family.refuge};
     fix(options, task.refuge->theta);
   }
+  if (const auto kernel = best_kernel(task, starts)) task.kept.push_back(*kernel);
   search_result found = search(task, starts);
+  try_one_step(task, starts, found);
 
   const auto member_at = [&](const std::string& name, const Eigen::VectorXd& theta) {
     contender result{name, problem.held_out_losses(theta)};

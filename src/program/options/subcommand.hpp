@@ -29,6 +29,7 @@ subcommand offer_list(CLI::App& app, common_settings& common);
 subcommand offer_new(CLI::App& app, common_settings& common);
 subcommand offer_recommend(CLI::App& app, common_settings& common);
 subcommand offer_run(CLI::App& app, common_settings& common);
+subcommand offer_sample(CLI::App& app, common_settings& common);
 subcommand offer_stability(CLI::App& app, common_settings& common);
 
 }  // namespace nysalt::program

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// Lattice phi^4 theory on a square of L x L sites with periodic boundaries
+/// [albergo_kanwar_shanahan_2019], each site with unit mass:
+///   V = sum over sites of m^2 q^2 + lambda q^4 + (q_right - q)^2 + (q_down - q)^2.
+/// Site (row, column) is coordinate row L + column. A force costs one pass over the lattice; loops over
+/// columns fill the processor's lanes, so that a large lattice is stepped one trajectory at a time.
+class phi4_lattice {
+ public:
+  static constexpr int dimension = Eigen::Dynamic;
+
+  /// Side L, squared mass m^2, which may be negative, and coupling lambda. Throws std::invalid_argument
+  /// unless L is from 2 to 4096, m^2 is finite and lambda > 0.
+  explicit phi4_lattice(Eigen::Index side, double mass_squared = -4.0, double coupling = 4.0)
+      : side_(side), mass_squared_(mass_squared), coupling_(coupling) {
+    constexpr Eigen::Index most = 4096;
+    if (side < 2 || side > most) {
+      throw std::invalid_argument(
+          sentence("phi4_lattice: the side must be from 2 to {}, got {}", most, side));
+    }
+    if (!std::isfinite(mass_squared) || !(coupling > 0.0) || !std::isfinite(coupling)) {
+      throw std::invalid_argument(
+          sentence("phi4_lattice: the squared mass must be finite and the coupling positive, got {} and {}",
+                   mass_squared, coupling));
+    }
+  }
+
+  Eigen::Index size() const { return side_ * side_; }
+  Eigen::Index side() const { return side_; }            ///< L
+  double mass_squared() const { return mass_squared_; }  ///< m^2
+  double coupling() const { return coupling_; }          ///< lambda
+
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    T sum(0.0);
+    for_each_row([&](Eigen::Index row, Eigen::Index, Eigen::Index below) {
+      for (Eigen::Index k = 0; k < side_; ++k) {
+        const T& x = q[row + k];
+        const T right = q[row + (k + 1 < side_ ? k + 1 : 0)] - x;
+        const T down = q[below + k] - x;
+        const T square = x * x;
+        sum += square * (square * coupling_ + mass_squared_) + right * right + down * down;
+      }
+    });
+    return sum;
+  }
+
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    each_force(
+        q, [out = f.data()](Eigen::Index i, const T& x) __attribute__((always_inline)) { out[i] = x; });
+  }
+
+  /// p += c f(q), in one pass.
+  template <class T, class C>
+  void kick(const vector<T, dimension>& q, vector<T, dimension>& p, const C& c) const {
+    each_force(
+        q, [ out = p.data(), c ](Eigen::Index i, const T& x)
+               __attribute__((always_inline)) { out[i] += x * c; });
+  }
+
+  std::string description() const {
+    return sentence("phi4_lattice(side={}, mass_squared={}, coupling={})", side_, mass_squared_, coupling_);
+  }
+
+ private:
+  /// body(row, above, below) with the first coordinates of these rows.
+  [[gnu::always_inline]] void for_each_row(const auto& body) const {
+    for (Eigen::Index r = 0; r < side_; ++r) {
+      body(r * side_, (r > 0 ? r - 1 : side_ - 1) * side_, (r + 1 < side_ ? r + 1 : 0) * side_);
+    }
+  }
+
+  /// -dV/dq = 2 (the sum of the four neighbours) - (2 m^2 + 8) q - 4 lambda q^3.
+  template <class T>
+  [[gnu::always_inline]] void each_force(const vector<T, dimension>& q, const auto& take) const {
+    const double linear = 2.0 * mass_squared_ + 8.0;
+    const double cubic = 4.0 * coupling_;
+    const Eigen::Index last = side_ - 1;
+    for_each_row([&](Eigen::Index row, Eigen::Index above,
+                     Eigen::Index below) __attribute__((always_inline)) {
+      const T* const here = q.data() + row;
+      const T* const up = q.data() + above;
+      const T* const down = q.data() + below;
+      const auto one = [&](Eigen::Index k, const T& left, const T& right) __attribute__((always_inline)) {
+        const T x = here[k];
+        const T neighbours = (left + right) + (up[k] + down[k]);
+        take(row + k, neighbours * 2.0 - x * (x * x * cubic + linear));
+      };
+      one(0, here[last], here[1 < side_ ? 1 : 0]);
+#pragma GCC ivdep
+      for (Eigen::Index k = 1; k < last; ++k) one(k, here[k - 1], here[k + 1]);
+      one(last, here[last - 1], here[0]);
+    });
+  }
+
+  Eigen::Index side_;
+  double mass_squared_;
+  double coupling_;
+};
+
+}  // namespace nysalt

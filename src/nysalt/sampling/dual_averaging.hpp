@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace nysalt::detail {
+
+/// A step whose acceptance tends to a target: Nesterov's dual averaging of log h with the constants of
+/// [hoffman_gelman_2014, section 3.2.1].
+class dual_averaging {
+ public:
+  dual_averaging(double step, double target)
+      : target_(target), centre_(std::log(10.0 * step)), log_(std::log(step)) {}
+
+  /// After a trajectory that is accepted with this probability.
+  void take(double acceptance) {
+    constexpr double gamma = 0.05;
+    constexpr double t0 = 10.0;
+    constexpr double kappa = 0.75;
+    count_ += 1.0;
+    const double weight = 1.0 / (count_ + t0);
+    error_ += weight * (target_ - acceptance - error_);
+    log_ = centre_ - error_ * std::sqrt(count_) / gamma;
+    const double forgetting = std::pow(count_, -kappa);
+    mean_ += forgetting * (log_ - mean_);
+  }
+
+  double step() const { return std::exp(log_); }      // to try next
+  double settled() const { return std::exp(mean_); }  // to go on with
+
+ private:
+  double target_;
+  double centre_;
+  double log_;
+  double mean_ = 0.0;
+  double error_ = 0.0;
+  double count_ = 0.0;
+};
+
+}  // namespace nysalt::detail

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSL-1.0
+// Hybrid Monte Carlo samples exp(-V/kT) whatever the step, accepts as theory says, and keeps its bits.
+#include "nysalt/hmc.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+const normal_around<1> at_zero({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
+
+/// The draws of coordinate 1 of each chain.
+std::vector<std::vector<double>> draws_of(const model& system, const tabulated& method,
+                                          const initial_states& starts, const hmc_options& options,
+                                          hmc_result* result = nullptr) {
+  std::vector<std::vector<double>> chains(static_cast<std::size_t>(options.chains));
+  for (auto& chain : chains) chain.resize(static_cast<std::size_t>(options.draws));
+  const hmc_result found = hmc(system, method, starts, options, [&](const hmc_draw& draw) {
+    chains[static_cast<std::size_t>(draw.chain)][static_cast<std::size_t>(draw.number)] = draw.q[0];
+  });
+  if (result != nullptr) *result = found;
+  return chains;
+}
+
+/// The mean of f over each chain, as an estimate.
+estimate mean_over_chains(const std::vector<std::vector<double>>& chains, const auto& f) {
+  std::vector<double> means;
+  for (const auto& chain : chains) {
+    double sum = 0.0;
+    for (const double x : chain) sum += f(x);
+    means.push_back(sum / static_cast<double>(chain.size()));
+  }
+  return mean_and_error(means);
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+// V = omega^2 q^2/2: <q^2> = kT/omega^2. Chains are independent but for their durations.
+BOOST_AUTO_TEST_CASE(the_law_of_a_gaussian_is_exact_at_a_large_step) {
+  constexpr double omega = 2.0;
+  constexpr double temperature = 0.7;
+  const harmonic_oscillator spring(omega);
+  const hmc_options options{
+      .step = 0.8, .length = 1.1, .temperature = temperature, .chains = 64, .burn_in = 50, .draws = 2000};
+  hmc_result result;
+  const auto chains = draws_of(spring, tabulated(verlet{}), at_zero, options, &result);
+  const auto found = mean_over_chains(chains, square);
+  const double exact = temperature / (omega * omega);
+  BOOST_TEST(std::abs(found.mean - exact) <= 4.0 * found.standard_error);
+  BOOST_TEST(found.standard_error < 0.02 * exact);
+  BOOST_TEST(result.acceptance.mean < 0.97);  // some are rejected
+  // The law of the map itself, which every proposal would have without Metropolis' rule.
+  const double of_map = exact / (1.0 - square(omega * options.step) / 4.0);
+  BOOST_TEST(std::abs(found.mean - of_map) > 4.0 * found.standard_error);
+  const auto mean = mean_over_chains(chains, [](double x) { return x; });
+  BOOST_TEST(std::abs(mean.mean) <= 4.0 * mean.standard_error);
+}
+
+// In one dimension the mean acceptance is 1 - 2/pi arctan sqrt(E[dH]/2), and E[dH] = E[dH^2]/(2 + ...)
+// follows from the matrix of the trajectory [calvo_sanz_alonso_sanz_serna_2021].
+BOOST_AUTO_TEST_CASE(acceptance_follows_the_arctangent_law) {
+  constexpr double omega = 1.0;
+  constexpr double step = 1.2;
+  const harmonic_oscillator spring(omega);
+  // Durations are uniform between 0 and twice this: one step or two, which are told apart by their counts.
+  const hmc_options options{.step = step, .length = 0.74 * step, .chains = 64, .burn_in = 20, .draws = 4000};
+  hmc_result result;
+  draws_of(spring, tabulated(verlet{}), at_zero, options, &result);
+  // One step of Verlet's method on the oscillator: (1 - z^2/2, z; -z + z^3/4, 1 - z^2/2).
+  const double z = omega * step;
+  const double a = 1.0 - z * z / 2.0;
+  const double b = z;
+  const double c = -z + z * z * z / 4.0;
+  const auto accepted = [](double of_q, double of_p) {  // E[dH] = (b + c)^2/2 for a matrix of determinant 1
+    return 1.0 - 2.0 / std::numbers::pi * std::atan(std::sqrt(square(of_q + of_p) / 4.0));
+  };
+  const double after_one = accepted(b, c);
+  const double after_two = accepted(2.0 * a * b, 2.0 * a * c);
+  // llround(1.48 u): one for u < 1.5/1.48, that is always.
+  BOOST_TEST(std::abs(result.acceptance.mean - after_one) <= 4.0 * result.acceptance.standard_error);
+  BOOST_TEST(std::abs(result.acceptance.mean - after_two) > 4.0 * result.acceptance.standard_error);
+}
+
+BOOST_AUTO_TEST_CASE(neither_lanes_nor_threads_change_a_bit) {
+  const phi4_chain<> ring(5);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(5);
+  const normal_around<Eigen::Dynamic> starts({zero, zero}, 0.5, 1.0);
+  hmc_options options{
+      .step = 0.3, .length = 1.0, .chains = 19, .burn_in = 120, .draws = 30, .acceptance = 0.9};
+  hmc_result first;
+  const auto all = draws_of(ring, tabulated(omelyan5v{}), starts, options, &first);
+  options.threads = 3;
+  BOOST_TEST((draws_of(ring, tabulated(omelyan5v{}), starts, options) == all));
+  options.seed = 2;
+  BOOST_TEST((draws_of(ring, tabulated(omelyan5v{}), starts, options) != all));
+  // A chain does not depend on those beside it, but for the step that all tune.
+  options = {.step = first.step, .length = 1.0, .chains = 19, .burn_in = 10, .draws = 30};
+  const auto many = draws_of(ring, tabulated(verlet{}), starts, options);
+  options.chains = 1;
+  BOOST_TEST((draws_of(ring, tabulated(verlet{}), starts, options).front() == many.front()));
+}
+
+BOOST_AUTO_TEST_CASE(the_step_is_tuned_to_the_acceptance) {
+  const linear_chain chain = linear_chain::between_walls(12, 1.0);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(12);
+  const normal_around<Eigen::Dynamic> starts({zero, zero}, 1.0, 1.0);
+  for (const double wanted : {0.7, 0.9}) {
+    hmc_result result;
+    draws_of(chain, tabulated(verlet{}), starts,
+             {.step = 0.1, .length = 1.5, .chains = 32, .burn_in = 400, .draws = 200, .acceptance = wanted},
+             &result);
+    BOOST_TEST_MESSAGE("acceptance " << result.acceptance.mean << " at step " << result.step);
+    // Known to .3/sqrt(32 400) = .003; averages of the step lag behind by some of its last changes.
+    BOOST_TEST(std::abs(result.acceptance.mean - wanted) < 0.05);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {
+  const Eigen::VectorXd stiffness{{1.0, 400.0}};
+  const linear_chain wide(stiffness.asDiagonal().toDenseMatrix(), Eigen::Vector2d(1.0, 1.0));
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2);
+  const normal_around<Eigen::Dynamic> starts({zero, zero}, 0.1, 1.0);
+  hmc_result result;
+  const auto chains = draws_of(wide, tabulated(verlet{}), starts,
+                               {.step = 0.01,
+                                .length = 1.5,
+                                .temperature = 2.0,
+                                .chains = 32,
+                                .burn_in = 600,
+                                .draws = 600,
+                                .acceptance = 0.9,
+                                .diagonal_masses = true},
+                               &result);
+  BOOST_REQUIRE(result.deviations.size() == 2u);
+  BOOST_TEST(std::abs(result.deviations[0] - std::sqrt(2.0)) < 0.1);  // 32 chains of 150 draws
+  BOOST_TEST(std::abs(result.deviations[1] - std::sqrt(2.0) / 20.0) < 0.005);
+  BOOST_TEST(result.step > 0.5);  // where both frequencies are one; without masses it is below 2/20
+  const auto found = mean_over_chains(chains, square);
+  BOOST_TEST(std::abs(found.mean - 2.0) <= 4.0 * found.standard_error);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
+  const harmonic_oscillator spring(1.0);
+  const hmc_options sound{.step = 0.1, .length = 1.0, .chains = 2, .burn_in = 0, .draws = 2};
+  const auto refused = [&](const model& system, const tabulated& method, hmc_options options,
+                           const char* words, const initial_states& starts = at_zero) {
+    BOOST_CHECK_EXCEPTION(hmc(system, method, starts, options, [](const hmc_draw&) {}), std::invalid_argument,
+                          [&](const auto& problem) {
+                            BOOST_TEST_MESSAGE(problem.what());
+                            return std::string(problem.what()).find(words) != std::string::npos;
+                          });
+  };
+  const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
+  refused(spring, one_way, sound, "not reversible");
+  auto options = sound;
+  options.step = 0.0;
+  refused(spring, tabulated(verlet{}), options, "step must be positive");
+  options = sound;
+  options.temperature = -1.0;
+  refused(spring, tabulated(verlet{}), options, "kT must be positive");
+  options = sound;
+  options.acceptance = 1.5;
+  options.burn_in = 100;
+  refused(spring, tabulated(verlet{}), options, "acceptance must be between");
+  options = sound;
+  options.diagonal_masses = true;
+  options.burn_in = 100;
+  refused(spring, tabulated(verlet{}), options, "ask for an acceptance");
+  options = sound;
+  options.draws = 0;
+  refused(spring, tabulated(verlet{}), options, "draws must be at least 1");
+  const normal_around<1> far({vector<double, 1>(1e200), vector<double, 1>(0.0)}, 1.0, 1.0);
+  refused(spring, tabulated(verlet{}), sound, "must be finite at a start", far);
+}
+
+BOOST_AUTO_TEST_CASE(draws_of_chains_tell_whether_they_agree) {
+  std::vector<std::vector<double>> chains(4, std::vector<double>(2000));
+  std::uint64_t state = 1;
+  for (auto& chain : chains) {
+    for (double& x : chain) {
+      state = state * 6364136223846793005ULL + 1442695040888963407ULL;  // Knuth's multiplier
+      x = static_cast<double>(state >> 33U) / 2147483648.0;
+    }
+  }
+  // Of independent draws R is 1 to within the scatter of variances, some 1/sqrt(1000).
+  BOOST_TEST(std::abs(potential_scale_reduction(chains) - 1.0) < 0.02);
+  BOOST_TEST(effective_draws(chains) > 4000.0);
+  for (double& x : chains[2]) x += 1.0;
+  BOOST_TEST(potential_scale_reduction(chains) > 1.3);
+  for (auto& chain : chains) {
+    for (std::size_t n = 1; n < chain.size(); ++n) chain[n] = 0.9 * chain[n - 1] + 0.1 * chain[n];
+  }
+  BOOST_TEST(effective_draws({chains[0], chains[1]}) < 600.0);  // 4000/tau, and tau is 19
+  BOOST_TEST(std::isnan(potential_scale_reduction({{1.0, 1.0, 1.0, 1.0}})));
+}
