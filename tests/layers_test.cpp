@@ -38,6 +38,7 @@ const std::vector<std::vector<std::string>> layers{
     {"losses/"},
     {"detail/oscillator_loss", "learning/", "learn"},
     {"analysis/"},
+    {"hmc"},
     {"version", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
     {"core"},
     {"odeint", "mpi", "nysalt"}};

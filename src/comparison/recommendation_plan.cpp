@@ -109,7 +109,9 @@ void recommendation::consider(candidate contender) {
     return leave_out("it is not reversible");
   }
   if (options_.metric != "acceptance" && !contender.is_symplectic) {
-    return leave_out("it is not symplectic, and for sampling alone");
+    const bool is_asked = contender.is_learned() && !options_.families.empty();
+    if (is_asked) leave_out("it is not symplectic, and for sampling alone");
+    return;
   }
   try {
     const auto otherwise = placement_asked(options_.placement);

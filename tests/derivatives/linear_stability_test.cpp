@@ -172,7 +172,8 @@ BOOST_AUTO_TEST_CASE(windows_end_at_the_eigenvalues_of_companion_matrices) {
   for (int n = 0; n < 5; ++n) {
     for (const auto& method : methods_as_data(random)) {
       if (has_rotation(method.letters()) || method.letters().evaluations_of_plain_step > 7) continue;
-      if (method.name() == chin4a().name()) continue;  // it ends at a threefold root
+      // It ends at a threefold root, and with a displaced kick is the same on oscillators.
+      if (method.name().starts_with(chin4a().name())) continue;
       const auto windows = stability_windows(method);
       // Ends that are nearly one are no simple eigenvalues.
       double nearest = windows.front().high;

@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(searches_begin_at_consistent_members_within_the_ra
   const member<F> first(F::start());
   const auto word = run_time_word(typename F::word{});
   const auto c = first.coefficients();
-  for (const std::string kind : {"AR", "BGSH"}) {
+  for (const std::string kind : {"AR", "BDGSH"}) {
     double sum = 0.0;
     for (std::size_t i = 0; i < word.length; ++i) {
       if (kind.find(word.letters()[i]) != std::string::npos) sum += c[word.first_slot(i)];

@@ -37,6 +37,7 @@
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4_lattice.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 namespace nysalt::test {
@@ -98,6 +99,7 @@ struct atoms_in_space {
 };
 struct a_ring : within_one { static auto make() { return phi4_chain<4>(); } };
 struct a_dynamic_ring : within_one { static auto make() { return phi4_chain<>(5); } };
+struct a_lattice : within_a_half { static auto make() { return phi4_lattice(3, -1.0, 2.0); } };
 struct a_potential : within_one { static auto make() { return potential_only(); } };
 struct a_dynamic_one : within_one { static auto make() { return dynamic_potential(); } };
 struct a_black_box : within_one { static auto make() { return black_box(); } };
@@ -113,7 +115,7 @@ struct a_faster_one : within_one { static auto make() { return relativistic_with
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
 using systems =
     std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu, a_pendulum,
-               a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_potential,
+               a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_lattice, a_potential,
                a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
 
 /// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a

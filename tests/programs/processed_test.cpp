@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
                {"learn --family fg5+p3" + step, {"fg5", "fg4"}},
                {"learn --family fg4+p3+p3" + step, {"fg4+p3"}},
                {"learn --family aba6_free+p3" + step, {"must be symmetric"}},
-               {"learn --family r_aba4+p3" + step, {"letters A, B and G"}},
+               {"learn --family r_aba4+p3" + step, {"letters A, B, D and G"}},
                {"learn --family fg4+p3" + step + bath, {"processor", "bath"}},
                {"compare --methods learned:fg4+p3 --steps 0.02" + bath, {"processed", "bath", "learned:fg4"}},
                {"run --method fg4_processed" + step + bath, {"processor", "bath"}},

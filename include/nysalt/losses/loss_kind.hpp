@@ -35,8 +35,10 @@ struct loss_kind {
   bool needs_bath = false;                                 ///< with friction and temperature
   judge_of_minima judge = judge_of_minima::held_out_loss;  ///< who chooses among several minima
   bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
-  bool is_for_sampling = false;    ///< words that keep volume alone may be learned by it
-  bool is_shortened = false;  ///< over a quarter of the steps, and again, where no method follows the data
+  bool is_of_proposals =
+      false;  ///< trajectories are proposals: no run takes more steps than those of the data
+  bool is_for_sampling = false;  ///< words that keep volume alone may be learned by it
+  bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// After how many steps errors count, in trajectories of `shortest` steps or more: what a search minimises
   /// first, ..., and last the loss itself. K stands behind the name.
   std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;

@@ -10,8 +10,9 @@
 namespace nysalt {
 
 /// Several steps of a method with an equal part of the step each, as one method: the first coefficient of a
-/// letter goes with h, the second, of gradient kicks, with h^3. Throws std::invalid_argument unless there is
-/// at least one step, or, of several steps, if the word has letters O or a processor.
+/// letter goes with h, the second of gradient kicks with h^3, that of displaced kicks with h^2. Throws
+/// std::invalid_argument unless there is at least one step, or, of several steps, if the word has letters O
+/// or a processor.
 inline tabulated repeated(const tabulated& method, int times) {
   const run_time_word& word = method.letters();
   if (times == 1) return method;
@@ -25,11 +26,15 @@ inline tabulated repeated(const tabulated& method, int times) {
   std::string letters;
   std::vector<double> coefficients;
   const std::vector<double> of_one = method.coefficients();
+  const auto part_of_second = [&](char letter) {
+    return letter == displaced_kick::letter ? part * part : part * part * part;
+  };
   for (int n = 0; n < times; ++n) {
     letters += word.letters();
     for (std::size_t i = 0; i < word.length; ++i) {
       for (std::size_t k = 0; k < word.slots_of(i); ++k) {
-        coefficients.push_back(of_one[word.first_slot(i) + k] * (k == 0 ? part : part * part * part));
+        coefficients.push_back(of_one[word.first_slot(i) + k] *
+                               (k == 0 ? part : part_of_second(word.letters()[i])));
       }
     }
   }

@@ -151,7 +151,7 @@ int trajectories_apart(const flow_map_data& data, Eigen::Index coordinates) {
 /// over more.
 learning_problem make_problem(
     const run_time_family& family, const model& system, const flow_map_data& data,
-    const flow_map_data& held_out, const fit_options& options, const detail::other_loss* other, bool in_lanes,
+    const flow_map_data& held_out, fit_options options, const detail::other_loss* other, bool in_lanes,
     int most_steps = std::numeric_limits<int>::max(),
     const std::function<std::int64_t()>& before = [] { return 0; }) {
   require_valid(data, system);
@@ -172,6 +172,10 @@ learning_problem make_problem(
         "energy:K, or the family fg_chin",
         family.name));
   }
+  const int shortest = std::min({shortest_of(data), shortest_of(held_out), most_steps});
+  if (other == nullptr && kind.is_of_proposals) {
+    options.planned_steps = std::min<std::int64_t>(options.planned_steps, shortest);
+  }
   const communicator& ranks = data.share().ranks();
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
   const auto measure = std::make_shared<const metric>(system, data, which);
@@ -184,7 +188,6 @@ learning_problem make_problem(
     if (other == nullptr) return kind.over_data(from);
     return in_lanes ? after_steps_of(from, *other->in_lanes) : after_steps_of(from, *other->one_by_one);
   };
-  const int shortest = std::min({shortest_of(data), shortest_of(held_out), most_steps});
   const auto stages =
       other == nullptr ? kind.stages(chosen.steps, shortest) : after_each_step(other->steps, shortest);
   std::vector<detail::data_loss> losses_of_stages;

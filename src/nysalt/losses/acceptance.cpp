@@ -35,6 +35,7 @@ std::vector<after_steps_options> stages_of_acceptance(int, int shortest) {
 extern const loss_kind acceptance_loss;
 constinit const loss_kind acceptance_loss{.name = "acceptance",
                                           .counts_steps = false,
+                                          .is_of_proposals = true,
                                           .is_for_sampling = true,
                                           .stages = stages_of_acceptance,
                                           .over_data = of_energies};
