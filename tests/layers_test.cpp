@@ -22,7 +22,7 @@ const std::vector<std::vector<std::string>> layers{
     {"detail/sentence", "detail/in_digits", "detail/tree_sum", "scalar", "scalars/", "phase_point",
      "phase_points"},
     {"system", "detail/requirements", "force", "energy", "detail/energy_range", "lanes", "bath", "noise",
-     "detail/noise_intervals", "detail/quadratic_part", "detail/stiffness_modes", "systems/", "noises/"},
+     "detail/noise_intervals", "detail/modal_coordinates", "detail/stiffness_modes", "systems/", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "detail/conservative_part", "detail/noise_seam",
      "detail/prepared_word", "detail/step_program", "detail/take_steps", "detail/prepared_run_time_word",
      "detail/palindrome", "detail/word_of_letters", "detail/served_letters", "stepper",

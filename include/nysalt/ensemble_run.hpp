@@ -151,10 +151,10 @@ class ensemble_run {
   runs take_up(const saved_runs& saved, std::int64_t block, int count, const state& start) {
     const auto n = size(stepper_->system());
     open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + block)};
-    typename runs::losses lost{};
+    first_in_lanes<T> lost;
     for (int k = 0; k < count; ++k) {
       const auto m = static_cast<std::size_t>(block + k);
-      lost[static_cast<std::size_t>(k)] = saved.diverged_at[m];
+      lost.set(k, saved.diverged_at[m]);
       const double* next_number = saved.numbers.data() + m * static_cast<std::size_t>(3 * n);
       for (auto* part : {&run.state.q, &run.state.p, &run.state.f}) {
         for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);

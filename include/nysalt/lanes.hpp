@@ -3,6 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -172,6 +176,33 @@ T value_in_lanes(const F& f, const phase_point<T, N>& x) {
     return result;
   }
 }
+
+/// The number of the first sample, or step, at which a condition held in each lane.
+template <class T>
+class first_in_lanes {
+ public:
+  /// Takes the condition at number n; numbers come in ascending order.
+  void take(const condition_of<T>& holds, std::int64_t n) {
+    if (!any(holds)) return;
+    for (int k = 0; k < lanes_in<T>; ++k) {
+      auto& first = first_[static_cast<std::size_t>(k)];
+      if (lane(holds, k) && !first) first = n;
+    }
+  }
+  /// Forgets the lanes in which a condition holds.
+  void reset(const condition_of<T>& holds) {
+    if (!any(holds)) return;
+    for (int k = 0; k < lanes_in<T>; ++k) {
+      if (lane(holds, k)) first_[static_cast<std::size_t>(k)].reset();
+    }
+  }
+  void set(int k, std::optional<std::int64_t> n) { first_[static_cast<std::size_t>(k)] = n; }  ///< in lane k
+  /// In lane k; empty if the condition never held there.
+  const std::optional<std::int64_t>& operator[](int k) const { return first_[static_cast<std::size_t>(k)]; }
+
+ private:
+  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> first_{};
+};
 
 /// H in each lane, also where the potential is known for double only.
 template <class T, HasEnergy S>

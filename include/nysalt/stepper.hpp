@@ -270,7 +270,7 @@ class stepper {
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {
-      if (has_rotation(word)) result.part = quadratic_part::of(system);
+      if (has_rotation(word)) result.part = modal_coordinates::of(system);
     }
     return result;
   }

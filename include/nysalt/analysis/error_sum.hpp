@@ -35,12 +35,7 @@ class error_sum {
            double weight = 1.0) {
     sum_ = select(live, sum_ + measure_->error(seen, reference) * weight, sum_);
     weights_ += weight;
-    const auto lost = both(!(sum_ - sum_ == T(0.0)), live);
-    if (!any(lost)) return;
-    for (int k = 0; k < lanes_in<T>; ++k) {
-      auto& at = lost_at_[static_cast<std::size_t>(k)];
-      if (lane(lost, k) && !at) at = i;
-    }
+    lost_at_.take(both(!(sum_ - sum_ == T(0.0)), live), i);
   }
 
   /// The sum of the errors so far, in each lane.
@@ -48,7 +43,7 @@ class error_sum {
 
   /// The score of lane k, which diverged where its state did, or where the error was no longer finite.
   run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
-    const auto lost_at = lost_at_[static_cast<std::size_t>(k)];
+    const auto lost_at = lost_at_[k];
     if (lost_at) return {.diverged_at = lost_at};
     if (diverged_at) return {.diverged_at = diverged_at};
     return {.value = measure_->score(lane(sum_, k), weights_)};
@@ -58,7 +53,7 @@ class error_sum {
   const error_measure* measure_;
   double weights_;
   T sum_{0.0};
-  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> lost_at_{};
+  first_in_lanes<T> lost_at_{};
 };
 
 }  // namespace nysalt

@@ -41,25 +41,19 @@ class predictable_samples {
   /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.
   void add(std::int64_t i, const T& perturbed, const T& null_model) {
     const auto within = perturbed <= null_model * share_;  // not if a sum has gone to NaN
-    for (int k = 0; k < lanes_in<T>; ++k) {
-      auto& exceeded_at = until_[static_cast<std::size_t>(k)];
-      if (lane(within, k)) {
-        exceeded_at.reset();
-      } else if (!exceeded_at) {
-        exceeded_at = i;
-      }
-    }
+    exceeded_at_.reset(within);
+    exceeded_at_.take(!within, i);
   }
 
   /// The first sample in lane k from which on the errors are not within; infinite if they are to the end.
   double until(int k) const {
-    const auto& exceeded_at = until_[static_cast<std::size_t>(k)];
+    const auto& exceeded_at = exceeded_at_[k];
     return exceeded_at ? static_cast<double>(*exceeded_at) : std::numeric_limits<double>::infinity();
   }
 
  private:
   double share_;
-  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> until_{};
+  first_in_lanes<T> exceeded_at_{};
 };
 
 }  // namespace nysalt

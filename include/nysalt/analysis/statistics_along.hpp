@@ -64,7 +64,7 @@ class statistics_along {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
     const auto lost = both(!(all - all == T(0.0)), live);
-    if (any(lost)) lose(lost, n);
+    lost_at_.take(lost, n);
     if (n < wanted_->from) return;
     samples_ += 1.0;
     if (histogram_) histogram_->add(numbers[0]);
@@ -76,7 +76,7 @@ class statistics_along {
   }
 
   /// The first step at which lane k was not finite.
-  std::optional<std::int64_t> lost_at(int k) const { return lost_at_[static_cast<std::size_t>(k)]; }
+  std::optional<std::int64_t> lost_at(int k) const { return lost_at_[k]; }
   /// The histogram of lane k, where one is wanted.
   const histogram& histogram_in_lane(int k) const { return histogram_->in_lane(k); }
   /// The autocovariance of lane k, where one is wanted. Throws like autocovariance_along::in_lane().
@@ -92,12 +92,6 @@ class statistics_along {
     first_ += y;
     second_ += y * y;
   }
-  void lose(const condition_of<T>& lost, std::int64_t n) {
-    for (int k = 0; k < lanes_in<T>; ++k) {
-      auto& at = lost_at_[static_cast<std::size_t>(k)];
-      if (lane(lost, k) && !at) at = n;
-    }
-  }
 
   const statistics_wanted* wanted_;
   double centre_;
@@ -108,7 +102,7 @@ class statistics_along {
   T second_{0.0};
   T kinetic_{0.0};
   T half_step_{0.0};
-  std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> lost_at_{};
+  first_in_lanes<T> lost_at_{};
 };
 
 }  // namespace nysalt

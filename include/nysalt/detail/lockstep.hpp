@@ -41,12 +41,10 @@ class lockstep {
         diverged_(stepper.system(), start),
         live_(first_lanes<T>(count)) {}
 
-  using losses = std::array<std::optional<std::int64_t>, lanes>;  ///< the step at which a lane diverged
-
   /// Takes up what was put away: open() and diverged_at() of trajectories that began at `start`. If it was
   /// put away at a step that steps_between_checks divides, it goes on as if nothing had happened, to the bit.
   lockstep(const Stepper& stepper, const state& start, int count, open_run<T, dimension> run,
-           const losses& diverged_at)
+           const first_in_lanes<T>& diverged_at)
       : stepper_(&stepper),
         run_(std::move(run)),
         good_(run_),
@@ -95,7 +93,7 @@ class lockstep {
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }  ///< those that go on
   /// The step at which lane k diverged; nothing while it goes on.
-  std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[static_cast<std::size_t>(k)]; }
+  std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[k]; }
 
  private:
   /// A stretch after the other: advance(next) takes the run to step `next`, seen(next, all_well) comes when
@@ -122,9 +120,7 @@ class lockstep {
       stepper_->advance(run, 1);
       condition found = unknown;  // at the end of the stretch at the latest
       if (run.step < end) found = both(unknown, diverged_(stepper_->of_kernel(run)));
-      for (int k = 0; k < lanes; ++k) {
-        if (lane(found, k)) diverged_at_[static_cast<std::size_t>(k)] = run.step;
-      }
+      diverged_at_.take(found, run.step);
       unknown = both(unknown, !found);
     }
     if (!any(live_)) run_ = std::move(run);  // of one trajectory the first bad step
@@ -144,7 +140,7 @@ class lockstep {
   open_run<T, dimension> good_;
   divergence<typename Stepper::system_type, T> diverged_;
   condition live_;
-  losses diverged_at_{};
+  first_in_lanes<T> diverged_at_{};
   std::vector<T> seen_;
 };
 

@@ -10,16 +10,16 @@
 #include <tuple>
 #include <utility>
 
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/noise_seam.hpp"
-#include "nysalt/detail/quadratic_part.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
 
 /// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
-  std::optional<bath> heat_bath;               ///< for letters O; a copy, as a system may return it by value
-  std::shared_ptr<const quadratic_part> part;  ///< for letters R
+  std::optional<bath> heat_bath;  ///< for letters O; a copy, as a system may return it by value
+  std::shared_ptr<const modal_coordinates> part;  ///< for letters R
 };
 
 namespace detail {

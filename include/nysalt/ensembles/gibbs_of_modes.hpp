@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_based.hpp"
@@ -25,34 +29,32 @@ class gibbs_of_modes {
     requires(S::dimension == N)
   gibbs_of_modes(const S& system, double temperature) : temperature_(temperature) {
     const exact_linear linear(system);  // refuses any other
-    const normal_modes modes = system.modes();
-    if (!(temperature > 0.0) || !std::isfinite(temperature) || !(modes.frequencies.minCoeff() > 0.0)) {
+    modes_ = modal_coordinates::of(system);
+    if (!(temperature > 0.0) || !std::isfinite(temperature) ||
+        !(std::ranges::min(modes_->frequencies()) > 0.0)) {
       throw std::invalid_argument(
           sentence("gibbs_of_modes: {} at temperature {} has no Gibbs law that is normal: it needs a "
                    "temperature above "
                    "0, and a frequency above 0 of each mode",
                    describe(system), temperature));
     }
-    const double deviation = std::sqrt(temperature);
-    to_q_ = modes.basis * (deviation * modes.frequencies.cwiseInverse()).asDiagonal();
-    to_p_ = modes.basis * deviation;
-    if constexpr (HasInverseMass<S>) {
-      for (Eigen::Index i = 0; i < to_q_.rows(); ++i) {
-        const double root = std::sqrt(system.inverse_mass(i));
-        to_q_.row(i) *= root;
-        to_p_.row(i) /= root;
-      }
-    }
   }
 
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
-    vector<double, N> x(to_q_.rows());
-    vector<double, N> y(to_q_.rows());
+    vector<double, N> x(modes_->size());
+    vector<double, N> y(modes_->size());
     noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
     standard_normals(seed, at, x);
     at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
     standard_normals(seed, at, y);
-    return {to_q_ * x, to_p_ * y};
+    const double deviation = std::sqrt(temperature_);
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      x[k] *= deviation / modes_->frequencies()[static_cast<std::size_t>(k)];
+      y[k] *= deviation;
+    }
+    phase_point<double, N> state{vector<double, N>(x.size()), vector<double, N>(x.size())};
+    modes_->from_modes(x, y, state.q, state.p);
+    return state;
   }
   std::string description() const {
     return sentence("gibbs_of_modes(temperature={})", in_digits(temperature_, 6));
@@ -60,8 +62,7 @@ class gibbs_of_modes {
 
  private:
   double temperature_;
-  Eigen::MatrixXd to_q_;
-  Eigen::MatrixXd to_p_;
+  std::shared_ptr<const modal_coordinates> modes_;
 };
 
 }  // namespace nysalt

@@ -7,7 +7,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "nysalt/detail/quadratic_part.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/flows/drift.hpp"
 
@@ -50,14 +50,14 @@ struct rotation {
   /// The turn of each mode over t = c h.
   template <Scalar C, int N>
   struct prepared {
-    std::shared_ptr<const quadratic_part> part;  ///< basis and frequencies
-    vector<C, N> cosine;                         ///< cos(omega t)
-    vector<C, N> of_y_in_x;                      ///< sin(omega t)/omega, or t where omega = 0
-    vector<C, N> of_x_in_y;                      ///< -omega sin(omega t)
+    std::shared_ptr<const modal_coordinates> part;  ///< basis and frequencies
+    vector<C, N> cosine;                            ///< cos(omega t)
+    vector<C, N> of_y_in_x;                         ///< sin(omega t)/omega, or t where omega = 0
+    vector<C, N> of_x_in_y;                         ///< -omega sin(omega t)
   };
 
   template <int N, Scalar C>
-  static prepared<C, N> prepare(const C& c, double h, const std::shared_ptr<const quadratic_part>& part) {
+  static prepared<C, N> prepare(const C& c, double h, const std::shared_ptr<const modal_coordinates>& part) {
     using std::cos;
     using std::sin;
     const auto n = static_cast<Eigen::Index>(part->frequencies().size());
@@ -81,21 +81,13 @@ struct rotation {
     auto& x = room.x;
     auto& y = room.y;
     const Eigen::Index n = z.size();
-    for (Eigen::Index k = 0; k < n; ++k) x[k] = y[k] = T(0.0);
-    for (const auto& [i, k, heavy, light] : turn.part->entries()) {
-      x[k] += q[i] * heavy;
-      y[k] += p[i] * light;
-    }
+    turn.part->to_modes(q, p, x, y);
     for (Eigen::Index k = 0; k < n; ++k) {
       const T turned = x[k] * turn.cosine[k] + y[k] * turn.of_y_in_x[k];
       y[k] = y[k] * turn.cosine[k] + x[k] * turn.of_x_in_y[k];
       x[k] = turned;
-      q[k] = p[k] = T(0.0);
     }
-    for (const auto& [i, k, heavy, light] : turn.part->entries()) {
-      q[i] += x[k] * light;
-      p[i] += y[k] * heavy;
-    }
+    turn.part->from_modes(x, y, q, p);
   }
 
   template <class P>

@@ -80,8 +80,6 @@ class metric {
   std::string name_of(Eigen::Index row, coordinates which) const;
 
   Eigen::Index size_;
-  static sums sums_in(const Eigen::MatrixXd& to);
-
   sums sums_of_q_;
   sums sums_of_p_;
   Eigen::VectorXd weight_;

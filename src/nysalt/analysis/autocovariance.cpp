@@ -3,37 +3,34 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "jackknife.hpp"
 
 namespace nysalt {
 
 std::vector<double> autocovariance::jackknife(
     const std::function<std::vector<double>(const std::vector<double>&)>& f) const {
   const std::vector<double> all = f(normalised());
-  if (groups_.size() < 2) return std::vector<double>(all.size(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<double> sum(all.size());
-  std::vector<double> squares(all.size());
-  for (const auto& group : groups_) {
-    autocovariance_sums others = total_;
-    for (std::size_t k = 0; k < others.size(); ++k) others[k] = others[k] - group[k];
-    const std::vector<double> without = f(normalised(others));
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const double change = without[i] - all[i];
-      sum[i] += change;
-      squares[i] += change * change;
+  std::vector<std::vector<double>> without(all.size());  // number i, without each of the groups
+  if (groups_.size() >= 2) {
+    for (const auto& group : groups_) {
+      autocovariance_sums others = total_;
+      for (std::size_t k = 0; k < others.size(); ++k) others[k] = others[k] - group[k];
+      const std::vector<double> numbers = f(normalised(others));
+      for (std::size_t i = 0; i < all.size(); ++i) without[i].push_back(numbers[i]);
     }
   }
-  const auto n = static_cast<double>(groups_.size());
-  for (std::size_t i = 0; i < all.size(); ++i) squares[i] -= sum[i] * sum[i] / n;
-  for (double& value : squares) value = std::max(value, 0.0) * ((n - 1.0) / n);
-  return squares;
+  std::vector<double> variances;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    variances.push_back(detail::jackknife_variance(without[i], all[i]));
+  }
+  return variances;
 }
 
 autocovariance::autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups)

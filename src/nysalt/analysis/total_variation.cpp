@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "jackknife.hpp"
+
 namespace nysalt {
 
 namespace {
@@ -20,8 +22,7 @@ histogram sum_of(std::span<const histogram> groups) {
   return all;
 }
 
-/// (G - 1)/G sum_g (d_g - mean d)^2, where d_g = distance(all but group g); groups without a trajectory do
-/// not count. NaN if there are fewer than two.
+/// The variance of distance(all) by the jackknife over groups; groups without a trajectory do not count.
 template <class Distance>
 double jackknife_variance(std::span<const histogram> groups, const histogram& all, const Distance& distance) {
   std::vector<double> without;
@@ -31,9 +32,7 @@ double jackknife_variance(std::span<const histogram> groups, const histogram& al
     others -= group;
     if (others.total() > 0) without.push_back(distance(others));
   }
-  const auto n = static_cast<double>(without.size());
-  const double error = mean_and_error(without).standard_error;  // their squares divided by n (n - 1)
-  return (n - 1.0) * (n - 1.0) * error * error;
+  return detail::jackknife_variance(without, distance(all));
 }
 
 }  // namespace

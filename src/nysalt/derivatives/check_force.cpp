@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "force_source.hpp"
-#include "nysalt/detail/quadratic_part.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
@@ -105,16 +105,20 @@ class force_examination {
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
   void look_at_soft_force(const column& q) {
-    const auto part = source_.quadratic();
-    column x = column::Zero(source_.size);
-    for (const auto& entry : part->entries()) x[entry.mode] += entry.heavy * q[entry.coordinate];
-    source_.soft_force(q, other_);
-    column defect = other_ - f_;
-    for (const auto& entry : part->entries()) {
-      const double omega = part->frequencies()[static_cast<std::size_t>(entry.mode)];
-      defect[entry.coordinate] -= entry.heavy * omega * omega * x[entry.mode];
+    const auto modes = source_.modes();
+    const column rest = column::Zero(source_.size);
+    column x(source_.size);
+    column y(source_.size);
+    modes->to_modes(q, rest, x, y);
+    for (Eigen::Index k = 0; k < source_.size; ++k) {
+      const double omega = modes->frequencies()[static_cast<std::size_t>(k)];
+      y[k] = omega * omega * x[k];
     }
-    note(energies(defect), found_.soft_defect, found_.soft_coordinate);
+    column back(source_.size);  // q itself
+    column quadratic(source_.size);
+    modes->from_modes(x, y, back, quadratic);
+    source_.soft_force(q, other_);
+    note(energies(other_ - f_ - quadratic), found_.soft_defect, found_.soft_coordinate);
   }
 
   void look_at_derivative(const column& q) {

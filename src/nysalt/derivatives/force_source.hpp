@@ -8,7 +8,7 @@
 
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/differences.hpp"
-#include "nysalt/detail/quadratic_part.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 
 namespace nysalt::detail {
 
@@ -64,7 +64,7 @@ class force_source {
   /// p += force(q)/2
   void kick(const column& q, column& p) const { system_.own_kick(q, p, 0.5); }
   void soft_force(const column& q, column& f) const { system_.soft_force(q, f); }
-  std::shared_ptr<const quadratic_part> quadratic() const { return quadratic_part::of(system_); }
+  std::shared_ptr<const modal_coordinates> modes() const { return modal_coordinates::of(system_); }
   void derivative(const column& q, const column& v, column& g) const { system_.force_derivative(q, v, g); }
   void velocity(const column& p, column& v) const { system_.kernels<double>().velocity(p, v); }
   void velocity_slope(const column& p, const column& v, column& g) const {

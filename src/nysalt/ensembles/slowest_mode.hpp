@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/model.hpp"
 
 namespace nysalt {
@@ -11,15 +12,15 @@ namespace nysalt {
 /// means would hide in a system of many modes. Empty where the system declares no modes, or some without a
 /// frequency: then the slowest motion is none of them. Cost: that of modes().
 inline Eigen::VectorXd slowest_mode(const model& system) {
-  Eigen::VectorXd weights;
-  if (!has_modes(system)) return weights;
-  const normal_modes modes = system.modes();
-  Eigen::Index slowest = 0;
-  const double omega = modes.frequencies.minCoeff(&slowest);
-  if (!(omega > 0.0)) return weights;
-  weights = omega * modes.basis.col(slowest);
-  if (system.has_unit_mass()) return weights;
-  for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] /= std::sqrt(system.inverse_mass(i));
+  if (!has_modes(system)) return {};
+  const auto modes = modal_coordinates::of(system);
+  const auto omega = std::ranges::min_element(modes->frequencies());
+  if (!(*omega > 0.0)) return {};
+  const auto slowest = omega - modes->frequencies().begin();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(modes->size());
+  for (const auto& [i, k, heavy, light] : modes->entries()) {
+    if (k == slowest) weights[i] = *omega * heavy;
+  }
   return weights;
 }
 

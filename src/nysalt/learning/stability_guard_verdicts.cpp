@@ -14,7 +14,7 @@
 namespace nysalt {
 
 void stability_guard::watch_rotations(const model& system, const phase_points& states) {
-  const auto part = quadratic_part::of(system);
+  const auto part = modal_coordinates::of(system);
   watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
   const Eigen::Index n = size(system);
   if (n > most_for_all_frequencies) {

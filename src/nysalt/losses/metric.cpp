@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
@@ -50,38 +51,20 @@ metric::metric(const model& system, const flow_map_data& data, coordinates which
 }
 
 void metric::change_coordinates(const model& system, coordinates which) {
-  if (has_modes(system)) {
-    const normal_modes modes = system.modes();
-    Eigen::MatrixXd to_x = modes.basis.transpose();
-    Eigen::MatrixXd to_y = to_x;
-    if (!system.has_unit_mass()) {
-      for (Eigen::Index i = 0; i < size_; ++i) {
-        const double root = std::sqrt(system.inverse_mass(i));
-        to_x.col(i) /= root;
-        to_y.col(i) *= root;
-      }
-    }
-    if (which == coordinates::energy) {
-      for (Eigen::Index k = 0; k < size_; ++k) {
-        if (modes.frequencies[k] != 0.0) to_x.row(k) *= modes.frequencies[k];
-      }
-    }
-    sums_of_q_ = sums_in(to_x);
-    sums_of_p_ = sums_in(to_y);
-  } else {
+  if (!has_modes(system)) {
     throw std::invalid_argument(sentence("the {} coordinates of {} are not known: it has no modes(); use qp",
                                          to_string(which), describe(system)));
   }
-}
-
-metric::sums metric::sums_in(const Eigen::MatrixXd& to) {
-  sums result(static_cast<std::size_t>(to.rows()));
-  for (Eigen::Index i = 0; i < to.rows(); ++i) {
-    for (Eigen::Index j = 0; j < to.cols(); ++j) {
-      if (to(i, j) != 0.0) result[static_cast<std::size_t>(i)].push_back({j, to(i, j)});
-    }
+  const auto modes = modal_coordinates::of(system);
+  sums_of_q_.resize(static_cast<std::size_t>(size_));
+  sums_of_p_.resize(static_cast<std::size_t>(size_));
+  for (const auto& [i, k, heavy, light] : modes->entries()) {
+    const auto row = static_cast<std::size_t>(k);
+    const double omega = modes->frequencies()[row];
+    const bool is_scaled = which == coordinates::energy && omega != 0.0;
+    sums_of_q_[row].push_back({i, is_scaled ? heavy * omega : heavy});
+    sums_of_p_[row].push_back({i, light});
   }
-  return result;
 }
 
 void metric::weigh(const flow_map_data& data, coordinates which) {

@@ -7,12 +7,11 @@
 
 namespace nysalt {
 
-void exact_linear::require_modes() const {
-  const Eigen::Index n = root_mass_.size();
-  const bool fit = modes_.basis.rows() == n && modes_.basis.cols() == n && modes_.frequencies.size() == n;
+void exact_linear::require_orthonormal(const normal_modes& modes, Eigen::Index n) const {
+  const bool fit = modes.basis.rows() == n && modes.basis.cols() == n && modes.frequencies.size() == n;
   // n products of numbers below 1, and as much again for how the basis was found.
   if (fit &&
-      (modes_.basis.transpose() * modes_.basis - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <=
+      (modes.basis.transpose() * modes.basis - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff() <=
           32.0 * static_cast<double>(n) * eps) {
     return;
   }

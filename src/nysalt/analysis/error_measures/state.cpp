@@ -5,57 +5,37 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 
 namespace nysalt {
 
 namespace {
 
-/// Entries of a matrix that are not zero, row by row: modes often touch but a few masses.
-struct matrix_entry {
-  std::size_t row;
-  Eigen::Index column;
-  double value;
+/// One term of the sums w_k x_k over q and y_k over p.
+struct term {
+  std::size_t row;  ///< k
+  Eigen::Index coordinate;
+  double of_q;
+  double of_p;
 };
 
-std::vector<matrix_entry> entries_of(const Eigen::MatrixXd& a) {
-  std::vector<matrix_entry> result;
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    for (Eigen::Index j = 0; j < a.cols(); ++j) {
-      if (a(i, j) != 0.0) result.push_back({static_cast<std::size_t>(i), j, a(i, j)});
-    }
-  }
-  return result;
-}
-
-/// The maps from q to w_k x_k and from p to y_k.
-struct weighted_modes {
-  std::vector<matrix_entry> to_x;
-  std::vector<matrix_entry> to_y;
-};
-
-weighted_modes modes_with_weights(const model& system) {
-  const Eigen::Index n = system.size();
-  Eigen::VectorXd root_mass(n);
-  for (Eigen::Index i = 0; i < n; ++i) root_mass[i] = system.root_mass(i);
-  weighted_modes result;
+/// All terms: those of the modal coordinates, or of M^{1/2} q and M^{-1/2} p where there are no modes.
+std::vector<term> terms_of(const model& system) {
+  std::vector<term> result;
   if (has_modes(system)) {
-    const normal_modes modes = system.modes();
-    if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n) {
-      throw std::invalid_argument(
-          sentence("the state error needs {} modes of {}, each with a frequency", n, describe(system)));
+    const auto modes = modal_coordinates::of(system);
+    for (const auto& [i, k, heavy, light] : modes->entries()) {
+      const auto row = static_cast<std::size_t>(k);
+      const double omega = modes->frequencies()[row];
+      result.push_back({row, i, omega == 0.0 ? heavy : omega * heavy, light});
     }
-    const Eigen::VectorXd weights = (modes.frequencies.array() == 0.0).select(1.0, modes.frequencies);
-    result.to_x = entries_of(weights.asDiagonal() * modes.basis.transpose() * root_mass.asDiagonal());
-    result.to_y = entries_of(modes.basis.transpose() * root_mass.cwiseInverse().asDiagonal());
     return result;
   }
-  for (Eigen::Index i = 0; i < n; ++i) {  // not as a matrix, which a long chain has no room for
-    result.to_x.push_back({static_cast<std::size_t>(i), i, root_mass[i]});
-    result.to_y.push_back({static_cast<std::size_t>(i), i, 1.0 / root_mass[i]});
+  for (Eigen::Index i = 0; i < system.size(); ++i) {
+    const double root = system.root_mass(i);
+    result.push_back({static_cast<std::size_t>(i), i, root, 1.0 / root});
   }
   return result;
 }
@@ -64,11 +44,13 @@ weighted_modes modes_with_weights(const model& system) {
 
 error_measure state_measure(const model& system) {
   const auto n = static_cast<std::size_t>(system.size());
-  const auto modes = std::make_shared<const weighted_modes>(modes_with_weights(system));
-  const auto read = [n, modes]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
+  const auto terms = std::make_shared<const std::vector<term>>(terms_of(system));
+  const auto read = [n, terms]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
     std::fill(result.begin(), result.end(), T(0.0));
-    for (const auto& [k, i, value] : modes->to_x) result[k] += x.q[i] * value;
-    for (const auto& [k, i, value] : modes->to_y) result[n + k] += x.p[i] * value;
+    for (const auto& [k, i, of_q, of_p] : *terms) {
+      result[k] += x.q[i] * of_q;
+      result[n + k] += x.p[i] * of_p;
+    }
   };
   const auto error = []<class T>(std::span<const T> seen, std::span<const T> expected) {
     T sum(0.0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The quadratic part of a system: its modes laid out, what is zero left out, and modes that cannot be
-// refused.
-#include "nysalt/detail/quadratic_part.hpp"
+// Modal coordinates: the modes with masses, without zero entries; there and back; modes that are refused.
+#include "nysalt/detail/modal_coordinates.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -33,7 +32,7 @@ struct told {
 
 BOOST_AUTO_TEST_CASE(it_holds_the_modes_with_masses) {
   const linear_chain chain(Eigen::MatrixXd{{2.0, -2.0}, {-2.0, 5.0}}, Eigen::Vector2d(4.0, 9.0));
-  const auto part = quadratic_part::of(chain);
+  const auto part = modal_coordinates::of(chain);
   const auto modes = chain.modes();
   BOOST_REQUIRE(part->frequencies().size() == 2U);
   BOOST_REQUIRE(part->entries().size() == 4U);
@@ -46,17 +45,37 @@ BOOST_AUTO_TEST_CASE(it_holds_the_modes_with_masses) {
   }
 }
 
+// U is orthogonal to some N eps, and each sum of two products rounds.
+BOOST_AUTO_TEST_CASE(there_and_back_is_the_state) {
+  const linear_chain chain(Eigen::MatrixXd{{2.0, -2.0}, {-2.0, 5.0}}, Eigen::Vector2d(4.0, 9.0));
+  const auto modes = modal_coordinates::of(chain);
+  const Eigen::Vector2d q(0.3, -1.7);
+  const Eigen::Vector2d p(-0.2, 0.9);
+  Eigen::Vector2d x, y, q_back, p_back;
+  modes->to_modes(q, p, x, y);
+  modes->from_modes(x, y, q_back, p_back);
+  BOOST_TEST((q_back - q).norm() <= 32.0 * eps * q.norm());
+  BOOST_TEST((p_back - p).norm() <= 32.0 * eps * p.norm());
+  // H_0 is a sum of oscillators; with x for q it is another number.
+  const double energy = 0.5 * (p[0] * p[0] / 4.0 + p[1] * p[1] / 9.0) +
+                        chain.potential<double>(vector<double, Eigen::Dynamic>(q));
+  const Eigen::Map<const Eigen::Vector2d> omega(modes->frequencies().data());
+  BOOST_TEST(std::abs(0.5 * (y.squaredNorm() + omega.cwiseProduct(x).squaredNorm()) - energy) <=
+             32.0 * eps * energy);
+  BOOST_TEST(std::abs(0.5 * (y.squaredNorm() + omega.cwiseProduct(q).squaredNorm()) - energy) > 0.01);
+}
+
 BOOST_AUTO_TEST_CASE(entries_that_are_zero_are_left_out) {
   // Each mode of the chain has two masses of its own.
-  BOOST_TEST(quadratic_part::of(fpu_chain<>(8, 50.0))->entries().size() == 2U * 16U);
-  BOOST_TEST(quadratic_part::of(linear_chain::between_walls(4, 1.0))->entries().size() == 16U);
+  BOOST_TEST(modal_coordinates::of(fpu_chain<>(8, 50.0))->entries().size() == 2U * 16U);
+  BOOST_TEST(modal_coordinates::of(linear_chain::between_walls(4, 1.0))->entries().size() == 16U);
 }
 
 BOOST_AUTO_TEST_CASE(modes_that_cannot_be_are_refused) {
   const auto refused = [](const Eigen::MatrixXd& basis, const Eigen::VectorXd& frequencies) {
     return refuses<std::invalid_argument>(
         [&] {
-          quadratic_part::of(told{{basis, frequencies}});
+          modal_coordinates::of(told{{basis, frequencies}});
         },
         {"two springs", "2 x 2", "frequency >= 0"});
   };

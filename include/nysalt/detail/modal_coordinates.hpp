@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSL-1.0
+// Coordinates in which the quadratic part of a Hamiltonian is a sum of harmonic oscillators.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// The modal coordinates x = U^T M^{1/2} q and y = U^T M^{-1/2} p, in which H_0 = p M^-1 p/2 + q K q/2 with
+/// K = M^{1/2} U diag(omega^2) U^T M^{1/2} is sum_k (y_k^2 + omega_k^2 x_k^2)/2. Only the non-zero entries of
+/// U are stored, because the modes of many systems are local.
+class modal_coordinates {
+ public:
+  /// A non-zero entry of U, with the mass m of the coordinate.
+  struct entry {
+    Eigen::Index coordinate;  ///< row of U
+    Eigen::Index mode;        ///< column of U
+    double heavy;             ///< U m^{1/2}: from q to x, and from y to p
+    double light;             ///< U m^{-1/2}: from p to y, and from x to q
+  };
+
+  /// The modal coordinates of a system that declares modes(). Throws std::invalid_argument unless modes() are
+  /// an N x N matrix of finite numbers and N finite frequencies >= 0.
+  template <System S>
+  static std::shared_ptr<const modal_coordinates> of(const S& system) {
+    const normal_modes modes = system.modes();
+    const Eigen::Index n = nysalt::size(system);
+    if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n ||
+        !modes.basis.allFinite() || !modes.frequencies.allFinite() ||
+        (modes.frequencies.array() < 0.0).any()) {
+      throw std::invalid_argument(
+          sentence("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
+                   describe(system), n, n));
+    }
+    auto result = std::make_shared<modal_coordinates>();
+    result->frequencies_.assign(modes.frequencies.begin(), modes.frequencies.end());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double root = 1.0;
+      if constexpr (HasInverseMass<S>) root = std::sqrt(1.0 / system.inverse_mass(i));
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const double u = modes.basis(i, k);
+        if (u != 0.0) result->entries_.push_back({i, k, u * root, u / root});
+      }
+    }
+    return result;
+  }
+
+  const std::vector<entry>& entries() const { return entries_; }           ///< row by row of U
+  const std::vector<double>& frequencies() const { return frequencies_; }  ///< omega_k
+  /// The number of coordinates N.
+  Eigen::Index size() const { return static_cast<Eigen::Index>(frequencies_.size()); }
+
+  /// Sets x = U^T M^{1/2} q and y = U^T M^{-1/2} p; all are vectors of N scalars of one type. Each sum runs
+  /// over the coordinates in their order. Cost: two products for each entry.
+  void to_modes(const auto& q, const auto& p, auto& x, auto& y) const {
+    using T = std::remove_cvref_t<decltype(x[0])>;
+    for (Eigen::Index k = 0; k < size(); ++k) x[k] = y[k] = T(0.0);
+    for (const auto& [i, k, heavy, light] : entries_) {
+      x[k] += q[i] * heavy;
+      y[k] += p[i] * light;
+    }
+  }
+
+  /// The inverse of to_modes: sets q = M^{-1/2} U x and p = M^{1/2} U y, for an orthogonal U.
+  void from_modes(const auto& x, const auto& y, auto& q, auto& p) const {
+    using T = std::remove_cvref_t<decltype(q[0])>;
+    for (Eigen::Index i = 0; i < size(); ++i) q[i] = p[i] = T(0.0);
+    for (const auto& [i, k, heavy, light] : entries_) {
+      q[i] += x[k] * light;
+      p[i] += y[k] * heavy;
+    }
+  }
+
+ private:
+  std::vector<entry> entries_;
+  std::vector<double> frequencies_;
+};
+
+}  // namespace nysalt
