@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "contest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "nysalt/ensembles/thermal_positions.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/learn.hpp"
+#include "nysalt/references/fine_steps.hpp"
+
+namespace nysalt::sampling_benchmark {
+
+namespace {
+
+hmc_options options_of(double step, const contest_options& options) {
+  return {.step = step,
+          .length = options.length,
+          .burn_in = 0,
+          .draws = options.pilot,
+          .threads = options.threads};
+}
+
+double energy_error(const target& of, const tabulated& word, double step, const contest_options& options) {
+  const auto found = hmc(of.system, word, of.starts, options_of(step, options), [](const hmc_draw&) {});
+  return found.diverged > 0 ? std::numeric_limits<double>::infinity()
+                            : std::sqrt(found.square_of_energy_error.mean);
+}
+
+template <int Drifts>
+std::pair<tabulated, bool> fitted(const small_target& small, double step, const contest_options& options) {
+  const double whole = std::max(1.0, std::round(2.0 * options.length / step));
+  data_options training{.step = step,
+                        .horizon = (whole + 0.5) * step,  // that many steps
+                        .trajectories = 200,
+                        .threads = options.threads};
+  data_options others = training;
+  others.seed = 2;
+  const fine_steps<> reference(step / 40.0);
+  const auto data = make_flow_map_data(small.of.system, small.of.starts, reference, training);
+  const auto unseen = make_flow_map_data(small.of.system, small.of.starts, reference, others);
+  const auto found = learn(bab<Drifts>{}, small.of.system, data, unseen,
+                           {.threads = options.threads,
+                            .loss = loss_named("acceptance"),
+                            .planned_steps = static_cast<std::int64_t>(4.0 * whole)});
+  return {tabulated(found.method.anywhere()), found.summary.usable};
+}
+
+std::pair<tabulated, bool> fitted(int drifts, const small_target& small, double step,
+                                  const contest_options& options) {
+  switch (drifts) {
+    case 2:
+      return fitted<2>(small, step, options);
+    case 3:
+      return fitted<3>(small, step, options);
+    case 4:
+      return fitted<4>(small, step, options);
+    case 5:
+      return fitted<5>(small, step, options);
+    default:
+      return fitted<6>(small, step, options);
+  }
+}
+
+}  // namespace
+
+double energy_error_at(double acceptance) { return std::sqrt(8.0) * boost::math::erfc_inv(acceptance); }
+
+double step_with_error(const target& of, const tabulated& word, double guess, double wanted,
+                       const contest_options& options) {
+  double step = guess;
+  double order = word.order;
+  double last_step = 0.0;
+  double last_error = 0.0;
+  for (int n = 0; n < 6; ++n) {
+    const double error = energy_error(of, word, step, options);
+    if (!std::isfinite(error)) {
+      step *= 0.7;
+      continue;
+    }
+    if (last_step > 0.0 && std::abs(std::log(step / last_step)) > 0.02) {
+      order = std::clamp(std::log(error / last_error) / std::log(step / last_step), 1.0, 12.0);
+    }
+    last_step = step;
+    last_error = error;
+    const double factor = std::clamp(std::pow(wanted / error, 1.0 / order), 0.6, 1.6);
+    step *= factor;
+    if (std::abs(factor - 1.0) < 0.01) break;
+  }
+  return step;
+}
+
+double foretold_step(const small_target& small, const tabulated& word, double guess,
+                     const contest_options& options) {
+  contest_options many = options;
+  many.pilot = 400;
+  return step_with_error(small.of, word, guess, energy_error_at(0.9) / std::sqrt(small.ratio), many);
+}
+
+tabulated learned_bab(int drifts, const small_target& small, double guess, const contest_options& options) {
+  double step = guess;
+  tabulated word = fitted(drifts, small, step, options).first;
+  step = foretold_step(small, word, step, options);
+  const auto [again, usable] = fitted(drifts, small, step, options);
+  const std::string name = fmt::format("learned bab{}{}", drifts, usable ? "" : " (not usable)");
+  return tabulated(name, again.letters(), again.coefficients(), again);
+}
+
+double outcome::step_per_evaluation(const tabulated& word) const {
+  return step / word.letters().evaluations_per_step;
+}
+
+outcome run_chains(const target& of, const tabulated& word, double step, const statistic& measured,
+                   std::int64_t draws, int repetitions, const contest_options& options) {
+  outcome result{.step = step};
+  for (int n = 0; n < repetitions; ++n) {
+    hmc_options chains = options_of(step, options);
+    chains.burn_in = 20;
+    chains.draws = draws;
+    chains.seed = static_cast<std::uint64_t>(100 + n);
+    running_errors errors(measured, chains.chains);
+    const auto found = hmc(of.system, word, of.starts, chains,
+                           [&](const hmc_draw& draw) { errors.take(draw.chain, draw.q); });
+    result.acceptance += found.acceptance.mean / repetitions;
+    // The force at the start of a trajectory is that at the end of the one before, and not counted.
+    const double evaluations =
+        found.evaluations_of_draw - word.letters().evaluations_to_open - word.letters().evaluations_to_look;
+    result.evaluations_of_draw += evaluations / repetitions;
+    const auto cost = [&](std::vector<double> error_curve::*which) {
+      return draws_to_low_error(errors.curves(), which) * evaluations;
+    };
+    result.to_mean_error.push_back(cost(&error_curve::mean));
+    result.to_largest_error.push_back(cost(&error_curve::largest));
+    if (n == 0) result.mean_errors = median_curve(errors.curves(), &error_curve::mean);
+  }
+  return result;
+}
+
+initial_states reached_by(const target& of, const tabulated& word, double step, std::int64_t chains,
+                          std::int64_t burn_in, std::int64_t draws, const contest_options& options) {
+  hmc_options how = options_of(step, options);
+  how.chains = chains;
+  how.burn_in = burn_in;
+  how.draws = draws;
+  std::vector<Eigen::VectorXd> positions(static_cast<std::size_t>(chains * draws));
+  hmc(of.system, word, of.starts, how, [&](const hmc_draw& draw) {
+    positions[static_cast<std::size_t>(draw.chain * draws + draw.number)] = draw.q;
+  });
+  return thermal_positions<Eigen::Dynamic>(of.system, std::move(positions), 1.0);
+}
+
+}  // namespace nysalt::sampling_benchmark
