@@ -38,8 +38,8 @@ struct race {
   double length = 0.0;  // common to all, chosen
 };
 
-/// Steps of all words at each length; the length whose costs have the least geometric mean is taken for all,
-/// and chains are run again there, `repetitions` times.
+/// Steps of all words at each length, in chains no longer than that; the length whose costs have the least
+/// geometric mean is taken for all, and chains are run again there, `repetitions` times.
 race run_race(const std::string& name, const target& of, std::vector<contender> words,
               const statistic& measured, std::vector<double> error_curve::*judged_by,
               const std::vector<tried_length>& lengths, int repetitions, const extent& how);

@@ -73,26 +73,18 @@ double energy_error_at(double acceptance) { return std::sqrt(8.0) * boost::math:
 
 double step_with_error(const target& of, const tabulated& word, double guess, double wanted,
                        const contest_options& options) {
+  const auto is_below = [&](double step) { return energy_error(of, word, step, options) < wanted; };
+  // The error of a word need not rise with the step: from above, the first step that is small enough.
+  constexpr double ratio = 1.06;
   double step = guess;
-  double order = word.order;
-  double last_step = 0.0;
-  double last_error = 0.0;
-  for (int n = 0; n < 6; ++n) {
-    const double error = energy_error(of, word, step, options);
-    if (!std::isfinite(error)) {
-      step *= 0.7;
-      continue;
-    }
-    if (last_step > 0.0 && std::abs(std::log(step / last_step)) > 0.02) {
-      order = std::clamp(std::log(error / last_error) / std::log(step / last_step), 1.0, 12.0);
-    }
-    last_step = step;
-    last_error = error;
-    const double factor = std::clamp(std::pow(wanted / error, 1.0 / order), 0.6, 1.6);
-    step *= factor;
-    if (std::abs(factor - 1.0) < 0.01) break;
+  while (is_below(step)) step *= 1.5;
+  while (!is_below(step)) step /= ratio;
+  double above = step * ratio;
+  for (int n = 0; n < 3; ++n) {
+    const double middle = std::sqrt(step * above);
+    (is_below(middle) ? step : above) = middle;
   }
-  return step;
+  return std::sqrt(step * above);
 }
 
 double foretold_step(const small_target& small, const tabulated& word, double guess,

@@ -157,10 +157,10 @@ void add_lattice(const extent& how, page& to, table& rows) {
   contender by = words.back();
   const statistic measured = squared_powers(large, side, by, how.quick ? 300 : 1000, typical);
 
-  const std::int64_t draws = how.quick ? 400 : 600;
+  constexpr std::int64_t draws = 500;
   const race found =
       run_race(fmt::format("phi4_lattice, {} x {}", side, side), large, words, measured, &error_curve::mean,
-               {{0.3, draws * 3 / 2}, {0.6, draws}}, how.quick ? 1 : 2, how);
+               {{0.3, draws * 7 / 5}, {0.5, draws}}, how.quick ? 1 : 2, how);
   to.heading("Lattice phi^4");
   to.text(fmt::format(
       "V = sum of lambda phi^4 - phi (the sum of the four neighbours), lambda = {:g}, on {} x {} sites: "

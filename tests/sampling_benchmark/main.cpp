@@ -48,9 +48,10 @@ void run(const std::filesystem::path& folder, bool quick) {
       "at the same acceptance, its trajectory lengths tuned for each word apart).");
   report.code("./dev sampling");
   table rows = all_rows();
-  add_gaussians(how, report, rows);
-  add_lattice(how, report, rows);
-  add_posterior(how, report, rows);
+  for (const auto& add : {add_gaussians, add_lattice, add_posterior}) {
+    add(how, report, rows);
+    write(report, rows, folder);  // so that what is done is there if the rest is cut off
+  }
   const std::chrono::duration<double, std::ratio<60>> minutes = std::chrono::steady_clock::now() - began;
   report.text(
       fmt::format("{:%Y-%m-%d}, compiler {}, {} threads, {:.0f} minutes{}. [All rows](sampling/rows.csv).",

@@ -68,7 +68,7 @@ race run_race(const std::string& name, const target& of, std::vector<contender> 
     double logarithm = 0.0;
     for (auto& one : words) {
       one.step = step_with_error(of, one.word, one.step, energy_error_at(0.9), options);
-      one.run = run_chains(of, one.word, one.step, measured, tried.draws, 1, options);
+      one.run = run_chains(of, one.word, std::min(one.step, tried.length), measured, tried.draws, 1, options);
       logarithm += std::log(mean_of(costs_of(one.run)));
       say(fmt::format("{}, length {:g}: {} step {:.4g}, acceptance {:.3f}, cost {:.4g}", name, tried.length,
                       one.word.name(), one.step, one.run.acceptance, mean_of(costs_of(one.run))));
@@ -81,7 +81,7 @@ race run_race(const std::string& name, const target& of, std::vector<contender> 
   const contest_options options{.length = chosen->length, .threads = how.threads};
   if (repetitions > 1) {
     for (auto& one : best)
-      one.run = run_chains(of, one.word, one.step, measured, chosen->draws, repetitions, options);
+      one.run = run_chains(of, one.word, one.run.step, measured, chosen->draws, repetitions, options);
   }
   return {name, std::move(best), chosen->length};
 }
