@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "nysalt/ensembles/thermal_positions.hpp"
@@ -77,7 +78,7 @@ double step_with_error(const target& of, const tabulated& word, double guess, do
   // The error of a word need not rise with the step: from above, the first step that is small enough.
   constexpr double ratio = 1.06;
   double step = guess;
-  while (is_below(step)) step *= 1.5;
+  while (is_below(step)) step *= 1.2;
   while (!is_below(step)) step /= ratio;
   double above = step * ratio;
   for (int n = 0; n < 3; ++n) {
@@ -94,13 +95,26 @@ double foretold_step(const small_target& small, const tabulated& word, double gu
   return step_with_error(small.of, word, guess, energy_error_at(0.9) / std::sqrt(small.ratio), many);
 }
 
-tabulated learned_bab(int drifts, const small_target& small, double guess, const contest_options& options) {
+learned_word learned_bab(int drifts, const small_target& small, double guess,
+                         const contest_options& options) {
+  contest_options many = options;
+  many.pilot = 400;
+  const double wanted = energy_error_at(0.9) / std::sqrt(small.ratio);
+  constexpr double ratio = 1.12;
+  std::optional<learned_word> best;
   double step = guess;
-  tabulated word = fitted(drifts, small, step, options).first;
-  step = foretold_step(small, word, step, options);
-  const auto [again, usable] = fitted(drifts, small, step, options);
-  const std::string name = fmt::format("learned bab{}{}", drifts, usable ? "" : " (not usable)");
-  return tabulated(name, again.letters(), again.coefficients(), again);
+  for (int n = 0; n < 8; ++n) {
+    const auto [word, usable] = fitted(drifts, small, step, options);
+    const bool is_below = energy_error(small.of, word, step, many) < wanted;
+    if (!is_below && best) break;  // the one before was good enough
+    if (is_below || n == 7) {
+      const std::string name = fmt::format("learned bab{}{}", drifts, usable ? "" : " (not usable)");
+      best = {tabulated(name, word.letters(), word.coefficients(), word), step};
+    }
+    if (is_below && step < guess) break;  // the one before was not
+    step = is_below ? step * ratio : step / ratio;
+  }
+  return *best;
 }
 
 double outcome::step_per_evaluation(const tabulated& word) const {

@@ -146,7 +146,8 @@ void add_lattice(const extent& how, page& to, table& rows) {
                                {tabulated(chin4a_displaced{}), 0.13}};
   for (const auto& [drifts, guess] : {std::pair{5, 0.28}, {6, 0.36}}) {
     say(fmt::format("learning bab{}", drifts));
-    words.push_back({learned_bab(drifts, small, guess, typical), guess});
+    const auto found = learned_bab(drifts, small, guess, typical);
+    words.push_back({found.word, found.step});
   }
   for (auto& one : words) one.step = one.foretold = foretold_step(small, one.word, one.step, typical);
   if (!how.quick) {

@@ -59,7 +59,8 @@ void add_posterior(const extent& how, page& to, table& rows) {
                                {tabulated(bcss3{}), 0.15},
                                {tabulated(omelyan5v{}), 0.2}};
   say("learning bab3");
-  words.push_back({learned_bab(3, {of, 1.0}, pilot_step, typical), pilot_step});
+  const auto learned = learned_bab(3, {of, 1.0}, 0.18, typical);
+  words.push_back({learned.word, learned.step});
   const std::int64_t draws = how.quick ? 2000 : 4000;
   const race found =
       run_race("logistic_regression, 25 coefficients", of, words, measured, &error_curve::largest,
