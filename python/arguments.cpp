@@ -173,7 +173,7 @@ void take_potential(const argument_reader& arguments, program::typed_potential& 
   potential.parameters = named_numbers(arguments.inner("parameters"));
 }
 
-/// Those that the system declares, as its kinds of numbers; another is refused with the system's own list.
+/// Those that the system declares, as numbers of its kinds or texts; another is refused with the system's own list.
 void take_parameters(const argument_reader& arguments, program::system_settings& settings) {
   for (const auto& name : arguments.names()) settings.parameters[name] = "";
   for (const auto& parameter : program::declaration_of(settings.name).parameters) {
@@ -186,7 +186,13 @@ void take_parameters(const argument_reader& arguments, program::system_settings&
       arguments.take(name, value);
       settings.parameters[parameter.name] = fmt::format("{}", value);
     };
-    parameter.is_whole() ? take(std::int64_t{}) : take(double{});
+    if (parameter.is_text()) {
+      take(std::string());
+    } else if (parameter.is_whole()) {
+      take(std::int64_t{});
+    } else {
+      take(double{});
+    }
   }
 }
 

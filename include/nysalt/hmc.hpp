@@ -18,6 +18,13 @@
 
 namespace nysalt {
 
+/// Chains between two trajectories: all that `hmc` needs to go on to the same bits, whatever the number of
+/// ranks, threads and lanes.
+struct hmc_state {
+  std::int64_t trajectories = 0;  ///< of each chain so far, burn-in included
+  std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` alone to read
+};
+
 /// How chains are run.
 struct hmc_options {
   double step;    ///< h of a whole word; a first guess where `acceptance` is asked for
@@ -37,6 +44,10 @@ struct hmc_options {
   std::function<void(std::int64_t done)> progress =
       {};                              ///< trajectories of all chains; never two calls at once
   const communicator* ranks = &alone;  ///< who share the chains; changes no bit
+  std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called
+  std::function<void(const hmc_state&)> keep =
+      {};                           ///< at every rank, after all draws of the trajectories so far were taken
+  const hmc_state* from = nullptr;  ///< a kept state of the same options to go on from; none: the starts
 };
 
 /// One draw of a chain. Refers to memory that the next draw overwrites.
@@ -70,9 +81,9 @@ struct hmc_result {
 ///
 /// Throws std::invalid_argument if the method is not symmetric, the kinetic energy is not quadratic in p, the
 /// system is in a bath that acts or does not tell its potential, an option cannot be, or the potential or the
-/// force is not finite at a start; std::runtime_error if a coordinate did not vary where its variance is
-/// asked for. Cost of a trajectory of n steps: evaluations_to_open + n evaluations_per_step of the word, and
-/// one potential.
+/// force is not finite at a start, or the state to go on from is of other options; std::runtime_error if a
+/// coordinate did not vary where its variance is asked for. Cost of a trajectory of n steps:
+/// evaluations_to_open + n evaluations_per_step of the word, and one potential.
 hmc_result hmc(const model& system, const tabulated& method, const initial_states& starts,
                const hmc_options& options, const std::function<void(const hmc_draw&)>& take);
 

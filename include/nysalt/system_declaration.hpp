@@ -23,13 +23,13 @@
 
 namespace nysalt {
 
-/// A whole or a real number.
-using parameter_value = std::variant<std::int64_t, double>;
+/// A whole or a real number, or a text, such as the name of a file.
+using parameter_value = std::variant<std::int64_t, double, std::string>;
 
-/// A number that a system is made of, as options, help, files and Python name it.
+/// What a system is made of, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _: the option is --name
-  parameter_value usual;  ///< where none is given; it says whether the number is whole
+  parameter_value usual;  ///< where none is given; it says whether it is a text, or the number is whole
   std::string meaning{};  ///< for the help
   double least = -std::numeric_limits<double>::infinity();  ///< the smallest that is allowed
   double most = std::numeric_limits<double>::infinity();    ///< the largest that is allowed
@@ -38,6 +38,8 @@ struct declared_parameter {
 
   /// Whether its values are whole numbers.
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
+  /// Whether its value is a text.
+  bool is_text() const { return std::holds_alternative<std::string>(usual); }
   /// Throws std::invalid_argument, in a sentence that begins with the name of the option, for a value that is
   /// not within the bounds, or not finite.
   void require(const parameter_value& value) const;
@@ -55,6 +57,8 @@ class parameter_values {
   /// The value of a whole number.
   std::int64_t whole(std::string_view name) const { return std::get<std::int64_t>((*this)[name]); }
   double real(std::string_view name) const;  ///< a whole number too
+  /// The value of a text.
+  const std::string& text(std::string_view name) const { return std::get<std::string>((*this)[name]); }
 
  private:
   std::vector<std::pair<std::string, parameter_value>> all_;

@@ -114,7 +114,7 @@ def _held_by(system: Any) -> Any:
 
 def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
            sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
-           **parameters: Optional[float]) -> System:
+           **parameters: Union[float, str, None]) -> System:
     """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that

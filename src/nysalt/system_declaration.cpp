@@ -12,11 +12,12 @@ namespace nysalt {
 namespace {
 
 double as_real(const parameter_value& value) {
-  return std::visit([](auto number) { return static_cast<double>(number); }, value);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  return std::get<double>(value);
 }
 
 std::string text_of(const parameter_value& value) {
-  return std::visit([](auto number) { return sentence("{}", number); }, value);
+  return std::visit([](const auto& known) { return sentence("{}", known); }, value);
 }
 
 std::string text_of_bound(const declared_parameter& parameter, double bound) {
@@ -26,6 +27,7 @@ std::string text_of_bound(const declared_parameter& parameter, double bound) {
 }  // namespace
 
 void declared_parameter::require(const parameter_value& value) const {
+  if (is_text()) return;  // what makes the system judges it
   const double x = as_real(value);
   const auto refuse = [&](const std::string& condition) {
     throw std::invalid_argument(sentence("--{} must be {}, got {}", name, condition, text_of(value)));

@@ -102,6 +102,9 @@ struct sample_command {
   std::int64_t draws = 1000;
   bool diagonal_masses = false;
   std::string output;
+  std::string checkpoint;
+  std::optional<std::int64_t> every;  // trajectories between checkpoints
+  bool resume = false;
 };
 
 struct list_command {

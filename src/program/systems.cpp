@@ -85,6 +85,7 @@ surroundings surroundings_of(const system_settings& settings) {
 /// What was typed for a parameter, as its declaration has it.
 parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
   const std::string option = "--" + parameter.name;
+  if (parameter.is_text()) return text;
   const parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
                                                      : parameter_value(number_of<double>(option, text));
   parameter.require(value);
@@ -141,12 +142,16 @@ bool is_path_of_system(std::string_view name) {
   return name.find('/') != std::string_view::npos || name.ends_with(".so") || name.ends_with(".hpp");
 }
 
+std::string text_of(const parameter_value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return text->empty() ? "none" : *text;
+  return std::visit([](const auto& known) { return fmt::format("{}", known); }, value);
+}
+
 std::string options_of(const system_declaration& system) {
   std::string text;
   for (const auto& parameter : system.parameters) {
     if (!text.empty()) text += ' ';
-    text += fmt::format("--{} ", parameter.name);
-    text += std::visit([](auto usual) { return fmt::format("{}", usual); }, parameter.usual);
+    text += fmt::format("--{} {}", parameter.name, text_of(parameter.usual));
   }
   if (system.has_spread) text += text.empty() ? "--spread 1" : " --spread 1";
   return text;
@@ -164,7 +169,9 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
     const auto given = typed.find(parameter.name);
     const auto value = given == typed.end() ? parameter.usual : value_of(parameter, given->second);
     values.add(parameter.name, value);
-    std::visit([&](auto number) { named.push_back({parameter.name, number}); }, value);
+    // A text is how the data are found; what they are, the description says.
+    if (parameter.is_text()) continue;
+    std::visit([&](const auto& known) { named.push_back({parameter.name, known}); }, value);
   }
   if (!declared.identity.empty()) named.push_back({"source", declared.identity});
   const auto make = [&] {

@@ -18,6 +18,8 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings);
 /// A bundled system, or one that a file declares, which is loaded. Throws refusal if there is none of that
 /// name, or what the file holds cannot be used.
 const system_declaration& declaration_of(const std::string& name);
+/// Of a parameter, for people; "none" for an empty text.
+std::string text_of(const parameter_value& value);
 /// "--pairs 3 --omega 50 --spread 1"
 std::string options_of(const system_declaration& system);
 /// A name that is the path of a file.

@@ -4,25 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
+#include "csv_file.hpp"
 #include "nysalt/ensembles/thermal_positions.hpp"
 
 namespace nysalt::program {
 
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-  return cells;
-}
 
 /// Which column has q1, q2, ...
 std::vector<std::size_t> columns_of_positions(const std::string& file, const std::vector<std::string>& names,
@@ -41,22 +33,19 @@ std::vector<std::size_t> columns_of_positions(const std::string& file, const std
 }  // namespace
 
 initial_states starts_in(const std::string& file, const model& system, double temperature) {
-  std::ifstream input(file);
-  std::string line;
-  if (!input || !std::getline(input, line)) refuse("--start {}: it cannot be read", file);
-  const auto columns = columns_of_positions(file, cells_of(line), size(system));
+  std::vector<std::size_t> columns;
   std::vector<vector<double, Eigen::Dynamic>> positions;
-  for (std::size_t number = 2; std::getline(input, line); ++number) {
-    if (line.empty()) continue;
-    const auto cells = cells_of(line);
+  const auto header = [&](const std::vector<std::string>& names) {
+    columns = columns_of_positions(file, names, size(system));
+  };
+  read_csv("--start", file, header, [&](std::size_t number, const std::vector<std::string>& cells) {
     vector<double, Eigen::Dynamic> q(size(system));
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (columns[i] >= cells.size()) refuse("{}: line {} has {} columns", file, number, cells.size());
       q[static_cast<Eigen::Index>(i)] =
           number_of<double>(fmt::format("{}: line {}, q{}", file, number, i + 1), cells[columns[i]]);
     }
     positions.push_back(std::move(q));
-  }
+  });
   try {
     return thermal_positions<Eigen::Dynamic>(system, std::move(positions), temperature);
   } catch (const std::invalid_argument& problem) {

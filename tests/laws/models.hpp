@@ -29,11 +29,13 @@
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/logistic_regression.hpp"
 #include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
@@ -71,6 +73,13 @@ inline auto split_ring() {
   return with_quadratic_part(dynamic_potential(), springs);
 }
 
+/// Four rows of three predictors.
+inline logistic_regression a_posterior_of_rows() {
+  Eigen::MatrixXd rows(4, 3);
+  rows << 1.0, 0.5, -2.0, 1.0, -1.5, 0.3, 1.0, 2.0, 1.0, 1.0, 0.1, -0.7;
+  return {rows, Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), 4.0};
+}
+
 // clang-format off
 // reach: random coordinates are drawn from -reach..reach, where motion stays bounded.
 struct within_one { static constexpr double reach = 1.0; };
@@ -100,6 +109,8 @@ struct atoms_in_space {
 struct a_ring : within_one { static auto make() { return phi4_chain<4>(); } };
 struct a_dynamic_ring : within_one { static auto make() { return phi4_chain<>(5); } };
 struct a_lattice : within_a_half { static auto make() { return phi4_lattice(3, -1.0, 2.0); } };
+struct a_gaussian : within_one { static auto make() { return gaussian(Eigen::Vector3d(0.3, 1.0, 2.5)); } };
+struct a_posterior : within_one { static auto make() { return a_posterior_of_rows(); } };
 struct a_potential : within_one { static auto make() { return potential_only(); } };
 struct a_dynamic_one : within_one { static auto make() { return dynamic_potential(); } };
 struct a_black_box : within_one { static auto make() { return black_box(); } };
@@ -113,10 +124,10 @@ struct a_faster_one : within_one { static auto make() { return relativistic_with
 // clang-format on
 
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
-using systems =
-    std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu, a_pendulum,
-               a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_lattice, a_potential,
-               a_dynamic_one, a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
+using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu,
+                           a_pendulum, a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring,
+                           a_lattice, a_gaussian, a_posterior, a_potential, a_dynamic_one,
+                           a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
 
 /// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a
 /// layout of its own, by potential and by force, with a quadratic part of its own or split off, and with

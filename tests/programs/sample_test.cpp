@@ -67,26 +67,135 @@ BOOST_AUTO_TEST_CASE(a_displaced_kick_is_learned_from_draws_for_sampling_alone) 
   all_refused(folder, {{learn, {"it is for sampling"}}});
 }
 
+// Killed without warning once there is a checkpoint, in the burn-in or after it.
+BOOST_AUTO_TEST_CASE(killed_chains_go_on_to_the_same_bytes) {
+  const scratch folder("sample_killed");
+  const std::string line =
+      "sample --system phi4_lattice --side 20 --length 0.5 --burn-in 300 --draws 300 --chains 2 --json ";
+  const auto whole = run(folder, line + "--output whole.csv");
+  BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+  for (const int trajectories : {50, 350}) {
+    const std::string checkpointed = line + "--output cut.csv --checkpoint cut.checkpoint --every 50 ";
+    const std::string wait = fmt::format(
+        "while kill -0 $pid 2>/dev/null; do n=\"$(head -n 1 cut.checkpoint 2>/dev/null | "
+        "sed -n 's/.*\"trajectories\":\\([0-9]*\\).*/\\1/p')\"; [ \"${{n:-0}}\" -ge {} ] && break; sleep "
+        ".01; "
+        "done\n",
+        trajectories);
+    const auto killed = shell(folder, "\"$nysalt\" " + checkpointed + " >/dev/null 2>&1 & pid=$!\n" + wait +
+                                          "kill -9 $pid && ! wait $pid");
+    BOOST_TEST_REQUIRE(killed.code == 0, "it ended before it could be killed: " << killed.err);
+    all_refused(folder, {{checkpointed, {"--resume"}},
+                         {checkpointed + "--resume --seed 2", {"another run (seed)"}},
+                         {checkpointed + "--resume --draws 200", {"draws"}},
+                         {"run --method verlet --step 0.1 --horizon 1 --output cut.csv --every 5 --resume "
+                          "--checkpoint cut.checkpoint",
+                          {"checkpoint of nysalt sample, not run"}}});
+    const auto resumed = run(folder, checkpointed + "--resume --threads 2");
+    BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
+    BOOST_TEST((contents(folder / "cut.csv") == contents(folder / "whole.csv")));
+    json expected = json_of(whole);
+    json found = json_of(resumed);
+    for (json* document : {&expected, &found}) document->erase("output");
+    BOOST_TEST(found == expected);
+    all_refused(folder, {{checkpointed + "--resume", {"there is no checkpoint"}}});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_checkpoint_is_refused) {
+  const scratch folder("sample_damaged");
+  const std::string line =
+      "sample --system pendulum --length 1 --draws 100000 --output out.csv --checkpoint c --every 100 ";
+  const auto killed =
+      shell(folder, "\"$nysalt\" " + line + " >/dev/null 2>&1 & pid=$!\n" +
+                        "while [ ! -f c ]; do sleep .01; done; kill -9 $pid; wait $pid; [ -f c ]");
+  BOOST_TEST_REQUIRE(killed.code == 0, killed.err);
+  std::string text = contents(folder / "c");
+  text[text.size() / 2] = static_cast<char>(text[text.size() / 2] ^ 1);
+  std::ofstream(folder / "c", std::ios::binary) << text;
+  all_refused(folder, {{line + "--resume", {"not whole, or was edited"}}});
+}
+
+// Two predictors and an intercept: the posterior's means against those of the normal law at its top.
+BOOST_AUTO_TEST_CASE(a_logistic_regression_is_read_from_a_file) {
+  const scratch folder("sample_logistic");
+  std::ofstream table(folder / "rows.csv");
+  table << "died,age,dose\n";
+  for (int i = 0; i < 40; ++i) table << (i % 3 == 0) << ',' << 40 + i % 7 << ',' << 0.5 * (i % 5) << '\n';
+  table.close();
+  const std::string line =
+      "sample --system logistic_regression --data rows.csv --length 0.5 --draws 50 --json ";
+  const json first = json_of(run(folder, line + "--label died"));
+  BOOST_TEST(first["scalars"].size() == 4U);  // potential, intercept, age, dose
+  BOOST_TEST(first["system"].get<std::string>().starts_with("logistic_regression(rows=40, coefficients=3, "));
+  // The same data under another name and in another order of columns are not the same system, and a label
+  // that is last needs no name.
+  std::ofstream other(folder / "other.csv");
+  other << "age,dose,died\r\n";
+  for (int i = 0; i < 40; ++i) other << 40 + i % 7 << ',' << 0.5 * (i % 5) << ',' << (i % 3 == 0) << "\r\n";
+  other.close();
+  const json second = json_of(
+      run(folder, "sample --system logistic_regression --data other.csv --length 0.5 --draws 50 --json"));
+  BOOST_TEST(second == first);
+  BOOST_TEST(json_of(run(folder, line + "--label died --standardise 0"))["system"] != first["system"]);
+  BOOST_TEST(json_of(run(folder, line + "--label died --variance 2"))["system"] != first["system"]);
+
+  std::ofstream(folder / "text.csv") << "x,y\n1,0\nfoo,1\n";
+  std::ofstream(folder / "short.csv") << "x,y\n1,0\n2\n";
+  std::ofstream(folder / "label.csv") << "x,y\n1,0\n2,3\n";
+  std::ofstream(folder / "flat.csv") << "x,y\n1,0\n1,1\n";
+  std::ofstream(folder / "names.csv") << "x,y\n";
+  std::ofstream(folder / "one.csv") << "y\n1\n0\n";
+  std::ofstream(folder / "empty.csv") << "";
+  const std::string data = "sample --system logistic_regression --length 0.5 --data ";
+  all_refused(folder, {{data + "missing.csv", {"missing.csv", "cannot be read"}},
+                       {data + ".", {"cannot be read"}},
+                       {data + "empty.csv", {"is empty"}},
+                       {data + "text.csv", {"line 3, x", "'foo'"}},
+                       {data + "short.csv", {"line 3 must have 2 columns", "got 1"}},
+                       {data + "label.csv", {"line 3, y must be 0 or 1", "got 3"}},
+                       {data + "flat.csv", {"predictor 1 must vary"}},
+                       {data + "names.csv", {"must have a row"}},
+                       {data + "one.csv", {"one column"}},
+                       {data + "label.csv --label z", {"--label z", "x, y"}},
+                       {data + "label.csv --variance 0", {"--variance must be positive"}}});
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_one_line) {
   const scratch folder("sample_bad");
   std::ofstream(folder / "positions.csv") << "q1\n0.5\nx\n";
+  std::ofstream(folder / "far.csv") << "q1\n1e308\n";
+  std::ofstream(folder / "same.csv") << "q1,q2\n0.5,1e200\n";
+  std::ofstream(folder / "one_way.json")
+      << R"({"format": "nysalt table", "version": 1, "name": "one_way", "letters": "AB", "coefficients": [1, 1]})";
   all_refused(
       folder,
-      after("sample",
-            {
-                {"--system pendulum", {"--length"}},
-                {"--system pendulum --length 1 --method aba3_free", {"unknown method"}},
-                {"--system pendulum --length 1 --method learned:fg4", {"must be learned first"}},
-                {"--system pendulum --length 0", {"--length must be"}},
-                {"--system pendulum --length 1 --chains 0", {"--chains must be"}},
-                {"--system pendulum --length 1 --acceptance 1.2", {"acceptance must be between 0 and 1"}},
-                {"--system pendulum --length 1 --friction 1 --temperature 1", {"leave the bath away"}},
-                {"--system pendulum --length 1 --step 0.1 --acceptance 0.9 --burn-in 3",
-                 {"burn_in must be at least 100"}},
-                {"--system pendulum --length 1 --draws 100000000", {"would not fit into memory"}},
-                {"--system pendulum --length 1 --start positions.csv", {"line 3"}},
-                {"--system henon_heiles --length 1 --start positions.csv", {"q2 is not there"}},
-                {"--system pendulum --length 1 --start missing.csv", {"cannot be read"}},
-                {"--system pendulum --length 1 --start positions.csv --spread 2", {"--spread"}},
-            }));
+      after(
+          "sample",
+          {
+              {"--system pendulum", {"--length"}},
+              {"--system pendulum --length 1 --method aba3_free", {"unknown method"}},
+              {"--system pendulum --length 1 --method learned:fg4", {"must be learned first"}},
+              {"--system pendulum --length 1 --method one_way.json", {"not reversible"}},
+              {"--system pendulum --length 1 --start far.csv", {"finite at a start"}},
+              {"--system linear_chain --masses 2 --start same.csv --diagonal-masses --step 1e-300",
+               {"did not vary"}},
+              {"--system pendulum --length 1 --resume", {"--resume needs the --checkpoint"}},
+              {"--system pendulum --length 1 --every 5", {"name its file"}},
+              {"--system pendulum --length 1 --checkpoint c", {"--checkpoint needs --every"}},
+              {"--system pendulum --length 1 --checkpoint c --every 0", {"--every must be"}},
+              {"--system pendulum --length 1 --checkpoint c --every 5 --output c", {"a name of its own"}},
+              {"--system pendulum --length 1 --checkpoint c --every 5 --resume", {"there is no checkpoint"}},
+              {"--system pendulum --length 0", {"--length must be"}},
+              {"--system pendulum --length 1 --chains 0", {"--chains must be"}},
+              {"--system pendulum --length 1 --acceptance 1.2", {"acceptance must be between 0 and 1"}},
+              {"--system pendulum --length 1 --friction 1 --temperature 1", {"leave the bath away"}},
+              {"--system pendulum --length 1 --step 0.1 --acceptance 0.9 --burn-in 3",
+               {"burn_in must be at least 100"}},
+              {"--system pendulum --length 1 --draws 100000000", {"would not fit into memory"}},
+              {"--system pendulum --length 1 --start positions.csv", {"line 3"}},
+              {"--system henon_heiles --length 1 --start positions.csv", {"q2 is not there"}},
+              {"--system pendulum --length 1 --start missing.csv", {"cannot be read"}},
+              {"--system pendulum --length 1 --start positions.csv --spread 2", {"--spread"}},
+          }));
 }

@@ -118,3 +118,43 @@ BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
              std::string::npos);
   BOOST_TEST(describe(dynamic_potential{4}).find("4 degrees of freedom") != std::string::npos);
 }
+
+BOOST_AUTO_TEST_CASE(targets_of_sampling_have_laws) {
+  BOOST_TEST(refuses<wrong>([] { gaussian{Eigen::VectorXd()}; }, {"frequencies", "got 0"}));
+  for (const double omega : {0.0, -1.0, infinite, not_a_number})
+    BOOST_TEST(refuses<wrong>([&] { gaussian(Eigen::Vector2d(1.0, omega)); }, {"positive and finite"}));
+  const Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(2, 1);
+  const auto made = [](const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double variance) {
+    return refuses<wrong>([&] { logistic_regression(x, y, variance); }, {"logistic_regression"});
+  };
+  BOOST_TEST(made(rows, Eigen::Vector3d(0.0, 1.0, 1.0), 1.0));
+  BOOST_TEST(made(Eigen::MatrixXd(), Eigen::VectorXd(), 1.0));
+  BOOST_TEST(made(rows * not_a_number, Eigen::Vector2d(0.0, 1.0), 1.0));
+  BOOST_TEST(made(rows, Eigen::Vector2d(0.0, 2.0), 1.0));
+  for (const double variance : {0.0, -1.0, infinite, not_a_number})
+    BOOST_TEST(made(rows, Eigen::Vector2d(0.0, 1.0), variance));
+  BOOST_TEST(!made(rows, Eigen::Vector2d(0.0, 1.0), 1.0));
+}
+
+// Margins as large as exp() would overflow at, and systems of other data that are told apart.
+BOOST_AUTO_TEST_CASE(a_logistic_regression_is_finite_far_out_and_known_by_its_data) {
+  const logistic_regression posterior = a_posterior_of_rows();
+  const Eigen::Vector3d far(3000.0, -2000.0, 1000.0);
+  // log(1 + exp(m)) = m to rounding for the two rows that are on the wrong side.
+  const auto tail = [](double margin) { return std::max(-margin, 0.0); };
+  const double expected = tail(3000.0 - 1000.0 - 2000.0) + tail(-(3000.0 + 3000.0 + 300.0)) +
+                          tail(3000.0 - 4000.0 + 1000.0) + tail(-(3000.0 - 200.0 - 700.0)) +
+                          far.squaredNorm() / 8.0 + 2.0 * std::log(2.0);  // two margins are 0
+  BOOST_TEST(posterior.potential<double>(far) == expected, boost::test_tools::tolerance(1e-12));
+  Eigen::VectorXd f(3);
+  posterior.force<double>(far, f);
+  BOOST_TEST(f.allFinite());
+  Eigen::MatrixXd others = Eigen::MatrixXd::Ones(4, 3);
+  const Eigen::Vector4d labels(1.0, 0.0, 1.0, 0.0);
+  const std::string first = logistic_regression(others, labels, 4.0).description();
+  BOOST_TEST(logistic_regression(others, labels, 4.0).description() == first);
+  BOOST_TEST(logistic_regression(others, 1.0 - labels.array(), 4.0).description() != first);
+  BOOST_TEST(logistic_regression(others, labels, 5.0).description() != first);
+  others(3, 2) = 1.5;
+  BOOST_TEST(logistic_regression(others, labels, 4.0).description() != first);
+}

@@ -4,14 +4,13 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/fingerprint.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/stiffness_modes.hpp"
 
@@ -36,7 +35,7 @@ class linear_chain {
     inverse_masses_ = inverse_masses_.cwiseInverse();
     modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
     description_ = sentence("linear_chain(masses={}, omega_max={}, fingerprint={})", n,
-                            modes_.frequencies.maxCoeff(), in_hexadecimal(fingerprint()));
+                            modes_.frequencies.maxCoeff(), fingerprint());
   }
 
   /// Equal masses in a row, each joined to its neighbours and the walls by springs of one stiffness.
@@ -90,23 +89,12 @@ class linear_chain {
   std::string description() const { return description_; }
 
  private:
-  /// FNV-1a over the bytes of K, by columns, and the inverse masses, each number's lowest byte first: what
-  /// tells one chain from another of its size.
-  std::uint64_t fingerprint() const {
-    std::uint64_t hash = 0xcbf29ce484222325U;  // FNV's offset basis and prime for 64 bits
-    const auto add = [&](double x) {
-      const auto bits = std::bit_cast<std::uint64_t>(x);
-      for (int shift = 0; shift < 64; shift += 8) hash = (hash ^ ((bits >> shift) & 0xffU)) * 0x100000001b3U;
-    };
-    for (const double x : stiffness_.reshaped()) add(x);
-    for (const double x : inverse_masses_) add(x);
-    return hash;
-  }
-
-  static std::string in_hexadecimal(std::uint64_t x) {
-    std::string digits(16, '0');
-    for (auto digit = digits.rbegin(); x != 0; ++digit, x >>= 4) *digit = "0123456789abcdef"[x & 0xfU];
-    return digits;
+  /// Of K, by columns, and the inverse masses: what tells one chain from another of its size.
+  std::string fingerprint() const {
+    detail::fingerprint sum;
+    sum.add_all(stiffness_.reshaped());
+    sum.add_all(inverse_masses_);
+    return sum.text();
   }
 
   Eigen::MatrixXd stiffness_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <cstdint>
 
 namespace nysalt::detail {
 
@@ -28,6 +28,17 @@ class dual_averaging {
 
   double step() const { return std::exp(log_); }      // to try next
   double settled() const { return std::exp(mean_); }  // to go on with
+
+  /// All that it remembers, and how it is set to that.
+  using memory = std::array<double, 5>;
+  memory saved() const { return {centre_, log_, mean_, error_, count_}; }
+  void restore(const memory& saved) {
+    centre_ = saved[0];
+    log_ = saved[1];
+    mean_ = saved[2];
+    error_ = saved[3];
+    count_ = saved[4];
+  }
 
  private:
   double target_;

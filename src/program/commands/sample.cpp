@@ -2,19 +2,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "../commands.hpp"
+#include "../mpi_session.hpp"
 #include "../output.hpp"
+#include "../output/checkpoint_file.hpp"
+#include "../output/kept_draws.hpp"
 #include "../systems.hpp"
+#include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
+#include "nysalt/detail/together.hpp"
 #include "nysalt/hmc.hpp"
 #include "report/manifest.hpp"
 #include "report/table.hpp"
@@ -23,84 +29,6 @@ namespace nysalt::program {
 
 namespace {
 
-/// All draws: scalar 0 is the potential, the others are coordinates.
-class kept_draws {
- public:
-  kept_draws(std::int64_t chains, std::int64_t draws, std::int64_t coordinates)
-      : width_(static_cast<std::size_t>(coordinates) + 1),
-        of_chain_(static_cast<std::size_t>(chains),
-                  std::vector<double>(static_cast<std::size_t>(draws) * width_)) {}
-
-  void take(const hmc_draw& draw) {
-    double* at = of_chain_[static_cast<std::size_t>(draw.chain)].data() +
-                 static_cast<std::size_t>(draw.number) * width_;
-    *at++ = draw.potential;
-    std::copy(draw.q.begin(), draw.q.begin() + static_cast<std::ptrdiff_t>(width_) - 1, at);
-  }
-  std::size_t scalars() const { return width_; }
-  static std::string name(std::size_t scalar) {
-    return scalar == 0 ? "potential" : fmt::format("q{}", scalar);
-  }
-
-  std::vector<std::vector<double>> chains_of(std::size_t scalar) const {
-    std::vector<std::vector<double>> result;
-    for (const auto& all : of_chain_) {
-      auto& one = result.emplace_back();
-      for (std::size_t n = scalar; n < all.size(); n += width_) one.push_back(all[n]);
-    }
-    return result;
-  }
-
-  std::string csv() const {
-    std::string text = "chain,draw";
-    for (std::size_t k = 0; k < width_; ++k) fmt::format_to(std::back_inserter(text), ",{}", name(k));
-    text += '\n';
-    for (std::size_t m = 0; m < of_chain_.size(); ++m) {
-      for (std::size_t n = 0; n < of_chain_[m].size(); n += width_) {
-        fmt::format_to(std::back_inserter(text), "{},{}", m, n / width_);
-        for (std::size_t k = 0; k < width_; ++k) {
-          fmt::format_to(std::back_inserter(text), ",{}", of_chain_[m][n + k]);
-        }
-        text += '\n';
-      }
-    }
-    return text;
-  }
-
- private:
-  std::size_t width_;
-  std::vector<std::vector<double>> of_chain_;
-};
-
-/// What is known of a scalar.
-struct summary {
-  std::string name;
-  double mean = 0.0;
-  double deviation = 0.0;
-  double effective = 0.0;
-  double reduction = 0.0;
-  double standard_error() const { return deviation / std::sqrt(effective); }
-};
-
-summary summary_of(const kept_draws& draws, std::size_t scalar) {
-  const auto chains = draws.chains_of(scalar);
-  summary result{.name = kept_draws::name(scalar)};
-  double count = 0.0;
-  for (const auto& chain : chains) {
-    for (const double x : chain) {
-      count += 1.0;
-      result.mean += (x - result.mean) / count;
-    }
-  }
-  for (const auto& chain : chains) {
-    for (const double x : chain) result.deviation += (x - result.mean) * (x - result.mean) / count;
-  }
-  result.deviation = std::sqrt(result.deviation);
-  result.effective = effective_draws(chains);
-  result.reduction = potential_scale_reduction(chains);
-  return result;
-}
-
 std::string number_or_dash(const char* format, double value) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
@@ -108,6 +36,10 @@ std::string number_or_dash(const char* format, double value) {
 json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 constexpr double converged = 1.01;  // R-hat [vehtari_and_others_2021]
+
+bool has_converged(const std::vector<summary_of_scalar>& all) {
+  return std::ranges::all_of(all, [](const summary_of_scalar& one) { return one.reduction < converged; });
+}
 
 hmc_options options_of(const sample_command& command, const prepared_problem& system,
                        const method_source& source, const common_settings& common) {
@@ -120,9 +52,11 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
                       .acceptance = command.acceptance,
                       .diagonal_masses = command.diagonal_masses,
                       .seed = seed_for(role::test, common.seed),
-                      .threads = common.threads};
+                      .threads = common.threads,
+                      .ranks = &all_ranks()};
   if (!command.length && !command.diagonal_masses) {
-    refuse("--length: how long should a trajectory be? A quarter of the slowest period is a good start");
+    refuse(
+        "--length must be given without --diagonal-masses; a quarter of the slowest period is a good start");
   }
   if (!command.step) {
     if (!options.acceptance) options.acceptance = 0.9;
@@ -134,70 +68,102 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
   return options;
 }
 
-}  // namespace
-
-int sample(const sample_command& command, const common_settings& common) {
-  if (command.step) require_positive("--step", *command.step);
-  if (command.length) require_positive("--length", *command.length);
-  require_positive("--hmc-temperature", command.temperature);
-  require_at_least_one("--chains", command.chains);
-  require_at_least_one("--draws", command.draws);
+/// Throws refusal for what cannot be of files, before any work.
+void require_files(const sample_command& command) {
   require_table(command.output, false, command.method);
-  const auto system = make_system(command.system);
-  if (system->heat_bath().acts()) refuse("sample: --hmc-temperature is the temperature: leave the bath away");
-  method_source source = find_method(command.method);
-  charge(source, *system);
-  if (source.family) {
-    refuse(
-        "{} must be learned first: nysalt learn --family {} --loss acceptance --step STEP --output "
-        "scheme.json",
-        source.typed, *source.family);
+  if (command.checkpoint.empty()) {
+    if (command.resume) refuse("--resume needs the --checkpoint to go on from");
+    if (command.every) refuse("--every says how often a --checkpoint is made: name its file");
+    return;
   }
-  hmc_options options = options_of(command, *system, source, common);
-  if (options.acceptance && !source.fixed && !common.force) {
-    refuse("{} is valid at its own step: give --step without --acceptance, or --force", source.typed);
+  if (!command.every) refuse("--checkpoint needs --every: after how many trajectories is one made?");
+  require_at_least_one("--every", *command.every);
+  require_writable(command.checkpoint);
+  for (const std::string& other : {command.output, command.output + ".manifest.json", command.method}) {
+    if (is_same_file(command.checkpoint, other))
+      refuse("--checkpoint {} needs a name of its own, which {} has: name another file", command.checkpoint,
+             other);
   }
-  std::vector<std::string> warnings;
-  const tabulated method = source.fixed
-                               ? *source.fixed
-                               : coefficients_at(source, *system, options.step, common.force, {}, warnings);
-  system->require_served(method.letters());
-  constexpr double most = 1e8;  // numbers: about a gigabyte
-  const std::int64_t shown = std::min<std::int64_t>(system->dimension(), 1000);
-  const double numbers = static_cast<double>(command.chains) * static_cast<double>(command.draws) *
-                         static_cast<double>(shown + 1);
-  if (numbers > most) {
-    refuse("{:g} draws of {} coordinates would not fit into memory: take fewer --draws or --chains",
-           static_cast<double>(command.chains) * static_cast<double>(command.draws), shown);
+  std::error_code ignored;
+  if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
+    refuse("{} is of chains that were stopped: --resume goes on with them, or remove the file to begin anew",
+           command.checkpoint);
   }
+}
 
-  progress line;
-  warn_of_threads(common);
-  prepare_starts(*system, common, line);
-  line.part("sampling");
-  options.progress = line.counter(command.chains * (command.burn_in + command.draws));
-  kept_draws draws(command.chains, command.draws, shown);
-  hmc_result found;
-  try {
-    found = hmc(system->definition().system, method, system->prepared_starts(), options,
-                [&](const hmc_draw& draw) { draws.take(draw); });
-  } catch (const std::invalid_argument& problem) {
-    refuse("{}", problem.what());
-  } catch (const std::runtime_error& problem) {
-    refuse("{}", problem.what());
-  }
-  line.clear();
+/// All that decides the bytes of the output.
+json question_of(const sample_command& command, const prepared_problem& system, const tabulated& method,
+                 const hmc_options& options) {
+  return {{"system", system.parameters()},
+          {"description", system.description()},
+          {"starts", system.starts()},
+          {"letters", method.letters().letters()},
+          {"coefficients", method.coefficients()},
+          {"step", options.step},
+          {"acceptance", options.acceptance ? json(*options.acceptance) : json()},
+          {"length", options.length},
+          {"temperature", options.temperature},
+          {"chains", options.chains},
+          {"burn_in", options.burn_in},
+          {"draws", options.draws},
+          {"diagonal_masses", command.diagonal_masses},
+          {"seed", options.seed}};
+}
 
-  std::vector<summary> all;
-  for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
-  const auto worst = std::ranges::max_element(
-      all, {}, [](const summary& one) { return std::isfinite(one.reduction) ? one.reduction : 0.0; });
-  const bool is_converged =
-      std::ranges::all_of(all, [](const summary& one) { return one.reduction < converged; });
-  const double evaluations = found.evaluations_of_draw * static_cast<double>(command.chains * command.draws);
+std::int64_t draws_before(const sample_command& command, std::int64_t trajectories) {
+  return std::max<std::int64_t>(0, trajectories - command.burn_in);
+}
 
+/// The state in a checkpoint of this question, and its draws; what went wrong at rank 0 goes wrong at all.
+hmc_state state_in(const sample_command& command, const json& question, kept_draws& draws) {
+  hmc_state state;
+  together(all_ranks(), [&] {
+    checkpoint_file saved = read_checkpoint_file(command.checkpoint, "sample");
+    try {
+      require_question(saved.head.at("question"), question, command.checkpoint);
+      state.trajectories = count_in(saved.head.at("trajectories"));
+      const auto of_chains = static_cast<std::size_t>(count_in(saved.head.at("numbers")));
+      const std::int64_t drawn = draws_before(command, state.trajectories);
+      const std::size_t of_draws =
+          static_cast<std::size_t>(command.chains) * static_cast<std::size_t>(drawn) * draws.scalars();
+      if (drawn > command.draws || of_chains > saved.numbers.size() ||
+          saved.numbers.size() - of_chains != of_draws) {
+        throw std::out_of_range("numbers");
+      }
+      draws.restore(std::span(saved.numbers).last(of_draws), drawn);
+      saved.numbers.resize(of_chains);
+      state.numbers = std::move(saved.numbers);
+    } catch (const refusal&) {
+      throw;
+    } catch (const std::exception&) {
+      refuse_edited_checkpoint(command.checkpoint);
+    }
+    if (speaks_for_all()) warn_of_version(saved.head.at("nysalt").get<std::string>(), command.checkpoint);
+  });
+  return state;
+}
+
+void save(const sample_command& command, const json& question, const hmc_state& state, kept_draws& draws) {
+  draws.gather(all_ranks());
+  on_first(all_ranks(), [&] {
+    std::vector<double> numbers = state.numbers;
+    const auto drawn = draws.first(draws_before(command, state.trajectories));
+    numbers.insert(numbers.end(), drawn.begin(), drawn.end());
+    write_checkpoint_file(command.checkpoint,
+                          {{"command", "sample"},
+                           {"question", question},
+                           {"trajectories", state.trajectories},
+                           {"numbers", state.numbers.size()}},
+                          numbers);
+  });
+}
+
+/// What came out, as a document.
+json document_of(const sample_command& command, const method_source& source, const prepared_problem& system,
+                 const hmc_options& options, const hmc_result& found,
+                 const std::vector<summary_of_scalar>& all) {
   json document{{"method", source.typed},
-                {"system", system->description()},
+                {"system", system.description()},
                 {"temperature", command.temperature},
                 {"step", found.step},
                 {"length", options.length},
@@ -209,9 +175,8 @@ int sample(const sample_command& command, const common_settings& common) {
                 {"diverged", found.diverged},
                 {"evaluations_of_draw", found.evaluations_of_draw},
                 {"evaluations_of_burn_in", found.evaluations_of_burn_in},
-                {"converged", is_converged},
-                {"scalars", json::array()},
-                {"warnings", warnings}};
+                {"converged", has_converged(all)},
+                {"scalars", json::array()}};
   for (const auto& one : all) {
     document["scalars"].push_back({{"name", one.name},
                                    {"mean", one.mean},
@@ -221,18 +186,16 @@ int sample(const sample_command& command, const common_settings& common) {
                                    {"r_hat", number_or_null(one.reduction)}});
   }
   if (!found.deviations.empty()) document["deviations"] = found.deviations;
-  if (!command.output.empty()) {
-    write_result(command.output, draws.csv(), common);
-    document["output"] = command.output;
-  }
-  if (common.json) {
-    print(text_of(document));
-    return done;
-  }
-  for (const auto& warning : warnings) warn(warning);
+  return document;
+}
+
+/// The same in words.
+std::string text_of(const sample_command& command, const method_source& source,
+                    const prepared_problem& system, const hmc_options& options, const hmc_result& found,
+                    const std::vector<summary_of_scalar>& all) {
   std::string text =
       fmt::format("{} on {}: exp(-V/kT), kT = {:g}, {} chains of {} draws after {}\n", source.typed,
-                  system->description(), command.temperature, command.chains, command.draws, command.burn_in);
+                  system.description(), command.temperature, command.chains, command.draws, command.burn_in);
   text += fmt::format(
       "step {:.4g}{}, trajectories of mean length {:.4g}{}\n", found.step,
       options.acceptance ? fmt::format(", tuned to an acceptance of {:g}", *options.acceptance) : "",
@@ -245,10 +208,11 @@ int sample(const sample_command& command, const common_settings& common) {
   text += fmt::format("{:.1f} evaluations a draw, {:.0f} for the burn-in of a chain\n\n",
                       found.evaluations_of_draw, found.evaluations_of_burn_in);
   constexpr std::size_t most_rows = 20;
+  const double evaluations = found.evaluations_of_draw * static_cast<double>(command.chains * command.draws);
   table rows(
       {"scalar", "mean", "standard error", "deviation", "effective draws", "per 1000 evaluations", "R"});
   for (std::size_t k = 0; k < std::min(all.size(), most_rows); ++k) {
-    const summary& one = all[k];
+    const summary_of_scalar& one = all[k];
     rows.add({one.name, fmt::format("{:.5g}", one.mean), number_or_dash("{:.1e}", one.standard_error()),
               fmt::format("{:.4g}", one.deviation), number_or_dash("{:.0f}", one.effective),
               number_or_dash("{:.3g}", 1000.0 * one.effective / evaluations),
@@ -256,14 +220,114 @@ int sample(const sample_command& command, const common_settings& common) {
   }
   text += rows.text();
   if (all.size() > most_rows) text += fmt::format("and {} more coordinates\n", all.size() - most_rows);
-  text += is_converged
-              ? fmt::format("R is below {} for all: the chains agree\n", converged)
-              : fmt::format(
+  if (has_converged(all)) {
+    return text + fmt::format("R is below {} for all: the chains agree\n", converged);
+  }
+  const auto worst = std::ranges::max_element(all, {}, [](const summary_of_scalar& one) {
+    return std::isfinite(one.reduction) ? one.reduction : 0.0;
+  });
+  return text + fmt::format(
                     "R of {} is {}: chains have not converged; take more --burn-in and --draws, or a larger "
                     "--length\n",
                     worst->name, number_or_dash("{:.3f}", worst->reduction));
-  if (!command.output.empty()) text += fmt::format("Written: {}\n", command.output);
-  print(text);
+}
+
+/// The method at its step. Throws refusal for what cannot be sampled with.
+tabulated method_for(const method_source& source, const prepared_problem& system, const hmc_options& options,
+                     bool force, std::vector<std::string>& warnings) {
+  if (source.family) {
+    refuse(
+        "{} must be learned first: nysalt learn --family {} --loss acceptance --step STEP --output "
+        "scheme.json",
+        source.typed, *source.family);
+  }
+  if (options.acceptance && !source.fixed && !force) {
+    refuse("{} is valid at its own step: give --step without --acceptance, or --force", source.typed);
+  }
+  tabulated method =
+      source.fixed ? *source.fixed : coefficients_at(source, system, options.step, force, {}, warnings);
+  system.require_served(method.letters());
+  return method;
+}
+
+void require_numbers(const sample_command& command) {
+  if (command.step) require_positive("--step", *command.step);
+  if (command.length) require_positive("--length", *command.length);
+  require_positive("--hmc-temperature", command.temperature);
+  require_at_least_one("--chains", command.chains);
+  require_at_least_one("--draws", command.draws);
+}
+
+void require_room(const sample_command& command, std::int64_t shown) {
+  constexpr double most = 1e8;  // numbers: about a gigabyte
+  const double numbers = static_cast<double>(command.chains) * static_cast<double>(command.draws) *
+                         static_cast<double>(shown + 1);
+  if (numbers <= most) return;
+  refuse("{:g} draws of {} coordinates would not fit into memory: take fewer --draws or --chains",
+         static_cast<double>(command.chains) * static_cast<double>(command.draws), shown);
+}
+
+}  // namespace
+
+int sample(const sample_command& command, const common_settings& common) {
+  require_numbers(command);
+  on_first(all_ranks(), [&] { require_files(command); });
+  const auto system = make_system(command.system);
+  if (system->heat_bath().acts()) refuse("sample: --hmc-temperature is the temperature: leave the bath away");
+  method_source source;
+  together(all_ranks(), [&] { source = find_method(command.method); });
+  charge(source, *system);
+  hmc_options options = options_of(command, *system, source, common);
+  std::vector<std::string> warnings;
+  const tabulated method = method_for(source, *system, options, common.force, warnings);
+  const std::int64_t shown = std::min<std::int64_t>(system->dimension(), 1000);
+  require_room(command, shown);
+
+  progress line;
+  warn_of_threads(common);
+  prepare_starts(*system, common, line);
+  const json question = question_of(command, *system, method, options);
+  require_agreement("chains", question.dump(-1, ' ', false, json::error_handler_t::replace));
+  kept_draws draws(command.chains, command.draws, shown);
+  hmc_state from;
+  if (command.resume) {
+    from = state_in(command, question, draws);
+    options.from = &from;
+  }
+  if (!command.checkpoint.empty()) {
+    options.keep_every = *command.every;
+    options.keep = [&](const hmc_state& state) { save(command, question, state, draws); };
+  }
+  line.part("sampling");
+  options.progress = line.counter(command.chains * (command.burn_in + command.draws));
+  hmc_result found;
+  try {
+    found = hmc(system->definition().system, method, system->prepared_starts(), options,
+                [&](const hmc_draw& draw) { draws.take(draw); });
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}", problem.what());
+  } catch (const std::runtime_error& problem) {
+    refuse("{}", problem.what());
+  }
+  line.clear();
+  draws.gather(all_ranks());
+
+  on_first(all_ranks(), [&] {
+    std::vector<summary_of_scalar> all;
+    for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
+    if (!command.output.empty()) write_result(command.output, draws.csv(), common);
+    if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint);
+    if (common.json) {
+      json document = document_of(command, source, *system, options, found, all);
+      document["warnings"] = warnings;
+      if (!command.output.empty()) document["output"] = command.output;
+      print(text_of(document));
+      return;
+    }
+    for (const auto& warning : warnings) warn(warning);
+    print(text_of(command, source, *system, options, found, all) +
+          (command.output.empty() ? "" : fmt::format("Written: {}\n", command.output)));
+  });
   return done;
 }
 

@@ -4,9 +4,7 @@
 #include <memory>
 
 #include "../commands.hpp"
-#include "comparison/all_ranks.hpp"
 #include "number_option.hpp"
-#include "nysalt/detail/together.hpp"
 #include "shared_options.hpp"
 
 namespace nysalt::program {
@@ -33,20 +31,19 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
   command.add_flag("--diagonal-masses", asked.diagonal_masses,
                    "masses kT/var(q_i), found in the first half of the burn-in");
   command.add_option("--output", asked.output, "file of all draws: CSV");
+  command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the chains are stopped");
+  add_number(command, "--every", asked.every, "so many trajectories of a chain a checkpoint is made");
+  command.add_flag("--resume", asked.resume, "go on from the checkpoint");
   add_common(command, common);
   add_force(command, common, "sample with a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt sample --system phi4 --masses 64 --length 1 --method omelyan5v\n"
       "  nysalt sample --potential '(x^2 + 100*y^2)/2' --variables x,y --diagonal-masses --output draws.csv\n"
+      "  nysalt sample --system phi4_lattice --side 8 --length 0.5 --output draws.csv --checkpoint "
+      "draws.checkpoint --every 500\n"
       "  nysalt sample --system pendulum --method verlet --step 0.5 --length 2 --draws 10000");
-  const auto run_it = [typed, &common] {
-    int code = done;
-    on_first(all_ranks(), [&] { code = sample(*typed, common); });
-    broadcast(all_ranks(), code);
-    return code;
-  };
-  return {&command, run_it};
+  return {&command, [typed, &common] { return sample(*typed, common); }};
 }
 
 }  // namespace nysalt::program

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <variant>
 #include <vector>
 
 #include "../../plugin/plugin.hpp"
@@ -56,11 +55,11 @@ std::vector<parameter_option> parameters_of_systems() {
   const auto add = [&](const system_declaration& system) {
     for (const auto& parameter : system.parameters) {
       const std::string help =
-          fmt::format("{}: {} [{}]", system.name, parameter.meaning,
-                      std::visit([](auto usual) { return fmt::format("{}", usual); }, parameter.usual));
+          fmt::format("{}: {} [{}]", system.name, parameter.meaning, text_of(parameter.usual));
       const auto known = std::ranges::find(all, parameter.name, &parameter_option::name);
       if (known == all.end()) {
-        all.push_back({parameter.name, help, parameter.is_whole() ? "INTEGER" : "NUMBER"});
+        const char* type = parameter.is_text() ? "TEXT" : parameter.is_whole() ? "INTEGER" : "NUMBER";
+        all.push_back({parameter.name, help, type});
       } else {
         known->help += "; " + help;
       }

@@ -14,8 +14,7 @@
 
 namespace nysalt::program {
 
-/// A file of one line of JSON, the open runs (doubles, the least byte first), and a line with the CRC-32 of
-/// all before it.
+/// Of `run`: its numbers are those of the open runs.
 struct checkpoint {
   json question;       // all that decides the bytes of the output
   std::string output;  // the name of its file, wherever that is
@@ -27,18 +26,10 @@ struct checkpoint {
   std::string version;                    // of the program that wrote it; empty: of this one
 };
 
-/// Throws std::runtime_error if the checkpoint cannot be written; then an older one is as it was. The
-/// checkpoint is on the disk when the function returns, for which some milliseconds go by.
+/// As write_checkpoint_file().
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state);
 
-/// Throws refusal for what is none, not whole, edited, or of a newer format.
+/// As read_checkpoint_file().
 checkpoint read_checkpoint(const std::filesystem::path& file);
-
-/// Throws refusal, naming what differs, if the checkpoint is of another run.
-void require_question(const checkpoint& state, const json& question, const std::filesystem::path& file);
-
-/// Of going on with what another version of the program wrote. To be told when nothing will be refused any
-/// more, as a refusal is one line.
-void warn_of_version(const checkpoint& state, const std::filesystem::path& file);
 
 }  // namespace nysalt::program

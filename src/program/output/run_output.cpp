@@ -4,6 +4,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "checkpoint_file.hpp"
 #include "comparison/refusal.hpp"
 #include "program/output.hpp"
 
@@ -68,7 +69,7 @@ void run_output::make_part(const json& question) {
 
 void run_output::go_on(const json& question) {
   state_ = read_checkpoint(checkpoint_);
-  require_question(state_, question, checkpoint_);
+  require_question(state_.question, question, checkpoint_);
   if (!state_.output.empty() && state_.output != std::filesystem::path(output_).filename()) {
     refuse("{} is of a run with the --output {}, not {}", checkpoint_.string(), state_.output, output_);
   }
@@ -116,7 +117,7 @@ void run_output::reached(const run_progress& at) {
   // Of one trajectory alone what is written is in order, wherever it is cut.
   if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
   part_->put_on_disk();
-  warn_of_version(state_, checkpoint_);  // only now: the run has taken what it was given
+  warn_of_version(state_.version, checkpoint_);  // only now: the run has taken what it was given
   state_.version.clear();
   part_->keep();
   is_fresh_ = false;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "checkpoint_file.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <boost/crc.hpp>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include "build_info.hpp"
+#include "comparison/refusal.hpp"
+#include "nysalt/atomic_file.hpp"
+#include "program/output.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+constexpr const char* format_of_checkpoint = "nysalt checkpoint";
+constexpr int version_of_checkpoint = 1;
+
+static_assert(std::endian::native == std::endian::little, "checkpoints hold doubles as this machine does");
+
+std::string last_line(std::string_view before) {
+  boost::crc_32_type sum;
+  sum.process_bytes(before.data(), before.size());
+  return fmt::format("\ncrc32 {:08x}\n", sum.checksum());
+}
+
+}  // namespace
+
+void write_checkpoint_file(const std::filesystem::path& file, const json& head,
+                           std::span<const double> numbers) {
+  json all{{"format", format_of_checkpoint}, {"version", version_of_checkpoint}, {"nysalt", version}};
+  all.update(head);
+  std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const auto bytes = std::as_bytes(numbers);
+  text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  text += last_line(text);
+  atomic_file out(file, "next");  // one process writes checkpoints: a kill leaves one such file at most
+  out.write(text);
+  out.commit(true);
+}
+
+checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    refuse("there is no checkpoint {}: leave --resume away to begin", file.string());
+  }
+  std::ifstream input(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(input), {}};
+  json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) {
+    refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
+  }
+  const json file_version = head.value("version", json());
+  if (file_version.is_number_integer() && file_version > version_of_checkpoint) {
+    refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
+           file.string(), file_version.dump(), version_of_checkpoint);
+  }
+  const std::size_t end = text.size() - std::min(text.size(), last_line("").size());
+  const auto before = std::string_view(text).substr(0, end);
+  const auto bytes = before.substr(std::min(before.size(), before.find('\n') + 1));
+  if (!text.ends_with(last_line(before)) || bytes.size() % sizeof(double) != 0) {
+    refuse_edited_checkpoint(file);
+  }
+  const json of_command = head.value("command", json("run"));  // older ones do not say
+  if (of_command != command) {
+    refuse("{} is a checkpoint of nysalt {}, not {}: name another file", file.string(),
+           of_command.is_string() ? of_command.get<std::string>() : "of another kind", command);
+  }
+  checkpoint_file result{std::move(head), std::vector<double>(bytes.size() / sizeof(double))};
+  bytes.copy(reinterpret_cast<char*>(result.numbers.data()), bytes.size());
+  return result;
+}
+
+void refuse_edited_checkpoint(const std::filesystem::path& file) {
+  refuse("{} is not whole, or was edited: take an older copy, or remove it and begin anew", file.string());
+}
+
+std::int64_t count_in(const json& value) {
+  const auto number = value.get_ref<const json::number_integer_t&>();
+  if (number < 0) throw std::out_of_range("a count is negative");
+  return number;
+}
+
+void require_question(const json& asked_then, const json& question, const std::filesystem::path& file) {
+  if (asked_then == question) return;
+  std::string changed;
+  for (const auto& [name, value] : question.items()) {
+    if (asked_then.value(name, json()) == value) continue;
+    changed += changed.empty() ? name : ", " + name;
+  }
+  refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),
+         changed.empty() ? "it has more" : changed);
+}
+
+void warn_of_version(const std::string& version_then, const std::filesystem::path& file) {
+  if (version_then.empty() || version_then == version) return;
+  warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
+                   file.string(), version_then, version));
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSL-1.0
+// A checkpoint as a file: what was asked, and where the work is.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "comparison/json.hpp"
+
+namespace nysalt::program {
+
+/// A file of one line of JSON, doubles (the least byte first), and a line with the CRC-32 of all before it.
+struct checkpoint_file {
+  json head;  // beside what is its own: `command`, `question` (all that decides the bytes of the output)
+  std::vector<double> numbers;
+};
+
+/// Throws std::runtime_error if the checkpoint cannot be written; then an older one is as it was. The
+/// checkpoint is on the disk when the function returns, for which some milliseconds go by.
+void write_checkpoint_file(const std::filesystem::path& file, const json& head,
+                           std::span<const double> numbers);
+
+/// Throws refusal for what is no checkpoint of that command, not whole, edited, or of a newer format.
+checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command);
+
+/// Of what is whole, and cannot be of a run all the same.
+[[noreturn]] void refuse_edited_checkpoint(const std::filesystem::path& file);
+
+/// A count of the head. Throws std::exception unless it is a whole number, and not negative.
+std::int64_t count_in(const json& value);
+
+/// Throws refusal, naming what differs, if the checkpoint is of another question.
+void require_question(const json& asked_then, const json& question, const std::filesystem::path& file);
+
+/// Of going on with what another version of the program wrote; empty: this one. To be told when nothing will
+/// be refused any more, as a refusal is one line.
+void warn_of_version(const std::string& version_then, const std::filesystem::path& file);
+
+}  // namespace nysalt::program

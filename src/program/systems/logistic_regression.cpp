@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/systems/logistic_regression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "comparison/number.hpp"
+#include "comparison/refusal.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/system_declaration.hpp"
+#include "program/csv_file.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+struct labelled_rows {
+  Eigen::MatrixXd predictors;
+  Eigen::VectorXd labels;
+};
+
+/// All columns are numbers; the label is the column of that name, or the last.
+labelled_rows rows_of(const std::string& file, const std::string& label) {
+  std::size_t at = 0;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+  const auto header = [&](const std::vector<std::string>& found) {
+    names = found;
+    if (names.size() < 2) refuse("--data {}: it must have a predictor and a label, got one column", file);
+    const auto named = std::ranges::find(names, label);
+    if (!label.empty() && named == names.end()) {
+      refuse("--label {}: no column of {} has that name; it has {}", label, file,
+             fmt::format("{}", fmt::join(names, ", ")));
+    }
+    at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
+  };
+  read_csv("--data", file, header, [&](std::size_t number, const std::vector<std::string>& cells) {
+    auto& row = rows.emplace_back();
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+      row.push_back(
+          number_of<double>(fmt::format("--data {}: line {}, {}", file, number, names[j]), cells[j]));
+    }
+    if (row[at] != 0.0 && row[at] != 1.0) {
+      refuse("--data {}: line {}, {} must be 0 or 1 as a label, got {}", file, number, names[at], cells[at]);
+    }
+  });
+  if (rows.empty()) refuse("--data {}: it must have a row beside the line of names", file);
+  labelled_rows result{Eigen::MatrixXd(std::ssize(rows), std::ssize(names) - 1),
+                       Eigen::VectorXd(std::ssize(rows))};
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    Eigen::Index column = 0;
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(r);
+      (j == at ? result.labels[row] : result.predictors(row, column++)) = rows[r][j];
+    }
+  }
+  return result;
+}
+
+/// Where there is no file: 500 rows of 24 predictors that share a factor, and labels drawn by coefficients
+/// that are normal with the deviation 1/2.
+labelled_rows example_rows() {
+  constexpr Eigen::Index rows = 500;
+  constexpr Eigen::Index columns = 24;
+  labelled_rows result{Eigen::MatrixXd(rows, columns), Eigen::VectorXd(rows)};
+  Eigen::VectorXd normals(columns + 2);
+  const auto draw = [&](Eigen::Index row) {
+    standard_normals(
+        1, {.trajectory = static_cast<std::uint64_t>(row), .purpose = noise_purpose::initial_state}, normals);
+  };
+  draw(rows);
+  const Eigen::VectorXd coefficients = 0.5 * normals.head(columns);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    draw(r);
+    result.predictors.row(r) = (0.8 * normals.head(columns)).array() + 0.6 * normals[columns];
+    const double uniform = 0.5 * std::erfc(-normals[columns + 1] / std::sqrt(2.0));
+    const double score = result.predictors.row(r) * coefficients;
+    result.labels[r] = uniform * (1.0 + std::exp(-score)) < 1.0 ? 1.0 : 0.0;
+  }
+  return result;
+}
+
+/// Mean 0 and deviation 1 of each column. Throws refusal for one that is constant.
+void standardise(Eigen::MatrixXd& predictors) {
+  for (Eigen::Index j = 0; j < predictors.cols(); ++j) {
+    auto column = predictors.col(j).array();
+    column -= column.mean();
+    const double deviation = std::sqrt(column.square().mean());
+    if (!(deviation > 0.0)) {
+      refuse("--standardise: predictor {} must vary, and all its values are equal; leave the column away",
+             j + 1);
+    }
+    column /= deviation;
+  }
+}
+
+}  // namespace
+
+system_declaration declare_logistic_regression() {
+  system_declaration result{.name = "logistic_regression",
+                            .title = "posterior of Bayesian logistic regression on the rows of a CSV file"};
+  result.parameters = {
+      {.name = "data",
+       .usual = std::string(),
+       .meaning = "CSV file of numbers with a line of names; without one 500 rows of an example"},
+      {.name = "label", .usual = std::string(), .meaning = "column of labels 0 and 1, else the last"},
+      {.name = "variance", .usual = 1.0, .meaning = "of the normal prior", .is_positive = true},
+      {.name = "standardise",
+       .usual = 1,
+       .meaning = "1: predictors get mean 0 and deviation 1; 0: as they are",
+       .least = 0,
+       .most = 1}};
+  result.make = [](const parameter_values& values, const bath& in, double spread) {
+    const std::string& file = values.text("data");
+    labelled_rows all = file.empty() ? example_rows() : rows_of(file, values.text("label"));
+    if (values.whole("standardise") == 1) standardise(all.predictors);
+    Eigen::MatrixXd with_intercept(all.predictors.rows(), all.predictors.cols() + 1);
+    with_intercept << Eigen::VectorXd::Ones(all.predictors.rows()), all.predictors;
+    const logistic_regression system(with_intercept, all.labels, values.real("variance"));
+    const double fastest = system.frequency_bands().back().high;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.size());
+    const normal_around<Eigen::Dynamic> law({rest, rest}, spread / fastest, spread);
+    return detail::made_of(system, in, law, fastest);
+  };
+  result.source = "gelman_and_others_2013";
+  return result;
+}
+
+}  // namespace nysalt::program

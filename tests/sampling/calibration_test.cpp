@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSL-1.0
+// Moments of what Hybrid Monte Carlo draws are those of the law, within their standard errors and for several
+// seeds; without Metropolis' rule, or with a wrong one, the same judgement rejects them.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/hmc.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/stepper.hpp"
+#include "nysalt/systems/gaussian.hpp"
+#include "nysalt/systems/phi4_lattice.hpp"
+
+using namespace nysalt;
+
+namespace {
+
+constexpr std::uint64_t seeds = 5;
+constexpr std::int64_t chains = 48;
+
+/// Functions of the position whose means are known.
+using moments_of = Eigen::VectorXd (*)(const Eigen::VectorXd& q);
+
+/// The largest distance of a mean over chains from what is exact, in standard errors.
+double worst_distance(const std::vector<Eigen::VectorXd>& means_of_chains, const Eigen::VectorXd& exact) {
+  double worst = 0.0;
+  for (Eigen::Index k = 0; k < exact.size(); ++k) {
+    std::vector<double> means;
+    for (const auto& mean : means_of_chains) means.push_back(mean[k]);
+    const estimate found = mean_and_error(means);
+    worst = std::max(worst, std::abs(found.mean - exact[k]) / found.standard_error);
+  }
+  return worst;
+}
+
+normal_around<Eigen::Dynamic> near_zero(Eigen::Index size, double deviation) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(size);
+  return {{rest, rest}, deviation, 1.0};
+}
+
+double distance_of_hmc(const model& system, double step, double length, const moments_of& f,
+                       const Eigen::VectorXd& exact, std::uint64_t seed) {
+  std::vector<Eigen::VectorXd> means(chains, Eigen::VectorXd::Zero(exact.size()));
+  constexpr std::int64_t draws = 2000;
+  hmc(system, tabulated(verlet{}), near_zero(size(system), 0.5),
+      {.step = step, .length = length, .chains = chains, .burn_in = 100, .draws = draws, .seed = seed},
+      [&](const hmc_draw& draw) { means[static_cast<std::size_t>(draw.chain)] += f(draw.q) / draws; });
+  return worst_distance(means, exact);
+}
+
+/// The same with every proposal accepted.
+template <class S>
+double distance_without_rule(const S& system, double step, std::int64_t steps, const moments_of& f,
+                             const Eigen::VectorXd& exact, std::uint64_t seed) {
+  const auto stepper = make_stepper(system, verlet{}, step);
+  std::vector<Eigen::VectorXd> means(chains, Eigen::VectorXd::Zero(exact.size()));
+  constexpr std::int64_t draws = 1000;
+  for (std::uint64_t m = 0; m < chains; ++m) {
+    auto x = near_zero(system.size(), 0.5)(seed, m);
+    for (std::int64_t n = 0; n < draws; ++n) {
+      standard_normals(seed, {.trajectory = m, .step = n, .purpose = noise_purpose::momenta}, x.p);
+      auto run = stepper.open(x);
+      stepper.advance(run, 1 + n % steps);
+      x = stepper.synchronous(run);
+      means[m] += f(x.q) / draws;
+    }
+  }
+  return worst_distance(means, exact);
+}
+
+Eigen::VectorXd gaussian_moments(const Eigen::VectorXd& q) {
+  Eigen::VectorXd f(9);
+  f << q, q.cwiseAbs2(), q.array().pow(4).matrix();
+  return f;
+}
+
+Eigen::VectorXd lattice_moments(const Eigen::VectorXd& q) {
+  Eigen::VectorXd f(4);
+  f << q[0], q[0] * q[0], q[0] * q[3], q[1] * q[1] * q[2] * q[2];
+  return f;
+}
+
+/// By the trapezoidal rule, which converges faster than any power where the integrand decays.
+Eigen::VectorXd by_quadrature(const phi4_lattice& lattice) {
+  constexpr int nodes = 33;
+  constexpr double reach = 2.4;  // exp(-V) is below 1e-15 beyond
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(4);
+  double weights = 0.0;
+  Eigen::VectorXd q(4);
+  for (int i = 0; i < nodes * nodes * nodes * nodes; ++i) {
+    for (int k = 0, left = i; k < 4; ++k, left /= nodes)
+      q[k] = reach * (2.0 * (left % nodes) / (nodes - 1) - 1.0);
+    const double weight = std::exp(-lattice.potential<double>(q));
+    weights += weight;
+    sums += weight * lattice_moments(q);
+  }
+  return sums / weights;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(moments_of_a_gaussian) {
+  const Eigen::Vector3d frequencies(0.5, 1.0, 2.0);
+  const gaussian system(frequencies);
+  Eigen::VectorXd exact(9);
+  const Eigen::Array3d variances = frequencies.array().square().inverse();
+  exact << Eigen::Vector3d::Zero(), variances.matrix(), (3.0 * variances.square()).matrix();
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    // Of 9 moments and 5 seeds one is beyond 4 errors of 48 chains once in a hundred: t with 47 degrees.
+    BOOST_TEST(distance_of_hmc(system, 0.7, 2.0, gaussian_moments, exact, seed) < 4.0);
+  }
+  BOOST_TEST(distance_without_rule(system, 0.7, 5, gaussian_moments, exact, 1) > 8.0);
+}
+
+BOOST_AUTO_TEST_CASE(moments_of_a_small_lattice) {
+  const phi4_lattice lattice(2, -2.0, 3.0);
+  const Eigen::VectorXd exact = by_quadrature(lattice);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    BOOST_TEST(distance_of_hmc(lattice, 0.3, 0.8, lattice_moments, exact, seed) < 4.0);
+  }
+  BOOST_TEST(distance_without_rule(lattice, 0.3, 4, lattice_moments, exact, 1) > 8.0);
+}
+
+namespace {
+
+/// The force of the lattice with the potential of another: proposals are accepted by a wrong energy.
+struct wrong_energy {
+  static constexpr int dimension = Eigen::Dynamic;
+  phi4_lattice forces{2, -2.0, 3.0};
+  phi4_lattice energies{2, -2.0, 2.7};
+  Eigen::Index size() const { return 4; }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    forces.force(q, f);
+  }
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    return energies.potential(q);
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_wrong_rule_is_found) {
+  const wrong_energy system;
+  const Eigen::VectorXd exact = by_quadrature(system.forces);
+  BOOST_TEST(distance_of_hmc(system, 0.1, 0.8, lattice_moments, exact, 1) > 8.0);
+}
+
+// In many dimensions H' - H is normal with the mean mu and the variance 2 mu, and erfc(sqrt(mu)/2) are
+// accepted. One step of Verlet's method on an oscillator has (1 - z^2/2, z; -z + z^3/4, 1 - z^2/2), and
+// mu = z^6/32 for each.
+BOOST_AUTO_TEST_CASE(acceptance_in_many_dimensions_is_that_of_a_normal_energy_error) {
+  constexpr Eigen::Index size = 1000;
+  const gaussian system(Eigen::VectorXd::Ones(size));
+  for (const double z : {0.4, 0.6}) {
+    const auto found = hmc(system, tabulated(verlet{}), near_zero(size, 1.0),
+                           {.step = z, .length = 0.1 * z, .chains = 16, .burn_in = 100, .draws = 500},
+                           [](const hmc_draw&) {});
+    const double mu = size * std::pow(z, 6) / 32.0;
+    const double expected = std::erfc(0.5 * std::sqrt(mu));
+    // The next term of the normal law's expansion is of relative order 1/sqrt(size), and odd: it drops out.
+    BOOST_TEST(std::abs(found.acceptance.mean - expected) < 4.0 * found.acceptance.standard_error + 2e-3);
+    BOOST_TEST(std::abs(found.acceptance.mean - std::erfc(0.5 * std::sqrt(2.0 * mu))) > 0.02);
+  }
+}
