@@ -31,9 +31,9 @@ std::vector<run_time_family> families_of() {
 }  // namespace
 
 const std::vector<run_time_family>& families() {
-  static const auto all =
-      families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free, aba4_free,
-                  aba6_free, bab6_free, fg_chin, fg4, fd_chin, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
+  static const auto all = families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<2>, bab<3>, bab<4>, bab<5>, bab<6>,
+                                      aba3_free, aba4_free, aba6_free, bab6_free, fg_chin, fg4, fd_chin,
+                                      r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
   return all;
 }
 
@@ -126,6 +126,7 @@ adaptive_method fitted() {
 const std::vector<adaptive_method>& adaptive_methods() {
   static const std::vector<adaptive_method> all{
       adaptive<s_aia2>(highest_frequency),
+      adaptive<s_aia3>(highest_frequency),
       fitted<fg_chin, chin4a>(),
       fitted<fg4, omelyan_fg4>(),
       fitted<aba<4>, pefrl>(),

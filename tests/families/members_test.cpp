@@ -63,7 +63,7 @@ bool is_at(const auto& theta, const auto& family, const Method auto& method) {
 
 template <class... F>
 using types = std::tuple<F...>;
-using with_members = types<aba<2>, aba<3>, aba<4>, aba<5>, bab<3>, bab<4>, bab<5>, bab<6>, fg4, r_fg4,
+using with_members = types<aba<2>, aba<3>, aba<4>, aba<5>, bab<2>, bab<3>, bab<4>, bab<5>, bab<6>, fg4, r_fg4,
                            r_aba<2>, r_aba<3>, r_aba<4>, r_aba<5>>;
 
 }  // namespace

@@ -168,8 +168,8 @@ template <class Kind>
 using rows = decltype(chosen_rows<Kind>(std::make_index_sequence<std::size(classical_table)>()));
 
 /// Of those for baths one, as what it is without: its conservative part.
-using classical_types = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, baoab>>;
-using families = std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<3>, bab<4>, bab<5>, bab<6>,
+using classical_types = joined<rows<of_kicks_and_drifts>, std::tuple<s_aia2, s_aia3, baoab>>;
+using families = std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<2>, bab<3>, bab<4>, bab<5>, bab<6>,
                             aba3_free, aba4_free, aba6_free, bab6_free>;
 using gradient_methods = rows<with_letter<'G'>>;
 using gradient_families = std::tuple<fg_chin, fg4>;
@@ -207,14 +207,16 @@ parameters_of<F> random_theta(draws& random) {
   return theta;
 }
 
-/// The method itself, or a random member of its family (s_aia2's where it is not yet Verlet), or one fitted
-/// to a random z.
+/// The method itself, or a random member of its family (of s_aia2 and s_aia3 where it is not yet Verlet), or
+/// one fitted to a random z.
 template <Method M>
 M any_method(draws& random) {
   if constexpr (requires { typename M::family; }) {
     return M(random_theta<typename M::family>(random));
   } else if constexpr (std::same_as<M, s_aia2>) {
     return M(random.uniform(0.1, 2.8));
+  } else if constexpr (std::same_as<M, s_aia3>) {
+    return M(random.uniform(0.1, 5.1));
   } else if constexpr (std::constructible_from<M, double>) {
     return M(random.uniform(0.1, 4.0));
   } else {

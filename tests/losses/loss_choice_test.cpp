@@ -22,7 +22,8 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
   BOOST_TEST(is("energy:10", "energy", 10));
   BOOST_TEST(is("covariance", "covariance", 1));
   BOOST_TEST((loss_named("state:5") != loss_named("state:6")));
-  for (const char* name : {"trajectory", "state:1", "state:5", "energy:10", "acceptance", "covariance"}) {
+  for (const char* name : {"trajectory", "state:1", "state:5", "energy:10", "acceptance", "gaussian_acceptance",
+                            "covariance"}) {
     BOOST_TEST(loss_named(name).description() == name);
   }
 }
@@ -34,7 +35,7 @@ BOOST_AUTO_TEST_CASE(each_loss_has_a_name_of_its_own_and_says_what_it_needs) {
     BOOST_TEST((kind->asks_data() || !kind->counts_steps));
   }
   BOOST_TEST(loss_patterns(true) == "state:K, energy:K");
-  BOOST_TEST(loss_patterns(false) == "trajectory, acceptance, covariance");
+  BOOST_TEST(loss_patterns(false) == "trajectory, acceptance, gaussian_acceptance, covariance");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {

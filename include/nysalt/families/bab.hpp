@@ -24,6 +24,9 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
+    if constexpr (Drifts == 2) {
+      return {{"mclachlan2v", base::of(mclachlan2v())}, {"bcss2v", base::of(bcss2v())}};
+    }
     if constexpr (Drifts == 3) {
       return {{"bcss3", base::of(bcss3())}, {"predescu3", base::of(predescu3())}};
     }

@@ -52,8 +52,10 @@ inline constexpr classical_row classical_table[] = {
 
     // a = 1/2 - r/12 + 1/(6 r) with r = (36 + 2 sqrt(326))^(1/3)
     {"mclachlan2", "ABABA", palindrome<5>({0.19318332750378357396}), 2, "mclachlan_1995"},
+    {"mclachlan2v", "BABAB", palindrome<5>({0.19318332750378357396}), 2, "mclachlan_1995"},
     // The methods of two and of three stages, and equation (6.8).
     {"bcss2", "ABABA", palindrome<5>({0.211781}), 2, "blanes_casas_sanz_serna_2014"},
+    {"bcss2v", "BABAB", palindrome<5>({0.211781}), 2, "blanes_casas_sanz_serna_2014"},
     {"bcss3", "BABABAB", palindrome<7>({0.11888010966548, 0.29619504261126}), 2, "blanes_casas_sanz_serna_2014"},
     {"bcss4", "BABABABAB",
      palindrome<9>({0.071353913450279725904, 0.191667800000000000000, 0.268548791161230105820}), 2,

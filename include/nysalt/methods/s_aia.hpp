@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Two and three stages whose coefficients suit the highest frequency of a system.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +15,13 @@ namespace nysalt {
 
 namespace detail {
 
-/// rho of A(a) B(1/2) A(1 - 2a) B(1/2) A(a) at x = z^2. With the step's matrix [[A, B], [C, A]] in (q, p)
-/// scaled such that H = (q^2 + p^2)/2,
-///   rho = (B + C)^2 / (2 (1 - A^2)),
-/// and after n steps from the canonical law the energy errs by sin^2(n t) rho kT on average, cos t = A
-/// [blanes_casas_sanz_serna_2014]. Infinity where |A| >= 1.
-double energy_error_on_oscillator(double a, double x);
+/// rho, see energy_error_on_oscillator(), of A(a) B(1/2) A(1 - 2a) B(1/2) A(a) at x = z^2, in closed form.
+/// Infinite where that is not stable.
+double energy_error_of_two_stages(double a, double x);
+
+/// rho of B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b) at x = z^2, in closed form, with the a of
+/// s_aia3.
+double energy_error_of_three_stages(double b, double x);
 
 }  // namespace detail
 
@@ -44,6 +46,35 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   explicit s_aia2(double highest_z);
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
+  double highest_z() const { return highest_z_; }  ///< as it was given
+
+ private:
+  double highest_z_;
+  double coefficient_;
+};
+
+/// B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b) with the least energy error on oscillators of all z up
+/// to highest_z, among those with 6 a b - 2 a - b + 1/2 = 0: order 2, three evaluations. On that curve two
+/// ends of stability windows meet, so that the word is stable beyond them
+/// [blanes_casas_sanz_serna_2014]; b is found along it as the a of s_aia2
+/// [nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024].
+///
+/// b grows from that of predescu3 at highest_z = 0 over BCSS' 0.11888 at 3 to 1/6 at sqrt 27. From there to 6
+/// it stays 1/6, which is three equal steps of velocity Verlet: all others are unstable before sqrt 27.
+class s_aia3 : public palindromic<kick, drift, 7> {
+ public:
+  static constexpr int order = 2;
+  static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
+  static std::string name() { return "s_aia3"; }
+
+  /// The best coefficients for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 6.
+  /// Cost: some 30 microseconds; b is right to rounding.
+  explicit s_aia3(double highest_z);
+
+  std::array<double, 7> coefficients() const {
+    const double b = coefficient_;
+    return palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
+  }
   double highest_z() const { return highest_z_; }  ///< as it was given
 
  private:

@@ -289,6 +289,8 @@ learning_problem make_problem(
   if (!asks_data) {  // it is its own judge
     problem.loss = kind.without_data(system, family, data.step);
     problem.judge = [law = problem.loss](const Eigen::VectorXd& theta) { return law(theta).value; };
+    if (kind.is_of_proposals)
+      problem.earlier_losses = {problem.loss};  // from many starts, as it costs little
   }
   fit_summary& facts = problem.facts;
   facts.family = family.name;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nysalt/losses/loss_choice.hpp"
+
 namespace nysalt::detail {
 
 double noise_of_difference(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
@@ -22,9 +24,12 @@ double noise_of_difference(const std::vector<double>& a, const std::vector<doubl
 
 std::string objection(const fit_summary& fit, bool settled, const std::string& instability) {
   if (!settled) return instability.empty() ? "the search did not converge" : instability;
-  // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate.
+  // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate. Proposals
+  // need not be near the flow: a step of theirs may turn by more than half a period.
+  const auto minimised = find_loss(fit.loss_name);
+  const bool is_of_proposals = minimised && minimised->kind->is_of_proposals;
   const double one_step_loss = fit.one_step_error * fit.one_step_error;
-  if (!(one_step_loss < static_cast<double>(fit.coordinates_used))) {
+  if (!is_of_proposals && !(one_step_loss < static_cast<double>(fit.coordinates_used))) {
     return fmt::format("its held-out one-step loss {:.2e} is no better than that of not moving at all",
                        one_step_loss);
   }

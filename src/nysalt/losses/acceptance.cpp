@@ -8,12 +8,10 @@
 
 namespace nysalt::detail {
 
-namespace {
-
 /// Lengths of proposals are random: up to the length of the data, each of several counts as much. Of
 /// stationary starts so is every state of a trajectory, and proposals begin at four of them where they are
 /// short enough.
-std::vector<after_steps_options> stages_of_acceptance(int, int shortest) {
+std::vector<after_steps_options> stages_of_acceptance(int /*K*/, int shortest) {
   constexpr int times = 8;
   std::vector<after_steps_options> result;
   for (const int length : {std::max(1, shortest / 8), shortest}) {
@@ -29,8 +27,6 @@ std::vector<after_steps_options> stages_of_acceptance(int, int shortest) {
   }
   return result;
 }
-
-}  // namespace
 
 extern const loss_kind acceptance_loss;
 constinit const loss_kind acceptance_loss{.name = "acceptance",

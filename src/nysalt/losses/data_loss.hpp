@@ -80,6 +80,9 @@ data_loss after_steps_of(const loss_inputs& from, const stretch_error<double>& e
 /// That of the state's error.
 data_loss of_states(const loss_inputs& from);
 
+/// After how many steps energies of proposals are looked at.
+std::vector<after_steps_options> stages_of_acceptance(int K, int shortest);
+
 /// That of the energy's error. Throws std::invalid_argument if the energy of the system is not known.
 data_loss of_energies(const loss_inputs& from);
 

@@ -8,7 +8,8 @@
 namespace nysalt {
 
 namespace detail {
-extern const loss_kind trajectory_loss, state_loss, energy_loss, acceptance_loss, covariance_loss;
+extern const loss_kind trajectory_loss, state_loss, energy_loss, acceptance_loss, gaussian_acceptance_loss,
+    covariance_loss;
 }  // namespace detail
 
 std::vector<after_steps_options> after_each_step(int K, int shortest) {
@@ -16,8 +17,12 @@ std::vector<after_steps_options> after_each_step(int K, int shortest) {
 }
 
 std::span<const loss_kind* const> losses() {
-  static constexpr std::array all{&detail::trajectory_loss, &detail::state_loss, &detail::energy_loss,
-                                  &detail::acceptance_loss, &detail::covariance_loss};
+  static constexpr std::array all{&detail::trajectory_loss,
+                                  &detail::state_loss,
+                                  &detail::energy_loss,
+                                  &detail::acceptance_loss,
+                                  &detail::gaussian_acceptance_loss,
+                                  &detail::covariance_loss};
   return all;
 }
 
