@@ -115,7 +115,7 @@ void add_spreads(const extent& how, page& to, table& rows) {
       say(fmt::format("spread {:g}: {} step {:.4g}", deviation, one.word.name(), one.step));
       rows.add({fmt::format("gaussian, deviation {:g}, d = {}", deviation, size), one.word.name(),
                 fmt::format("{:g}", options.length), fmt::format("{:.5g}", one.step),
-                fmt::format("{:.5g}", one.step / evaluations), "", "", "", "", ""});
+                fmt::format("{:.5g}", one.step / evaluations), "", "", "", "", "", ""});
     }
   }
   to.subheading(fmt::format("Spread frequencies, {} dimensions", size));
@@ -148,7 +148,7 @@ void add_gaussians(const extent& how, page& to, table& rows) {
   words.push_back({found.word, found.step, foretold_step(small, found.word, found.step, typical)});
 
   const std::int64_t draws = how.quick ? 4000 : 8000;
-  const std::vector<tried_length> lengths{{1.0, draws}, {1.5, draws}};
+  const std::vector<tried_length> lengths{{0.7, draws}, {1.0, draws}};
   to.heading("Normal laws");
   to.text(fmt::format(
       "Independent oscillators. Low is an error below 0.01 of the mean of q_i^2: its squared bias over the "
@@ -167,9 +167,8 @@ void add_gaussians(const extent& how, page& to, table& rows) {
       "acceptance "
       "of 0.9 is longer than the mean length, chains take steps of that length and accept more.",
       deviation_of_logarithm(spread), fitted_on));
-  const race main =
-      run_race(fmt::format("gaussian, condition 100 after masses, d = {}", size), target_of(spread), words,
-               squares(spread), &error_curve::largest, lengths, how.quick ? 1 : 2, how);
+  const race main = run_race(fmt::format("gaussian, condition 100 after masses, d = {}", size),
+                             target_of(spread), words, squares(spread), &error_curve::largest, lengths, how);
   to.text(fmt::format("Trajectories of mean length {:g}, of those tried the best for all words together:",
                       main.length));
   add_race(main, to, rows, true);
@@ -191,9 +190,9 @@ void add_gaussians(const extent& how, page& to, table& rows) {
       to.text("A part of the words; for leapfrog 2.45e5 is published.");
       racing = {racing[1], racing[4], racing[5]};
     }
-    const std::vector<tried_length> same{{main.length, draws}};
+    const std::vector<tried_length> same{{main.length, d == size ? draws : draws * 3 / 4}};
     const race of_equal = run_race(fmt::format("gaussian, equal frequencies, d = {}", d), target_of(equal),
-                                   racing, squares(equal), &error_curve::largest, same, 1, how);
+                                   racing, squares(equal), &error_curve::largest, same, how);
     add_race(of_equal, to, rows, true);
   }
   add_spreads(how, to, rows);

@@ -38,14 +38,16 @@ void run(const std::filesystem::path& folder, bool quick) {
       "Words for Hybrid Monte Carlo at equal trajectories: the step per gradient at an acceptance of 0.9, "
       "and "
       "gradients of a chain until the error of its mean is low for good, the median of four chains; ± is the "
-      "standard error over repetitions with other seeds. Durations are uniform between zero and twice the "
-      "mean "
-      "length, which is one for all words of a table. Burn-in and tuning are not counted, nor is the "
-      "gradient "
-      "at the start of a trajectory, which the one before has computed; both as in the published numbers "
-      "(`sampler-benchmarks` by R. Cohn-Gordon and J. Robnik, commit 7ad0700: adjusted Hamiltonian Monte "
-      "Carlo "
-      "at the same acceptance, its trajectory lengths tuned for each word apart).");
+      "standard error by resampling the chains. Durations are uniform between zero and twice the mean "
+      "length, "
+      "which is one for all words of a table, and a trajectory has one step at least. Where the step at an "
+      "acceptance of 0.9 is longer than the mean length, a word takes that length as its step if this costs "
+      "less. Burn-in and tuning are not counted, nor is the gradient at the start of a trajectory, which the "
+      "one "
+      "before has computed; both as in the published numbers (`sampler-benchmarks` by R. Cohn-Gordon and J. "
+      "Robnik, commit 7ad0700: adjusted Hamiltonian Monte Carlo at the same acceptance, its trajectory "
+      "lengths "
+      "tuned for each word apart).");
   report.code("./dev sampling");
   table rows = all_rows();
   for (const auto& add : {add_gaussians, add_lattice, add_posterior}) {
