@@ -15,6 +15,7 @@ namespace nysalt::sampling_benchmark {
 struct extent {
   bool quick = false;  // smaller targets, and numbers to be looked at for their order alone
   int threads = 2;
+  std::function<void()> save{};  // the page as it is, so that what is done is there if the rest is cut off
 };
 
 /// A word in a race over one target.

@@ -197,6 +197,7 @@ void add_lattice(const extent& how, page& to, table& rows) {
                       nanoseconds_per_site(large),
                       nanoseconds_per_site(large) * static_cast<double>(side * side) * 1e-6));
 
+  how.save();
   const Eigen::Index largest = how.quick ? 128 : 1024;
   const double lambda = how.quick ? coupling : 4.266;
   to.subheading(fmt::format("{} x {} sites", largest, largest));
