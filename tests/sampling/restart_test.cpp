@@ -2,6 +2,7 @@
 // Chains that are cut and go on from a kept state draw the same bits, and ranks change none.
 #include <boost/test/unit_test.hpp>
 
+#include <cstring>
 #include <vector>
 
 #include "../support/ranks_as_threads.hpp"
@@ -52,6 +53,11 @@ bool goes_on_as(const course& whole, const course& rest, const hmc_options& opti
          whole.result.evaluations_of_draw == rest.result.evaluations_of_draw &&
          whole.result.evaluations_of_burn_in == rest.result.evaluations_of_burn_in &&
          whole.result.deviations == rest.result.deviations;
+}
+
+/// To the bit: a trajectory that diverged while the step was tuned leaves what is not a number.
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 const hmc_options tuned{.step = 0.3,
@@ -111,7 +117,7 @@ BOOST_AUTO_TEST_CASE(ranks_change_no_bit_and_go_on_from_what_another_number_kept
       BOOST_TEST(resumed[r].result.acceptance.mean == alone_all.result.acceptance.mean);
       BOOST_TEST_REQUIRE(found[r].kept.size() == alone_all.kept.size());
       for (std::size_t k = 0; k < found[r].kept.size(); ++k)
-        BOOST_TEST((found[r].kept[k].numbers == alone_all.kept[k].numbers));
+        BOOST_TEST(same_numbers(found[r].kept[k].numbers, alone_all.kept[k].numbers));
     }
     BOOST_TEST((together_drawn == alone_all.draws));
     BOOST_TEST((drawn_after == alone_all.draws));  // kept in the burn-in

@@ -15,6 +15,7 @@ namespace nysalt::sampling_benchmark {
 struct extent {
   bool quick = false;  // smaller targets, and numbers to be looked at for their order alone
   int threads = 2;
+  std::function<void()> save{};  // the page as it is, so that what is done is there if the rest is cut off
 };
 
 /// A word in a race over one target.
@@ -38,11 +39,12 @@ struct race {
   double length = 0.0;  // common to all, chosen
 };
 
-/// Steps of all words at each length, in chains no longer than that; the length whose costs have the least
-/// geometric mean is taken for all, and chains are run again there, `repetitions` times.
+/// Steps of all words at each length, and four chains with them. Where the step at an acceptance of 0.9 is
+/// longer than the length, a word takes that length as its step if this costs less. The length whose costs
+/// have the least geometric mean is taken for all.
 race run_race(const std::string& name, const target& of, std::vector<contender> words,
               const statistic& measured, std::vector<double> error_curve::*judged_by,
-              const std::vector<tried_length>& lengths, int repetitions, const extent& how);
+              const std::vector<tried_length>& lengths, const extent& how);
 
 /// A table of the race for people, and its rows for machines.
 void add_race(const race& of, page& to, table& rows, bool by_largest);

@@ -117,34 +117,28 @@ learned_word learned_bab(int drifts, const small_target& small, double guess,
   return *best;
 }
 
-double outcome::step_per_evaluation(const tabulated& word) const {
-  return step / word.letters().evaluations_per_step;
-}
-
 outcome run_chains(const target& of, const tabulated& word, double step, const statistic& measured,
-                   std::int64_t draws, int repetitions, const contest_options& options) {
-  outcome result{.step = step};
-  for (int n = 0; n < repetitions; ++n) {
-    hmc_options chains = options_of(step, options);
-    chains.burn_in = 20;
-    chains.draws = draws;
-    chains.seed = static_cast<std::uint64_t>(100 + n);
-    running_errors errors(measured, chains.chains);
-    const auto found = hmc(of.system, word, of.starts, chains,
-                           [&](const hmc_draw& draw) { errors.take(draw.chain, draw.q); });
-    result.acceptance += found.acceptance.mean / repetitions;
-    // The force at the start of a trajectory is that at the end of the one before, and not counted.
-    const double evaluations =
-        found.evaluations_of_draw - word.letters().evaluations_to_open - word.letters().evaluations_to_look;
-    result.evaluations_of_draw += evaluations / repetitions;
-    const auto cost = [&](std::vector<double> error_curve::*which) {
-      return draws_to_low_error(errors.curves(), which) * evaluations;
-    };
-    result.to_mean_error.push_back(cost(&error_curve::mean));
-    result.to_largest_error.push_back(cost(&error_curve::largest));
-    if (n == 0) result.mean_errors = median_curve(errors.curves(), &error_curve::mean);
-  }
-  return result;
+                   std::int64_t draws, const contest_options& options) {
+  hmc_options chains = options_of(step, options);
+  chains.burn_in = 20;
+  chains.draws = draws;
+  chains.seed = 100;
+  running_errors errors(measured, chains.chains);
+  const auto found =
+      hmc(of.system, word, of.starts, chains, [&](const hmc_draw& draw) { errors.take(draw.chain, draw.q); });
+  // The force at the start of a trajectory is that at the end of the one before, and not counted.
+  const double evaluations =
+      found.evaluations_of_draw - word.letters().evaluations_to_open - word.letters().evaluations_to_look;
+  const auto cost = [&](std::vector<double> error_curve::*which) {
+    return estimate{draws_to_low_error(errors.curves(), which) * evaluations,
+                    deviation_of_draws(errors.curves(), which) * evaluations};
+  };
+  return {.step = step,
+          .acceptance = found.acceptance.mean,
+          .evaluations_of_draw = evaluations,
+          .to_mean_error = cost(&error_curve::mean),
+          .to_largest_error = cost(&error_curve::largest),
+          .mean_errors = median_curve(errors.curves(), &error_curve::mean)};
 }
 
 initial_states reached_by(const target& of, const tabulated& word, double step, std::int64_t chains,

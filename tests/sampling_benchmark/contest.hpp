@@ -59,15 +59,14 @@ struct outcome {
   double step = 0.0;
   double acceptance = 0.0;
   double evaluations_of_draw = 0.0;
-  double step_per_evaluation(const tabulated& word) const;
-  std::vector<double> to_mean_error{};     // evaluations, of each repetition
-  std::vector<double> to_largest_error{};  // the same
-  std::vector<double> mean_errors{};       // of the first repetition, draw after draw
+  estimate to_mean_error{};           // evaluations of a chain, with the bootstrap's standard error
+  estimate to_largest_error{};        // the same
+  std::vector<double> mean_errors{};  // the median of the chains, draw after draw
 };
 
-/// Four chains with a step, `repetitions` times.
+/// Four chains with a step.
 outcome run_chains(const target& of, const tabulated& word, double step, const statistic& measured,
-                   std::int64_t draws, int repetitions, const contest_options& options);
+                   std::int64_t draws, const contest_options& options);
 
 /// The final positions of chains, as starts of the law that they have reached.
 initial_states reached_by(const target& of, const tabulated& word, double step, std::int64_t chains,

@@ -123,7 +123,7 @@ void add_steps_on(Eigen::Index side, double lambda, const target& smaller, std::
     shown.add({one.word.name(), fmt::format("{:.4f}", one.step / evaluations)});
     rows.add({fmt::format("phi4_lattice, {} x {}, lambda {:g}", side, side, lambda), one.word.name(),
               fmt::format("{:g}", few.length), fmt::format("{:.5g}", one.step),
-              fmt::format("{:.5g}", one.step / evaluations), "", "", "", "", ""});
+              fmt::format("{:.5g}", one.step / evaluations), "", "", "", "", "", ""});
   }
   to.table(shown);
 }
@@ -159,9 +159,8 @@ void add_lattice(const extent& how, page& to, table& rows) {
   const statistic measured = squared_powers(large, side, by, how.quick ? 300 : 1000, typical);
 
   constexpr std::int64_t draws = 500;
-  const race found =
-      run_race(fmt::format("phi4_lattice, {} x {}", side, side), large, words, measured, &error_curve::mean,
-               {{0.3, draws * 7 / 5}, {0.5, draws}}, how.quick ? 1 : 2, how);
+  const race found = run_race(fmt::format("phi4_lattice, {} x {}", side, side), large, words, measured,
+                              &error_curve::mean, {{0.3, draws * 7 / 5}, {0.5, draws}}, how);
   to.heading("Lattice phi^4");
   to.text(fmt::format(
       "V = sum of lambda phi^4 - phi (the sum of the four neighbours), lambda = {:g}, on {} x {} sites: "
@@ -198,6 +197,7 @@ void add_lattice(const extent& how, page& to, table& rows) {
                       nanoseconds_per_site(large),
                       nanoseconds_per_site(large) * static_cast<double>(side * side) * 1e-6));
 
+  how.save();
   const Eigen::Index largest = how.quick ? 128 : 1024;
   const double lambda = how.quick ? coupling : 4.266;
   to.subheading(fmt::format("{} x {} sites", largest, largest));

@@ -45,6 +45,11 @@ class running_errors {
 double draws_to_low_error(const std::vector<error_curve>& chains, std::vector<double> error_curve::*which,
                           double limit = 0.01);
 
+/// Its standard deviation over all choices of as many chains with replacement (the bootstrap, in full: for
+/// few chains), of those that are finite.
+double deviation_of_draws(const std::vector<error_curve>& chains, std::vector<double> error_curve::*which,
+                          double limit = 0.01);
+
 /// The median over chains, draw after draw.
 std::vector<double> median_curve(const std::vector<error_curve>& chains,
                                  std::vector<double> error_curve::*which);

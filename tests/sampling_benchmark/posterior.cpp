@@ -62,9 +62,8 @@ void add_posterior(const extent& how, page& to, table& rows) {
   const auto learned = learned_bab(3, {of, 1.0}, 0.18, typical);
   words.push_back({learned.word, learned.step});
   const std::int64_t draws = how.quick ? 2000 : 4000;
-  const race found =
-      run_race("logistic_regression, 25 coefficients", of, words, measured, &error_curve::largest,
-               {{0.1, draws}, {0.2, draws}, {0.3, draws}}, how.quick ? 1 : 3, how);
+  const race found = run_race("logistic_regression, 25 coefficients", of, words, measured,
+                              &error_curve::largest, {{0.1, draws}, {0.2, draws}, {0.3, draws}}, how);
   to.heading("Where nothing is to be gained");
   to.text(
       "The posterior of a logistic regression on 500 rows of 24 predictors and an intercept, the example of "

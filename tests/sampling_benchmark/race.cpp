@@ -14,17 +14,9 @@ namespace nysalt::sampling_benchmark {
 
 namespace {
 
-std::string with_error(const std::vector<double>& values) {
-  if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); })) return "not reached";
-  const estimate found = mean_and_error(values);
-  if (values.size() < 2) return fmt::format("{:.3g}", found.mean);
-  return fmt::format("{:.4g} ± {:.2g}", found.mean, found.standard_error);
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double x : values) sum += x / static_cast<double>(values.size());
-  return sum;
+std::string with_error(const estimate& cost) {
+  if (!std::isfinite(cost.mean)) return "not reached";
+  return fmt::format("{:.4g} ± {:.2g}", cost.mean, cost.standard_error);
 }
 
 }  // namespace
@@ -35,9 +27,10 @@ void say(const std::string& text) {
 }
 
 table all_rows() {
-  return table({"target", "word", "length", "step", "step_per_evaluation", "foretold_step", "acceptance",
-                "evaluations_of_draw", "evaluations_to_low_mean_error", "evaluations_to_low_largest_error"},
-               2);
+  return table(
+      {"target", "word", "length", "step", "step_per_evaluation", "foretold_step", "acceptance", "step_taken",
+       "evaluations_of_draw", "evaluations_to_low_mean_error", "evaluations_to_low_largest_error"},
+      2);
 }
 
 model bundled(const std::string& name, const std::vector<std::pair<std::string, parameter_value>>& given) {
@@ -55,35 +48,35 @@ model bundled(const std::string& name, const std::vector<std::pair<std::string, 
 
 race run_race(const std::string& name, const target& of, std::vector<contender> words,
               const statistic& measured, std::vector<double> error_curve::*judged_by,
-              const std::vector<tried_length>& lengths, int repetitions, const extent& how) {
-  const bool by_largest = judged_by == &error_curve::largest;
-  const auto costs_of = [&](const outcome& run) {
-    return by_largest ? run.to_largest_error : run.to_mean_error;
+              const std::vector<tried_length>& lengths, const extent& how) {
+  const auto cost_of = [&](const outcome& run) {
+    return judged_by == &error_curve::largest ? run.to_largest_error.mean : run.to_mean_error.mean;
   };
-  std::vector<contender> best;
-  const tried_length* chosen = nullptr;
+  race best;
+  best.name = name;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& tried : lengths) {
-    const contest_options options{.length = tried.length, .threads = how.threads};
+  for (const auto& [length, draws] : lengths) {
+    const contest_options options{.length = length, .threads = how.threads};
     double logarithm = 0.0;
     for (auto& one : words) {
       one.step = step_with_error(of, one.word, one.step, energy_error_at(0.9), options);
-      one.run = run_chains(of, one.word, std::min(one.step, tried.length), measured, tried.draws, 1, options);
-      logarithm += std::log(mean_of(costs_of(one.run)));
-      say(fmt::format("{}, length {:g}: {} step {:.4g}, acceptance {:.3f}, cost {:.4g}", name, tried.length,
-                      one.word.name(), one.step, one.run.acceptance, mean_of(costs_of(one.run))));
+      one.run = run_chains(of, one.word, one.step, measured, draws, options);
+      if (one.step > length) {
+        outcome shorter = run_chains(of, one.word, length, measured, draws, options);
+        if (cost_of(shorter) < cost_of(one.run)) one.run = std::move(shorter);
+      }
+      // A word that does not reach the limit counts as if it did with the last draw.
+      const double cost = cost_of(one.run);
+      logarithm += std::log(std::min(cost, static_cast<double>(draws) * one.run.evaluations_of_draw));
+      say(fmt::format("{}, length {:g}: {} step {:.4g}, takes {:.4g}, acceptance {:.3f}, cost {:.4g}", name,
+                      length, one.word.name(), one.step, one.run.step, one.run.acceptance, cost));
     }
-    if (chosen != nullptr && !(logarithm < least)) continue;
+    if (best.length > 0.0 && !(logarithm < least)) continue;
     least = logarithm;
-    chosen = &tried;
-    best = words;
+    best.length = length;
+    best.words = words;
   }
-  const contest_options options{.length = chosen->length, .threads = how.threads};
-  if (repetitions > 1) {
-    for (auto& one : best)
-      one.run = run_chains(of, one.word, one.run.step, measured, chosen->draws, repetitions, options);
-  }
-  return {name, std::move(best), chosen->length};
+  return best;
 }
 
 void add_race(const race& of, page& to, table& rows, bool by_largest) {
@@ -111,9 +104,10 @@ void add_race(const race& of, page& to, table& rows, bool by_largest) {
     shown.add(cells);
     rows.add({of.name, one.word.name(), fmt::format("{:g}", of.length), fmt::format("{:.5g}", one.step),
               fmt::format("{:.5g}", one.step / evaluations), fmt::format("{:.5g}", one.foretold),
-              fmt::format("{:.4f}", one.run.acceptance), fmt::format("{:.3f}", one.run.evaluations_of_draw),
-              fmt::format("{:.1f}", mean_of(one.run.to_mean_error)),
-              fmt::format("{:.1f}", mean_of(one.run.to_largest_error))});
+              fmt::format("{:.4f}", one.run.acceptance), fmt::format("{:.5g}", one.run.step),
+              fmt::format("{:.3f}", one.run.evaluations_of_draw),
+              fmt::format("{:.1f}", one.run.to_mean_error.mean),
+              fmt::format("{:.1f}", one.run.to_largest_error.mean)});
   }
   to.table(shown);
 }
