@@ -88,7 +88,7 @@ struct sampling_options {
   double times_larger = 1.0;  ///< how many times larger than the system is the one that will be sampled:
                               ///< energy errors add up, so that a small lattice tells of a large one
   std::int64_t trajectories = 100;               ///< to judge words by
-  std::vector<std::string> families{};           ///< to learn. Empty: bab3, bab4, bab5 and fd_chin
+  std::vector<std::string> families{};           ///< to learn. Empty: bab3 to bab6, and fd_chin
   learning_options learning{.effort = "quick"};  ///< of these. Its loss is acceptance where none is named
   bool starts_are_thermal = false;  ///< starts are draws of exp(-H/kT); else pilot chains make some from them
 };

@@ -30,6 +30,12 @@ const std::vector<std::string>& rivals() {
   return all;
 }
 
+/// Of four digits, as people type steps.
+double four_digits(double x) {
+  const double digit = std::pow(10.0, std::floor(std::log10(x)) - 3.0);
+  return std::round(x / digit) * digit;
+}
+
 }  // namespace
 
 sampling_choice::sampling_choice(std::unique_ptr<prepared_problem> system, sampling_options asked,
@@ -59,7 +65,7 @@ void sampling_choice::require_sound_options() {
     refuse("--for sampling: {} must have a potential and a kinetic energy that is quadratic in p",
            system_->description());
   }
-  if (options_.families.empty()) options_.families = {"bab3", "bab4", "bab5", "fd_chin"};
+  if (options_.families.empty()) options_.families = {"bab3", "bab4", "bab5", "bab6", "fd_chin"};
   learning_options& how = options_.learning;
   if (how.loss.empty()) how.loss = "acceptance";
   if (!how.horizon) how.horizon = 2.0 * options_.length;
@@ -108,7 +114,7 @@ void sampling_choice::run_pilot() {
   }
   shown_.part("pilot chains");
   constexpr std::int64_t chains = 16;
-  constexpr std::int64_t burn_in = 300;
+  constexpr std::int64_t burn_in = 500;
   constexpr std::int64_t fewest_draws = 100;  // of a chain, by which R is known to some percent
   const std::int64_t kept = 2 * (options_.trajectories + options_.learning.trajectories);
   const std::int64_t kept_of_chain = (kept + chains - 1) / chains;
@@ -203,6 +209,7 @@ void sampling_choice::learn(sampling_candidate& candidate, double first_step) {
   for (int round = 0; round < rounds; ++round) {
     sampling_candidate trial = candidate;
     trial.found.reset();
+    step = four_digits(step);
     learn_plan plan = plan_for(*candidate.source.family, {}, step, options_.learning, common_);
     if (candidate.learned) plan.from = theta_of(candidate.learned->fit);
     std::string reason;

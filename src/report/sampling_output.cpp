@@ -62,8 +62,10 @@ std::string sampling_choice::advice() const {
         "step per evaluation.",
         what, beside, learned->source.typed, in_words(ratio));
   }
-  return fmt::format("Take {}: {} times the step per evaluation of {}, the best classical word{}.", what,
-                     in_words(ratio), classical->source.typed, beside);
+  return fmt::format(
+      "Take {}: {} times the step per evaluation of {}, the best classical word{}. It was learned at step "
+      "{:.4g}, which its scheme is of.",
+      what, in_words(ratio), classical->source.typed, beside, best->plan->step);
 }
 
 std::optional<std::string> sampling_choice::scheme() const {
@@ -112,6 +114,7 @@ json sampling_choice::document() const {
              {"step_per_evaluation", nullptr},
              {"standard_error", nullptr},
              {"is_longest", false},
+             {"learned_at", one.plan ? json(one.plan->step) : json(nullptr)},
              {"over_verlet", nullptr}};
     if (one.stands()) {
       row["step_size"] = one.found->step;

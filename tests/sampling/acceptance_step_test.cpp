@@ -59,7 +59,7 @@ acceptance_step step_of(const tabulated& method, double acceptance, double guess
 // moment has mu + mu^2/2 for mu, 2 % at the largest mu here, 0.04; 4 standard errors of the sample beside.
 BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_its_spectrum) {
   constexpr double larger = 500.0;
-  const proposal_options options{.length = 100.0, .times_larger = larger, .states = 200};
+  const proposal_options options{.length = 100.0, .times_larger = larger, .states = 800};
   const double of_part = acceptance_at(energy_error_at(0.9) / larger);
   for (const auto& method : {tabulated(verlet{}), tabulated(bcss3{})}) {
     const double exact = gaussian_step(method, frequencies(), of_part);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
     BOOST_TEST(relative < 0.05);
     const double not_scaled = gaussian_step(method, frequencies(), 0.9);
     BOOST_TEST(std::abs(found.step / not_scaled - 1.0) > 5.0 * relative);
-    BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 200.0 ==
+    BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 800.0 ==
                    std::log(found.step),
                boost::test_tools::tolerance(1e-12));
   }
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
 // Chains at the step that was found are accepted as often as asked: 4 standard errors of both. All chains
 // have the same durations, 2000 of them, over which the acceptance varies by 0.1 at most.
 BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
-  const proposal_options options{.length = 1.5, .temperature = 0.5, .states = 400};
+  const proposal_options options{.length = 1.5, .temperature = 0.5, .states = 1600};
   const tabulated method{verlet{}};
   const auto found = step_of(method, 0.8, 0.1, options);
   const auto accepted = [&](double step) {
