@@ -33,8 +33,7 @@ const json& row_of(const json& all, const std::string& method) {
 // Within 4 standard errors of the step the acceptance of chains passes 0.9.
 BOOST_AUTO_TEST_CASE(chains_at_the_step_are_accepted_as_often_as_asked) {
   const scratch folder("recommend_sampling");
-  const json all =
-      json_of(run(folder, line + chain + "--families bab3 --json --trajectories 200 --output word.json"));
+  const json all = json_of(run(folder, line + chain + "--families bab3 --json --trajectories 200"));
   BOOST_TEST(all["rows"].size() == 12U);
   for (const char* method : {"verlet", "bcss3"}) {
     const double step = row_of(all, method)["step_size"];
@@ -54,13 +53,6 @@ BOOST_AUTO_TEST_CASE(chains_at_the_step_are_accepted_as_often_as_asked) {
     BOOST_TEST(4.0 * error < 0.2);
     BOOST_TEST(accepted(1.3 * step) < 0.9 - of_chains);
   }
-  // The scheme at the step that it is of: a search ends within 3 % of the step that has the acceptance.
-  BOOST_TEST_REQUIRE(all["winner"] == "learned:bab3");
-  const double learned_at = row_of(all, "learned:bab3")["learned_at"];
-  const json found =
-      json_of(run(folder, fmt::format("sample {}--length 2 --method word.json --step {} --draws 2000 --json",
-                                      chain, learned_at)));
-  BOOST_TEST(std::abs(found["acceptance"].get<double>() - 0.9) < 0.07);
   double last = 1e300;  // the best first
   for (const auto& row : all["rows"]) {
     if (row["step_size"].is_null()) continue;
@@ -86,6 +78,15 @@ BOOST_AUTO_TEST_CASE(on_a_larger_system_what_is_learned_wins) {
   BOOST_TEST(all["diagnostic"]["value"].get<double>() > 2.0);  // errors of order h^4 count more and more
   BOOST_TEST(all["output"] == "word.json");
   BOOST_TEST(contents(folder / "word.json").find("gaussian_acceptance") != std::string::npos);
+  // The scheme at its own step: a thousandth of the energy error, 3e-5, leaves 0.997.
+  const double learned_at = row_of(all, "learned:bab4")["learned_at"];
+  const auto accepted = [&](const std::string& method, double step) {
+    return json_of(run(folder, fmt::format("sample {}--length 2 --method {} --step {} --draws 500 --json",
+                                           chain, method, step)))["acceptance"]
+        .get<double>();
+  };
+  BOOST_TEST(accepted("word.json", learned_at) > 0.99);
+  BOOST_TEST(accepted("verlet", 0.25 * learned_at) < 0.95);  // at its cost
   const json at_hand = json_of(run(folder, line + chain + "--families bab3 --json"));
   BOOST_TEST(row_of(at_hand, "verlet")["step_size"].get<double>() >
              2.0 * row_of(all, "verlet")["step_size"].get<double>());
