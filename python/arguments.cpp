@@ -290,4 +290,16 @@ program::recommend_command recommend_of(const argument_reader& arguments,
   return command;
 }
 
+sampling_options sampling_of(const argument_reader& arguments, const program::system_settings& system) {
+  sampling_options options{.starts_are_thermal = program::is_file_of_starts(system.start)};
+  take_learning(arguments, "learn_", options.learning);
+  arguments.take("families", options.families);
+  arguments.take("length", options.length);
+  arguments.take("acceptance", options.acceptance);
+  arguments.take("hmc_temperature", options.temperature);
+  arguments.take("times_larger", options.times_larger);
+  arguments.take("trajectories", options.trajectories);
+  return options;
+}
+
 }  // namespace nysalt::python

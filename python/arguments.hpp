@@ -55,5 +55,6 @@ program::run_command run_of(const argument_reader& arguments, const program::sys
 program::compare_command compare_of(const argument_reader& arguments, const program::system_settings& system);
 program::recommend_command recommend_of(const argument_reader& arguments,
                                         const program::system_settings& system);
+sampling_options sampling_of(const argument_reader& arguments, const program::system_settings& system);
 
 }  // namespace nysalt::python

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "commands.hpp"
 
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
+#include "../src/comparison/sampling_choice.hpp"
 #include "../src/program/fitted_family.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"
@@ -56,21 +59,37 @@ std::string compare(const held_system& system, const py::dict& arguments) {
   return document;
 }
 
-py::tuple recommend(const held_system& system, const py::dict& arguments) {
-  const argument_reader asked(arguments);
-  const auto common = common_of(asked, system.calls_python());
-  const auto command = recommend_of(asked, system.settings);
+/// The document of a choice, and the scheme of its winner; make() makes the choice.
+py::tuple chosen(const held_system& system, const auto& make) {
   std::string document;
   py::object file = py::none();
   std::optional<std::string> scheme;
   compute(system.calls_python(), [&] {
-    program::recommendation all(program::make_system(command.system), command, common);
-    all.learn_and_rank();
-    document = dumped(all.document());
-    scheme = all.scheme();
+    auto all = make();
+    all->learn_and_rank();
+    document = dumped(all->document());
+    scheme = all->scheme();
   });
   if (scheme) file = py::str(*scheme);
   return py::make_tuple(document, file);
+}
+
+py::tuple recommend(const held_system& system, const py::dict& arguments) {
+  const argument_reader asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = recommend_of(asked, system.settings);
+  return chosen(system, [&] {
+    return std::make_unique<program::recommendation>(program::make_system(command.system), command, common);
+  });
+}
+
+py::tuple recommend_for_sampling(const held_system& system, const py::dict& arguments) {
+  const argument_reader asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto options = sampling_of(asked, system.settings);
+  return chosen(system, [&] {
+    return std::make_unique<program::sampling_choice>(program::make_system(system.settings), options, common);
+  });
 }
 
 /// What a file of a method says, and whether it is one. Of a scheme at a step, or at that with which it
@@ -110,6 +129,7 @@ void add_commands(py::module_& module) {
   module.def("learn", &learn);
   module.def("compare", &compare);
   module.def("recommend", &recommend);
+  module.def("recommend_for_sampling", &recommend_for_sampling);
   module.def("listing", [] { return dumped(program::listing()); });
   module.def("method", &method);
   module.def("save", &save);

@@ -27,7 +27,7 @@ struct learning_options {
       planned_horizon{};           ///< of the runs to come, if known: to learn from no more is needed
   std::string coordinates{};       ///< of the errors: qp, modes or energy. Empty: as suits the loss
   std::vector<std::string> fix{};  ///< parameters of the family that are not learned: "name=value"
-  std::string loss{};              ///< trajectory, state:K, energy:K or covariance. Empty: trajectory, but
+  std::string loss{};              ///< as of loss_named(). Empty: trajectory, but
                        ///< state:1 in a bath, and where neither states nor coordinates are measured
   std::string effort = "normal";                ///< of the search by trajectories: quick, normal or thorough
   std::optional<std::int64_t> random_starts{};  ///< of the search. None: by the effort
@@ -77,6 +77,20 @@ struct recommendation_options {
   double hmc_temperature = 1.0;                  ///< kT of the acceptance, an energy
   bool reversible = false;                       ///< symmetric methods alone
   std::int64_t looks = 1;  ///< at each trajectory of later runs: processed methods pay for each
+};
+
+/// Which word and step Hybrid Monte Carlo takes for a system: at one acceptance, all words with the same
+/// durations of trajectories.
+struct sampling_options {
+  double length = 0.0;        ///< mean duration of a trajectory: durations are uniform up to twice that
+  double acceptance = 0.9;    ///< at which the steps of words are compared
+  double temperature = 1.0;   ///< kT, an energy: exp(-V/kT) is sampled
+  double times_larger = 1.0;  ///< how many times larger than the system is the one that will be sampled:
+                              ///< energy errors add up, so that a small lattice tells of a large one
+  std::int64_t trajectories = 100;               ///< to judge words by
+  std::vector<std::string> families{};           ///< to learn. Empty: bab3 to bab6, and fd_chin
+  learning_options learning{.effort = "quick"};  ///< of these. Its loss is acceptance where none is named
+  bool starts_are_thermal = false;  ///< starts are draws of exp(-H/kT); else pilot chains make some from them
 };
 
 }  // namespace nysalt

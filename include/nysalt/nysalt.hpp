@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nysalt/analysis/acceptance.hpp"
+#include "nysalt/analysis/acceptance_step.hpp"
 #include "nysalt/analysis/acf_error.hpp"
 #include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/convergence_order.hpp"
@@ -13,6 +14,7 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/gaussian_acceptance.hpp"
 #include "nysalt/analysis/histogram.hpp"
 #include "nysalt/analysis/integrated_time.hpp"
 #include "nysalt/analysis/kinetic_temperature.hpp"

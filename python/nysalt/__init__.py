@@ -26,7 +26,7 @@ from . import _nysalt
 
 __version__: str = _nysalt.version
 __all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "families", "hamiltonian", "integrate", "learn", "load",
-           "methods", "metrics", "potential", "recommend", "run", "system", "systems"]
+           "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
 Numbers = Union[float, Sequence[float]]
@@ -422,6 +422,29 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
     asked.pop("system")
     asked["fix"] = _fixed(fix)
     document, text = _nysalt.recommend(_held_by(system), asked)
+    found = _json.loads(document)
+    _warn(found["warnings"])
+    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+
+
+def recommend_for_sampling(system: System, length: float, *, acceptance: Optional[float] = None,
+                           times_larger: Optional[float] = None, hmc_temperature: Optional[float] = None,
+                           trajectories: Optional[int] = None, families: Optional[Texts] = None, seed: int = 1,
+                           learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+                           learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+                           learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None,
+                           fix: Optional[Mapping[str, float]] = None,
+                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+    """The word with which Hybrid Monte Carlo takes the largest step per evaluation at an acceptance, with
+    trajectories of mean duration `length`, on a system `times_larger` than this one.
+
+    Returns the document that `nysalt recommend --for sampling --json` prints, and the winner where it was
+    learned.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    asked["fix"] = _fixed(fix)
+    document, text = _nysalt.recommend_for_sampling(_held_by(system), asked)
     found = _json.loads(document)
     _warn(found["warnings"])
     return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")

@@ -82,6 +82,8 @@ class prepared_problem {
   /// Finds the burn-in, or runs the one long trajectory, whose seed it is. To be called before anything below
   /// runs.
   void prepare_starts(std::uint64_t seed);
+  /// Trajectories begin there from now on.
+  void take_starts(const initial_states& starts) { starts_ = starts; }
   /// That of trajectory n, by the seed of a role.
   void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) const;
 

@@ -77,6 +77,8 @@ struct compare_command : comparison_options {
 
 struct recommend_command : recommendation_options {
   system_settings system;
+  std::string purpose = "runs";  // or sampling, by these options:
+  sampling_options sampling{};
   std::string output;
 };
 

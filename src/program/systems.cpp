@@ -20,10 +20,9 @@
 
 namespace nysalt::program {
 
-namespace {
-
-/// --start names a file of positions.
 bool is_file_of_starts(const std::string& start) { return start.ends_with(".csv"); }
+
+namespace {
 
 bath bath_of(const bath_settings& settings, bool takes_temperature) {
   if (settings.sigma && settings.temperature) {

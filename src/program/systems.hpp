@@ -22,6 +22,8 @@ const system_declaration& declaration_of(const std::string& name);
 std::string text_of(const parameter_value& value);
 /// "--pairs 3 --omega 50 --spread 1"
 std::string options_of(const system_declaration& system);
+/// Whether --start names a file of positions.
+bool is_file_of_starts(const std::string& start);
 /// A name that is the path of a file.
 bool is_path_of_system(std::string_view name);
 

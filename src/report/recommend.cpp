@@ -4,53 +4,107 @@
 #include <limits>
 
 #include "comparison/recommendation.hpp"
+#include "comparison/sampling_choice.hpp"
 #include "own_problem.hpp"
 
 namespace nysalt {
 
+/// What either purpose tells.
 class recommendation::contest_result {
  public:
-  contest_result(const initial_value_problem& problem, const recommendation_options& options,
-                 const execution_options& execution)
-      : all(program::prepared(problem), options, program::settings_of(execution)) {
-    all.learn_and_rank();
-  }
-
-  program::recommendation all;
+  virtual ~contest_result() = default;
+  virtual bool has_result() const = 0;
+  virtual std::string verdict() const = 0;
+  virtual std::string method() const = 0;
+  virtual double step() const = 0;
+  virtual std::string readable() const = 0;
+  virtual program::json document() const = 0;
+  virtual std::optional<std::string> scheme() const = 0;
+  virtual std::vector<std::string> warnings() const = 0;
 };
 
-bool recommendation::has_result() const { return found_->all.has_result(); }
+namespace {
 
-std::string recommendation::verdict() const { return found_->all.asked().verdict(); }
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-std::string recommendation::method() const {
-  const auto* best = found_->all.asked().best();
-  return best == nullptr ? std::string() : best->source.typed;
-}
+template <class Work>
+class result_of : public recommendation::contest_result {
+ public:
+  template <class Options>
+  result_of(const initial_value_problem& problem, const Options& options, const execution_options& execution)
+      : all_(program::prepared(problem), options, program::settings_of(execution)) {
+    all_.learn_and_rank();
+  }
+  bool has_result() const override { return all_.has_result(); }
+  std::string readable() const override { return all_.readable(); }
+  program::json document() const override { return all_.document(); }
+  std::optional<std::string> scheme() const override { return all_.scheme(); }
+  std::vector<std::string> warnings() const override { return all_.warnings(); }
 
-double recommendation::step() const {
-  const auto* best = found_->all.asked().best();
-  return best == nullptr ? std::numeric_limits<double>::quiet_NaN() : best->step;
-}
+ protected:
+  Work all_;
+};
+
+class best_for_runs : public result_of<program::recommendation> {
+ public:
+  using result_of::result_of;
+  std::string verdict() const override { return all_.asked().verdict(); }
+  std::string method() const override {
+    const auto* best = all_.asked().best();
+    return best == nullptr ? std::string() : best->source.typed;
+  }
+  double step() const override {
+    const auto* best = all_.asked().best();
+    return best == nullptr ? not_a_number : best->step;
+  }
+};
+
+class best_for_sampling : public result_of<program::sampling_choice> {
+ public:
+  using result_of::result_of;
+  std::string verdict() const override { return all_.verdict(); }
+  std::string method() const override {
+    const auto* best = all_.taken();
+    return best == nullptr ? std::string() : best->source.typed;
+  }
+  double step() const override {
+    const auto* best = all_.taken();
+    return best == nullptr ? not_a_number : best->found->step;
+  }
+};
+
+}  // namespace
+
+bool recommendation::has_result() const { return found_->has_result(); }
+
+std::string recommendation::verdict() const { return found_->verdict(); }
+
+std::string recommendation::method() const { return found_->method(); }
+
+double recommendation::step() const { return found_->step(); }
 
 std::string recommendation::text() const {
-  return program::with_arguments(found_->all.readable(), program::in_cpp);
+  return program::with_arguments(found_->readable(), program::in_cpp);
 }
 
-std::string recommendation::json() const { return program::text_of(found_->all.document()); }
+std::string recommendation::json() const { return program::text_of(found_->document()); }
 
-std::optional<std::string> recommendation::scheme() const { return found_->all.scheme(); }
+std::optional<std::string> recommendation::scheme() const { return found_->scheme(); }
 
 std::vector<std::string> recommendation::warnings() const {
-  return program::with_cpp_terms(found_->all.warnings());
+  return program::with_cpp_terms(found_->warnings());
 }
 
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
                          const execution_options& execution) {
-  return program::with_cpp_messages([&] {
-    return recommendation(
-        std::make_shared<const recommendation::contest_result>(problem, options, execution));
-  });
+  return program::with_cpp_messages(
+      [&] { return recommendation(std::make_shared<const best_for_runs>(problem, options, execution)); });
+}
+
+recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
+                                      const execution_options& execution) {
+  return program::with_cpp_messages(
+      [&] { return recommendation(std::make_shared<const best_for_sampling>(problem, options, execution)); });
 }
 
 }  // namespace nysalt

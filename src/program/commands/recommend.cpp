@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "comparison/recommendation.hpp"
+#include "comparison/sampling_choice.hpp"
 #include "program/systems.hpp"
 #include "report/manifest.hpp"
 
@@ -10,24 +11,38 @@
 
 namespace nysalt::program {
 
-int recommend(const recommend_command& command, const common_settings& common) {
-  recommendation all(make_system(command.system), command, common);
-  if (!command.output.empty()) on_first(all_ranks(), [&] { require_writable(command.output); });
+namespace {
+
+/// Does the work, prints what was found, and writes the scheme of a winner that was learned.
+int tell(auto& all, const std::string& output, const common_settings& common) {
+  if (!output.empty()) on_first(all_ranks(), [&] { require_writable(output); });
   warn_of_threads(common);
   all.learn_and_rank();
   const auto scheme = all.scheme();
-  const bool writes = scheme && !command.output.empty();
-  if (writes) on_first(all_ranks(), [&] { write_result(command.output, *scheme, common); });
+  const bool writes = scheme && !output.empty();
+  if (writes) on_first(all_ranks(), [&] { write_result(output, *scheme, common); });
   if (common.json) {
     json result = all.document();
-    result["output"] = writes ? json(command.output) : json(nullptr);
+    result["output"] = writes ? json(output) : json(nullptr);
     print(text_of(result));
   } else {
     print(all.readable());
     for (const auto& text : all.warnings()) warn(text);
-    if (writes) print(fmt::format("Written: {}\n", command.output));
+    if (writes) print(fmt::format("Written: {}\n", output));
   }
   return all.has_result() ? done : no_result;
+}
+
+}  // namespace
+
+int recommend(const recommend_command& command, const common_settings& common) {
+  auto system = make_system(command.system);
+  if (command.purpose == "sampling") {
+    sampling_choice all(std::move(system), command.sampling, common);
+    return tell(all, command.output, common);
+  }
+  recommendation all(std::move(system), command, common);
+  return tell(all, command.output, common);
 }
 
 }  // namespace nysalt::program

@@ -7,6 +7,7 @@
 
 #include "../comma_list.hpp"
 #include "../commands.hpp"
+#include "../systems.hpp"
 #include "comparison/refusal.hpp"
 #include "number_option.hpp"
 #include "shared_options.hpp"
@@ -22,12 +23,20 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("recommend", "the best method at a cost, or for an error");
   add_system(command, asked.system);
+  command.add_option("--for", asked.purpose, "runs, or sampling by Hybrid Monte Carlo")
+      ->capture_default_str();
   add_placement(command, asked.placement);
   add_number(command, "--budget", asked.budget, "force evaluations per unit time");
   add_number(command, "--budget-seconds", asked.budget_seconds,
              "seconds per unit time of one trajectory, on this machine");
   add_number(command, "--error", asked.error, "to stay below, at the least cost");
-  add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
+  add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("");
+  add_number(command, "--length", asked.sampling.length,
+             "for sampling: mean duration of a trajectory, which is uniform between 0 and twice that")
+      ->default_str("");
+  add_number(command, "--acceptance", asked.sampling.acceptance, "for sampling: at which steps are compared");
+  add_number(command, "--times-larger", asked.sampling.times_larger,
+             "for sampling: the system that will be sampled is so many times this one");
   add_number(command, "--trajectories", asked.trajectories, "to rank on");
   command.add_option("--metric", asked.metric, "path, state, exchange, energy or acceptance")
       ->capture_default_str();
@@ -44,9 +53,37 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   command.footer(
       "Examples:\n"
       "  nysalt recommend --system fpu --budget 80 --horizon 5 --output scheme.json\n"
-      "  nysalt recommend --system henon_heiles --error 1e-4 --horizon 10 --reversible");
+      "  nysalt recommend --system henon_heiles --error 1e-4 --horizon 10 --reversible\n"
+      "  nysalt recommend --for sampling --system phi4 --length 1 --families bab5 --times-larger 100");
   const auto run_it = [typed, &asked, &command, &common] {
     asked.families = entries_of(typed->families, "--families");
+    if (asked.purpose == "sampling") {
+      for (const char* option : {"--budget", "--budget-seconds", "--error", "--horizon", "--metric",
+                                 "--observable", "--looks", "--reversible", "--placement"}) {
+        if (command.count(option) > 0) refuse("{} is for runs, not for sampling: leave it away", option);
+      }
+      if (command.count("--length") == 0) {
+        refuse("--length: how long should a trajectory be? A quarter of the slowest period is a good start");
+      }
+      sampling_options& sampling = asked.sampling;
+      sampling.temperature = asked.hmc_temperature;
+      sampling.trajectories = asked.trajectories;
+      sampling.families = asked.families;
+      sampling.learning = asked.learning;
+      sampling.starts_are_thermal = is_file_of_starts(asked.system.start);
+      auto& of_momenta = asked.system.bath.temperature;  // of the starts in a file
+      if (sampling.starts_are_thermal && of_momenta.value_or(sampling.temperature) != sampling.temperature) {
+        refuse("--temperature {} must be the --hmc-temperature, got {}", *of_momenta, sampling.temperature);
+      }
+      if (sampling.starts_are_thermal) of_momenta = sampling.temperature;
+      return recommend(asked, common);
+    }
+    if (asked.purpose != "runs")
+      refuse("unknown purpose '{}': --for is one of runs, sampling", asked.purpose);
+    for (const char* option : {"--length", "--acceptance", "--times-larger"}) {
+      if (command.count(option) > 0) refuse("{} belongs to --for sampling", option);
+    }
+    if (command.count("--horizon") == 0) refuse("--horizon is required: how long are the runs to come?");
     const auto belongs = [&](const char* option, const char* metric) {
       if (command.count(option) == 0 || asked.metric == metric) return;
       refuse("{} belongs to the metric {}, not to {}", option, metric, asked.metric);

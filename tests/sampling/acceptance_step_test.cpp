@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSL-1.0
+// The acceptance of proposals and the step that has it, against Gaussian targets and against chains.
+#include "nysalt/analysis/acceptance_step.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "../support/ranks_as_threads.hpp"
+#include "../support/refusal.hpp"
+#include "nysalt/analysis/gaussian_acceptance.hpp"
+#include "nysalt/ensembles/gibbs_of_modes.hpp"
+#include "nysalt/hmc.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/s_aia.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// Independent oscillators of frequencies from 1 to 1.5.
+const linear_chain& oscillators() {
+  static const linear_chain all = [] {
+    constexpr Eigen::Index count = 16;
+    Eigen::VectorXd squares(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double omega = 1.0 + 0.5 * static_cast<double>(i) / static_cast<double>(count - 1);
+      squares[i] = omega * omega;
+    }
+    return linear_chain(squares.asDiagonal());
+  }();
+  return all;
+}
+
+std::vector<double> frequencies() {
+  const Eigen::VectorXd all = oscillators().modes().frequencies;
+  return {all.begin(), all.end()};
+}
+
+initial_states thermal(double temperature = 1.0) {
+  return gibbs_of_modes<Eigen::Dynamic>(oscillators(), temperature);
+}
+
+acceptance_step step_of(const tabulated& method, double acceptance, double guess,
+                        const proposal_options& options) {
+  const model system(oscillators());
+  return step_at_acceptance(
+      system, [&](double) { return method; }, acceptance, guess, thermal(options.temperature), options);
+}
+
+}  // namespace
+
+// Long trajectories have the mean of sin^2, 1/2 but for its end: one part in the phase, 2 pi 100. The second
+// moment has mu + mu^2/2 for mu, 2 % at the largest mu here, 0.04; 4 standard errors of the sample beside.
+BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_its_spectrum) {
+  constexpr double larger = 500.0;
+  const proposal_options options{.length = 100.0, .times_larger = larger, .states = 800};
+  const double of_part = acceptance_at(energy_error_at(0.9) / larger);
+  for (const auto& method : {tabulated(verlet{}), tabulated(bcss3{})}) {
+    const double exact = gaussian_step(method, frequencies(), of_part);
+    const auto found = step_of(method, 0.9, 0.5 * exact, options);
+    BOOST_TEST(!found.is_longest);
+    const double relative = 4.0 * found.log_step.standard_error + 0.005;  // a fourth of 2 %, as mu is of h^4
+    BOOST_TEST(std::abs(found.step / exact - 1.0) <= relative);
+    BOOST_TEST(relative < 0.05);
+    const double not_scaled = gaussian_step(method, frequencies(), 0.9);
+    BOOST_TEST(std::abs(found.step / not_scaled - 1.0) > 5.0 * relative);
+    BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 800.0 ==
+                   std::log(found.step),
+               boost::test_tools::tolerance(1e-12));
+  }
+}
+
+// Chains at the step that was found are accepted as often as asked: 4 standard errors of both. All chains
+// have the same durations, 2000 of them, over which the acceptance varies by 0.1 at most.
+BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
+  const proposal_options options{.length = 1.5, .temperature = 0.5, .states = 1600};
+  const tabulated method{verlet{}};
+  const auto found = step_of(method, 0.8, 0.1, options);
+  const auto accepted = [&](double step) {
+    return hmc(model(oscillators()), method, thermal(0.5),
+               {.step = step, .length = 1.5, .temperature = 0.5, .chains = 32, .burn_in = 0, .draws = 2000},
+               [](const hmc_draw&) {})
+        .acceptance;
+  };
+  const model system(oscillators());
+  const auto here = acceptance_of_proposals(system, method, found.step, thermal(0.5), options);
+  const auto of_chains = accepted(found.step);
+  const double error =
+      4.0 * (here.probability.standard_error + of_chains.standard_error) + 4.0 * 0.1 / std::sqrt(2000.0);
+  BOOST_TEST(std::abs(here.probability.mean - 0.8) <= 2e-3);
+  BOOST_TEST(std::abs(of_chains.mean - 0.8) <= error);
+  BOOST_TEST(error < 0.04);
+  BOOST_TEST(std::abs(accepted(1.3 * found.step).mean - 0.8) > error);
+}
+
+BOOST_AUTO_TEST_CASE(neither_threads_nor_ranks_change_a_bit) {
+  const model system(oscillators());
+  const tabulated method{bcss3{}};
+  for (const double larger : {1.0, 40.0}) {
+    proposal_options options{.length = 2.0, .times_larger = larger, .states = 45};
+    const auto alone_at = acceptance_of_proposals(system, method, 1.1, thermal(), options).of_each;
+    options.threads = 3;
+    BOOST_TEST((acceptance_of_proposals(system, method, 1.1, thermal(), options).of_each == alone_at));
+    options.threads = 1;
+    run_ranks(3, [&](const thread_communicator& ranks) {
+      proposal_options shared = options;
+      shared.ranks = &ranks;
+      if (acceptance_of_proposals(system, method, 1.1, thermal(), shared).of_each != alone_at) {
+        throw std::logic_error("other bits");
+      }
+    });
+    options.seed = 2;
+    BOOST_TEST((acceptance_of_proposals(system, method, 1.1, thermal(), options).of_each != alone_at));
+  }
+}
+
+// s_aia3 up to z = h 1.5 ends at h = 4.
+BOOST_AUTO_TEST_CASE(a_method_may_depend_on_the_step_and_end) {
+  const model system(oscillators());
+  const proposal_options options{.length = 5.0, .states = 64};
+  const auto found = step_at_acceptance(
+      system, [](double step) { return tabulated(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
+  BOOST_TEST(found.step < 4.0);
+  BOOST_TEST(found.step > 2.0);
+  BOOST_TEST(!found.is_longest);
+}
+
+// One oscillator and trajectories of a fifth of a radian: nothing is rejected.
+BOOST_AUTO_TEST_CASE(where_all_is_accepted_the_step_is_the_length) {
+  const harmonic_oscillator spring(1.0);
+  const auto found = step_at_acceptance(model(spring), [](double) { return tabulated(verlet{}); }, 0.9, 0.01,
+                                        gibbs_of_modes<1>(spring, 1.0), {.length = 0.2, .states = 32});
+  BOOST_TEST(found.is_longest);
+  BOOST_TEST(found.step == 0.2);
+}
+
+BOOST_AUTO_TEST_CASE(proposals_that_cannot_be_are_refused) {
+  using wrong = std::invalid_argument;
+  const model system(oscillators());
+  const tabulated method{verlet{}};
+  const auto at = [&](proposal_options options, double step = 0.1) {
+    return acceptance_of_proposals(system, method, step, thermal(), options);
+  };
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 0.0}); }, {"length must be positive"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, 1e-9); }, {"at most 1", "take a larger step"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, -0.1); }, {"step must be positive"}));
+  const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
+  BOOST_TEST(refuses<wrong>([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"not reversible"}));
+  for (const double acceptance : {0.0, 1.0}) {
+    BOOST_TEST(
+        refuses<wrong>([&] { step_of(method, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));
+  }
+  // No word of wrong order keeps the energy of a part of 1e30.
+  BOOST_TEST(refuses<std::runtime_error>(
+      [&] { step_of(method, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30}); }, {"no step down to"}));
+}
