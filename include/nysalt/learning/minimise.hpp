@@ -31,9 +31,11 @@ namespace detail {
 
 /// Ceres from theta, which becomes where it ends; parameters that are not free stay. The loss is flat along
 /// a valley, on which Gauss-Newton steps are short: so the search does not end on small changes of the loss,
-/// but on small steps. Where it does not end so, the last quarter of the iterations tells a valley.
+/// but on small steps. Where it does not end so, the last quarter of the iterations tells a valley. A search
+/// that may climb takes up to five steps on which the loss grows, by which it crosses the bends of a narrow
+/// valley; it ends at the least loss that it met.
 void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
-             minimum& found, double function_tolerance = 0.0);
+             minimum& found, double function_tolerance = 0.0, bool may_climb = false);
 
 /// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
 /// to a part in a million.
@@ -43,11 +45,13 @@ void polish(const objective& loss, const std::function<bool(const Eigen::VectorX
 }  // namespace detail
 
 /// Near a minimum, and the loss there: a few steps, until they lower the loss by less than a hundredth. From
-/// a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is infinite.
+/// a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is infinite. It
+/// may climb as descend() may.
 std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
                                                    const std::function<bool(const Eigen::VectorXd&)>& defined,
                                                    const Eigen::VectorXd& start,
-                                                   const std::vector<Eigen::Index>& free);
+                                                   const std::vector<Eigen::Index>& free,
+                                                   bool may_climb = false);
 
 /// Minimises over the free parameters. Converged: another Newton step would lower the loss by less than 1e-6
 /// of itself. From a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is

@@ -44,7 +44,7 @@ class cost_of_ceres final : public ceres::CostFunction {
 namespace detail {
 
 void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
-             minimum& found, double function_tolerance) {
+             minimum& found, double function_tolerance, bool may_climb) {
   Eigen::VectorXd& theta = found.theta;
   std::vector<int> fixed;
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
@@ -59,6 +59,7 @@ void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int
   options.function_tolerance = function_tolerance;
   options.gradient_tolerance = 0.0;
   options.parameter_tolerance = 1e-8;
+  options.use_nonmonotonic_steps = may_climb;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -68,7 +69,7 @@ void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int
   constexpr double hardly = 2.0;  // errors by a factor 1.4, as much as one search and another differ
   constexpr std::size_t enough = 50;
   found.in_valley = summary.termination_type == ceres::NO_CONVERGENCE && steps.size() > enough &&
-                    steps[steps.size() * 3 / 4].cost <= hardly * steps.back().cost;
+                    steps[steps.size() * 3 / 4].cost <= hardly * summary.final_cost;
 }
 
 void polish(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
@@ -109,7 +110,7 @@ void polish(const objective& loss, const std::function<bool(const Eigen::VectorX
 std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
                                                    const std::function<bool(const Eigen::VectorXd&)>& defined,
                                                    const Eigen::VectorXd& start,
-                                                   const std::vector<Eigen::Index>& free) {
+                                                   const std::vector<Eigen::Index>& free, bool may_climb) {
   constexpr int most_iterations = 40;
   constexpr double hardly = 0.01;
   minimum found{start};
@@ -118,7 +119,7 @@ std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
   if (!free.empty()) {
     ceres::Problem problem;
     problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
-    detail::descend(problem, free, most_iterations, found, hardly);
+    detail::descend(problem, free, most_iterations, found, hardly, may_climb);
   }
   return {found.theta, loss(found.theta).value};
 }

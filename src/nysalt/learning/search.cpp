@@ -95,7 +95,9 @@ Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta) {
 
 namespace {
 
-/// The best minima of an earlier loss that differ, those first that the guard admits.
+/// The best minima of an earlier loss that differ, those first that the guard admits. Every other two of the
+/// searches may climb: they cross the bends of narrow valleys, and the others stay where they begin, so that
+/// either find minima that the others miss.
 std::vector<named_parameters> most_promising(const search_task& task, const objective& loss,
                                              const std::vector<named_parameters>& starts, std::size_t most) {
   constexpr double far_apart = 0.05;  // of coefficients of order one
@@ -105,8 +107,9 @@ std::vector<named_parameters> most_promising(const search_task& task, const obje
   };
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<found> all;
-  for (const auto& start : starts) {
-    auto [theta, value] = descend_roughly(loss, is_defined, start.theta, task.free);
+  for (std::size_t n = 0; n < starts.size(); ++n) {
+    const auto& start = starts[n];
+    auto [theta, value] = descend_roughly(loss, is_defined, start.theta, task.free, n / 2 % 2 == 1);
     if (!task.family->is_in_range(theta)) {
       theta = inside(*task.family, std::move(theta));
       value = is_defined(theta) ? loss(theta).value : std::numeric_limits<double>::infinity();
