@@ -34,6 +34,7 @@ class linear_chain {
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
     modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
+    for (Eigen::Index j = 0; j < n; ++j) rows_.push_back(rows_of_column(j));
     description_ = sentence("linear_chain(masses={}, omega_max={}, fingerprint={})", n,
                             modes_.frequencies.maxCoeff(), fingerprint());
   }
@@ -63,15 +64,18 @@ class linear_chain {
   T potential(const vector<T, dimension>& q) const {
     T sum(0.0);
     for (Eigen::Index j = 0; j < size(); ++j) {
-      for (Eigen::Index i = 0; i < size(); ++i) sum += q[i] * q[j] * (0.5 * stiffness_(i, j));
+      const auto [first, end] = rows_[static_cast<std::size_t>(j)];
+      for (Eigen::Index i = first; i < end; ++i) sum += q[i] * q[j] * (0.5 * stiffness_(i, j));
     }
     return sum;
   }
+  /// Cost: two operations for each entry of K between the first and the last of a column that are not zero.
   template <class T>
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
-    for (Eigen::Index i = 0; i < size(); ++i) f[i] = q[0] * -stiffness_(i, 0);
-    for (Eigen::Index j = 1; j < size(); ++j) {
-      for (Eigen::Index i = 0; i < size(); ++i) f[i] -= q[j] * stiffness_(i, j);
+    for (Eigen::Index i = 0; i < size(); ++i) f[i] = T(0.0);
+    for (Eigen::Index j = 0; j < size(); ++j) {
+      const auto [first, end] = rows_[static_cast<std::size_t>(j)];
+      for (Eigen::Index i = first; i < end; ++i) f[i] -= q[j] * stiffness_(i, j);
     }
   }
 
@@ -97,7 +101,20 @@ class linear_chain {
     return sum.text();
   }
 
+  struct row_range {
+    Eigen::Index first;
+    Eigen::Index end;
+  };
+  /// The rows from the first non-zero entry of column j to the last; none if all are zero.
+  row_range rows_of_column(Eigen::Index j) const {
+    row_range rows{0, size()};
+    while (rows.first < rows.end && stiffness_(rows.first, j) == 0.0) ++rows.first;
+    while (rows.first < rows.end && stiffness_(rows.end - 1, j) == 0.0) --rows.end;
+    return rows;
+  }
+
   Eigen::MatrixXd stiffness_;
+  std::vector<row_range> rows_;  // of each column of K
   Eigen::VectorXd inverse_masses_;
   normal_modes modes_;
   std::string description_;
