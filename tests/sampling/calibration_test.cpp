@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "nysalt/ensembles/normal_around.hpp"
@@ -32,7 +33,9 @@ double worst_distance(const std::vector<Eigen::VectorXd>& means_of_chains, const
     std::vector<double> means;
     for (const auto& mean : means_of_chains) means.push_back(mean[k]);
     const estimate found = mean_and_error(means);
-    worst = std::max(worst, std::abs(found.mean - exact[k]) / found.standard_error);
+    const double distance = std::abs(found.mean - exact[k]) / found.standard_error;
+    if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();  // a chain diverged
+    worst = std::max(worst, distance);
   }
   return worst;
 }
