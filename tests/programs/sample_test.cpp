@@ -164,6 +164,7 @@ BOOST_AUTO_TEST_CASE(a_logistic_regression_is_read_from_a_file) {
 BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_one_line) {
   const scratch folder("sample_bad");
   std::ofstream(folder / "positions.csv") << "q1\n0.5\nx\n";
+  std::ofstream(folder / "far.csv") << "q1,q2\n1e200,1e200\n";
   std::ofstream(folder / "one_way.json")
       << R"({"format": "nysalt table", "version": 1, "name": "one_way", "letters": "AB", "coefficients": [1, 1]})";
   all_refused(
@@ -182,6 +183,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_one_line) {
               {"--system pendulum --length 1 --checkpoint c --every 5 --output c", {"a name of its own"}},
               {"--system pendulum --length 1 --checkpoint c --every 5 --resume", {"there is no checkpoint"}},
               {"--system pendulum --length 0", {"--length must be"}},
+              {"--system pendulum --length 1 --step 1e-300", {"length must be at most", "larger step"}},
+              {"--system henon_heiles --length 1 --start far.csv", {"must be finite at a start"}},
               {"--system pendulum --length 1 --chains 0", {"--chains must be"}},
               {"--system pendulum --length 1 --acceptance 1.2", {"acceptance must be between 0 and 1"}},
               {"--system pendulum --length 1 --friction 1 --temperature 1", {"leave the bath away"}},

@@ -50,6 +50,20 @@ estimate mean_over_chains(const std::vector<std::vector<double>>& chains, const 
 
 double square(double x) { return x * x; }
 
+/// A stiff spring whose force has a sign of choice.
+struct spring_of_sign {
+  static constexpr int dimension = 1;
+  double sign;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0] * 50.0;
+  }
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = q[0] * (sign * 100.0);
+  }
+};
+
 }  // namespace
 
 // V = omega^2 q^2/2: <q^2> = kT/omega^2. Chains are independent but for their durations.
@@ -130,6 +144,32 @@ BOOST_AUTO_TEST_CASE(the_step_is_tuned_to_the_acceptance) {
     // Known to .3/sqrt(32 400) = .003; averages of the step lag behind by some of its last changes.
     BOOST_TEST(std::abs(result.acceptance.mean - wanted) < 0.05);
   }
+}
+
+// With the wrong sign of the force a trajectory of length 1 ends where the energy is e^20 times as large, at
+// every step: the burn-in must end with a sentence, not with steps that become ever smaller.
+BOOST_AUTO_TEST_CASE(an_acceptance_that_no_step_has_is_refused) {
+  const hmc_options options{.step = 0.1, .length = 1.0, .burn_in = 200, .draws = 10, .acceptance = 0.9};
+  const auto ignore = [](const hmc_draw&) {};
+  BOOST_TEST(hmc(spring_of_sign{-1.0}, tabulated(verlet{}), at_zero, options, ignore).step > 0.01);
+  BOOST_TEST(refuses<std::runtime_error>(
+      [&] { hmc(spring_of_sign{1.0}, tabulated(verlet{}), at_zero, options, ignore); },
+      {"acceptance must reach 0.9", "smaller first step"}));
+}
+
+// Steps so small that positions do not change by a rounding have no variance to make masses of.
+BOOST_AUTO_TEST_CASE(a_coordinate_that_does_not_vary_has_no_mass) {
+  const hmc_options options{.step = 1e-40,
+                            .length = 1.0e-38,
+                            .chains = 2,
+                            .burn_in = 100,
+                            .draws = 1,
+                            .acceptance = 0.9,
+                            .diagonal_masses = true};
+  const normal_around<1> at_one({vector<double, 1>(1.0), vector<double, 1>(0.0)}, 0.0, 1.0);
+  BOOST_TEST(refuses<std::runtime_error>(
+      [&] { hmc(harmonic_oscillator(1.0), tabulated(verlet{}), at_one, options, [](const hmc_draw&) {}); },
+      {"coordinate 1 did not vary", "diagonal_masses"}));
 }
 
 BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {

@@ -17,7 +17,7 @@
 namespace nysalt {
 
 /// H = sum p_i^2/(2 m_i) + q^T K q/2 with any symmetric, positive semidefinite stiffness matrix K and
-/// any masses m_i > 0. A force costs dimension^2 multiplications.
+/// any masses m_i > 0.
 class linear_chain {
  public:
   static constexpr int dimension = Eigen::Dynamic;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "moments.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
@@ -21,24 +22,6 @@
 #include "nysalt/stepper.hpp"
 
 namespace nysalt::detail {
-
-/// Numbers of a state that is saved, one after the other.
-class saved_numbers {
- public:
-  explicit saved_numbers(std::span<double> numbers) : left_(numbers) {}
-  void put(double x) {
-    left_.front() = x;
-    left_ = left_.subspan(1);
-  }
-  double get() {
-    const double x = left_.front();
-    left_ = left_.subspan(1);
-    return x;
-  }
-
- private:
-  std::span<double> left_;
-};
 
 /// What one chain adds up.
 struct chain_sums {
@@ -53,34 +36,6 @@ struct chain_sums {
   }
   void read(saved_numbers& row) {
     for (double* x : {&acceptance, &squares, &diverged, &last}) *x = row.get();
-  }
-};
-
-/// Mean and variance of the draws of a chain, by Welford's recurrence.
-struct moments {
-  double count = 0.0;
-  Eigen::VectorXd mean;
-  Eigen::VectorXd squares;
-
-  void take(const Eigen::VectorXd& x) {
-    if (count == 0.0) mean = squares = Eigen::VectorXd::Zero(x.size());
-    count += 1.0;
-    const Eigen::VectorXd before = x - mean;
-    mean += before / count;
-    squares += before.cwiseProduct(x - mean);
-  }
-
-  static Eigen::Index width(Eigen::Index size) { return 1 + 2 * size; }  // numbers that are saved
-  void write(Eigen::Index size, saved_numbers& row) const {
-    row.put(count);
-    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? mean[i] : 0.0);
-    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? squares[i] : 0.0);
-  }
-  void read(Eigen::Index size, saved_numbers& row) {
-    count = row.get();
-    mean = squares = Eigen::VectorXd::Zero(size);
-    for (double& x : mean) x = row.get();
-    for (double& x : squares) x = row.get();
   }
 };
 

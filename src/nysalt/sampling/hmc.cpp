@@ -19,6 +19,12 @@ void require_options(const model& system, const hmc_options& options) {
   };
   positive("step", options.step);
   positive("length", options.length);
+  constexpr double most_steps = 1e6;
+  if (options.length > most_steps * options.step) {
+    throw std::invalid_argument(
+        sentence("hmc: length must be at most {} steps, got {} with steps of {}; take a larger step",
+                 most_steps, options.length, options.step));
+  }
   const auto at_least = [](const char* name, std::int64_t value, std::int64_t least) {
     if (value >= least) return;
     throw std::invalid_argument(sentence("hmc: {} must be at least {}, got {}", name, least, value));

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -116,19 +117,22 @@ class sampler {
   }
 
   void begin_tuning() {
-    if (options_.acceptance) tuned_.emplace(result_.step, *options_.acceptance);
+    const double largest =
+        is_before_masses(done_) ? std::numeric_limits<double>::infinity() : options_.length;
+    if (options_.acceptance) tuned_.emplace(result_.step, *options_.acceptance, largest);
   }
 
   /// Trajectory n of all chains together, as they share the step that is tuned.
   void burn_in(std::int64_t n) {
     const std::int64_t half = options_.burn_in / 2;
     if (options_.diagonal_masses && n == half) {
-      take_masses();
+      require_tuned();
+      use_deviations(deviations_of(seen_, mine_, options_.chains, size(system_)));
+      for (auto& block : blocks_) block->rescale(scales_);
       result_.step = 1.0;
       begin_tuning();
     }
-    if (tuned_)
-      result_.step = is_before_masses(n) ? tuned_->step() : std::min(tuned_->step(), options_.length);
+    if (tuned_) result_.step = tuned_->step();
     const std::int64_t steps = count_steps(n);
     together(*options_.ranks, [&] {
       for_each_block([&](std::size_t b, std::int64_t, int) { go_on(*blocks_[b], n, steps); });
@@ -138,9 +142,19 @@ class sampler {
   }
 
   void end_burn_in() {
-    if (tuned_) result_.step = std::min(tuned_->settled(), options_.length);
+    require_tuned();
+    if (tuned_) result_.step = tuned_->settled();
     for (auto& block : blocks_) block->forget_sums();
     steps_of_burn_in_ = steps_;
+  }
+
+  void require_tuned() const {
+    if (!tuned_ || !tuned_->failed()) return;
+    throw std::runtime_error(
+        sentence("hmc: the acceptance must reach {}, and stayed below it down to steps of {}; take a smaller "
+                 "first step, "
+                 "or other starts, and check the potential against the force",
+                 *options_.acceptance, tuned_->settled()));
   }
 
   void keep_and_tell() {
@@ -182,26 +196,6 @@ class sampler {
     for (const auto& block : blocks_) {
       for (int k = 0; k < block->count(); ++k) seen_[m++].take(block->position(k));
     }
-  }
-
-  /// Variances over all chains, about the mean of all.
-  void take_masses() {
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size(system_));
-    std::vector<Eigen::VectorXd> means;
-    for (const auto& one : seen_) means.push_back(one.mean);
-    const Eigen::VectorXd mean = mine_.sum(means, zero) / static_cast<double>(options_.chains);
-    std::vector<Eigen::VectorXd> squares;
-    for (const auto& one : seen_) squares.push_back(one.squares / one.count + (one.mean - mean).cwiseAbs2());
-    const Eigen::VectorXd variance = mine_.sum(squares, zero) / static_cast<double>(options_.chains);
-    Eigen::Index still = 0;
-    if (!(variance.minCoeff(&still) > 0.0)) {
-      throw std::runtime_error(sentence(
-          "hmc: coordinate {} did not vary in the burn-in, and has no mass of its own; take a smaller step, "
-          "a longer burn-in, or no diagonal_masses",
-          still + 1));
-    }
-    use_deviations(variance.cwiseSqrt());
-    for (auto& block : blocks_) block->rescale(scales_);
   }
 
   /// Steps from now on are of coordinates in which omega is one.
