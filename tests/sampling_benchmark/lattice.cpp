@@ -158,9 +158,9 @@ void add_lattice(const extent& how, page& to, table& rows) {
   contender by = words.back();
   const statistic measured = squared_powers(large, side, by, how.quick ? 300 : 1000, typical);
 
-  constexpr std::int64_t draws = 500;
+  constexpr std::int64_t draws = 1200;
   const race found = run_race(fmt::format("phi4_lattice, {} x {}", side, side), large, words, measured,
-                              &error_curve::mean, {{0.3, draws * 7 / 5}, {0.5, draws}}, how);
+                              &error_curve::mean, {{0.4, draws * 5 / 4}, {0.7, draws}}, how);
   to.heading("Lattice phi^4");
   to.text(fmt::format(
       "V = sum of lambda phi^4 - phi (the sum of the four neighbours), lambda = {:g}, on {} x {} sites: "
