@@ -63,7 +63,7 @@ std::string nearest_name(std::string_view typed, const std::vector<std::string>&
 
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& known,
                          std::string_view otherwise) {
-  constexpr std::size_t few = 10;
+  constexpr std::size_t few = 12;  // names that fit on a line or two
   if (const auto name = nearest_name(typed, known); !name.empty()) return "did you mean " + name + "?";
   return known.size() <= few ? "it is one of " + listed(known) : std::string(otherwise);
 }

@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(modes_of_another_size_are_refused) {
   };
   BOOST_CHECK_NO_THROW(state_measure(henon_heiles()));
   BOOST_TEST(refuses<std::invalid_argument>([] { state_measure(wrong_modes()); },
-                                            {"state error", "2 modes", "henon_heiles"}));
+                                            {"modes of henon_heiles", "2 x 2"}));
 }
 
 // The standard error of a root is that of the mean below it, over twice the root.

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
     BOOST_TEST(own.summary.rival == "mclachlan2");
     BOOST_TEST(own.summary.usable);
     BOOST_TEST(says(own.summary.brief(), "nothing gained over mclachlan2: take mclachlan2"));
-    BOOST_TEST(small.summary.rival == "mclachlan2");
+    BOOST_TEST(small.summary.rival.starts_with("mclachlan2"));  // or with the kick first, at the same cost
     BOOST_TEST(small.summary.gain() < 1.1);
     BOOST_TEST((large.summary.verdict() == verdict::usable));
     BOOST_TEST(large.summary.gain() > 1.0);

@@ -63,11 +63,15 @@ std::vector<std::string> commands_of(const std::string& page) {
   return commands;
 }
 
-/// A recommendation among one family and few trajectories: this test is of completeness, not of results.
+/// The same with a short search, and of recommendations with one family and few trajectories: this test is of
+/// completeness, not of results.
 std::string made_short(const std::string& arguments) {
+  if (arguments.starts_with("learn")) return arguments + " --effort quick";
   const bool is_long =
       arguments.starts_with("recommend") && arguments.find("--families") == std::string::npos;
-  return is_long ? arguments + " --families aba4 --trajectories 16" : arguments;
+  const bool samples = arguments.find("--for sampling") != std::string::npos;
+  return !is_long ? arguments
+                  : arguments + (samples ? " --families bab3" : " --families aba4 --trajectories 16");
 }
 
 void must_end_well(const scratch& folder, const std::string& arguments) {

@@ -3,7 +3,9 @@
 // ranks goes on with what was killed.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "../support/mpirun.hpp"
@@ -18,6 +20,16 @@ const std::string line =
     "sample --system phi4 --masses 5 --length 1 --chains 37 --burn-in 200 --draws 300 --diagonal-masses "
     "--json "
     "--output out.csv ";
+
+/// What the program itself says on standard error: mpiexec adds lines of its own.
+std::string said(const std::string& err) {
+  std::istringstream lines(err);
+  std::string result;
+  for (std::string one; std::getline(lines, one);) {
+    if (one.starts_with("nysalt: ")) result += one + '\n';
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -49,7 +61,7 @@ BOOST_AUTO_TEST_CASE(more_ranks_go_on_with_what_was_killed) {
   BOOST_TEST_REQUIRE(killed.code == 0, "it ended before it could be killed: " << killed.err);
   const auto other = run_on(2, folder, checkpointed + "--resume --seed 2");
   BOOST_TEST(other.code == 2);
-  BOOST_TEST(other.err ==
+  BOOST_TEST(said(other.err) ==
              "nysalt: c is of another run (seed): ask for the same, or name another --checkpoint\n");
   const auto resumed = run_on(3, folder, checkpointed + "--resume");
   BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
@@ -63,6 +75,7 @@ BOOST_AUTO_TEST_CASE(what_is_refused_is_one_line_on_ranks_too) {
                                  std::string("--system pendulum --length 1 --resume")}) {
     const auto done = run_on(2, folder, "sample " + bad);
     BOOST_TEST(done.code == 2);
-    BOOST_TEST(std::count(done.err.begin(), done.err.end(), '\n') == 1, done.err);
+    const std::string message = said(done.err);
+    BOOST_TEST(std::ranges::count(message, '\n') == 1, done.err);
   }
 }
