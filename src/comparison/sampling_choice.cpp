@@ -52,7 +52,7 @@ void sampling_choice::require_sound_options() {
   if (!(options_.acceptance > 0.0 && options_.acceptance < 1.0)) {
     refuse("--acceptance must be between 0 and 1, got {}", options_.acceptance);
   }
-  constexpr std::int64_t fewest = 16;  // from which a standard error is told
+  constexpr std::int64_t fewest = 16;  // that a standard error needs
   if (options_.trajectories < fewest) {
     refuse("--trajectories must be at least {}, got {}", fewest, options_.trajectories);
   }

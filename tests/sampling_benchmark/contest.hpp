@@ -49,7 +49,7 @@ struct learned_word {
   double step;
 };
 
-/// A bab family of so many drifts (2 to 6), learned by the loss `acceptance` at steps around a guess, 12 %
+/// The family bab of 2 to 6 drifts, learned by the loss `acceptance` at steps around a guess, 12 %
 /// apart: of the words that are foretold to have an acceptance of 0.9 at their own step, that of the largest.
 /// The name has a mark where the fit was not usable.
 learned_word learned_bab(int drifts, const small_target& small, double guess, const contest_options& options);

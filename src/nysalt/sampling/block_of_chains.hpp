@@ -66,7 +66,7 @@ class block_of_chains {
     for (Eigen::Index i = 0; i < scales.size(); ++i) x_.q[i] = x_.q[i] * (1.0 / scales[i]);
   }
 
-  /// Trajectory number n, of so many steps.
+  /// One proposal: trajectory number n, of `steps` steps, and the Metropolis test.
   void propose(const stepper<model, run_time_word>& stepper, double temperature, std::uint64_t seed,
                std::int64_t n, std::int64_t steps) {
     const model& system = stepper.system();

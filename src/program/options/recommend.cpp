@@ -36,7 +36,7 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
       ->default_str("");
   add_number(command, "--acceptance", asked.sampling.acceptance, "for sampling: at which steps are compared");
   add_number(command, "--times-larger", asked.sampling.times_larger,
-             "for sampling: the system that will be sampled is so many times this one");
+             "for sampling: size of the system that will be sampled over the size of this one");
   add_number(command, "--trajectories", asked.trajectories, "to rank on");
   command.add_option("--metric", asked.metric, "path, state, exchange, energy or acceptance")
       ->capture_default_str();

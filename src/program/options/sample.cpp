@@ -32,7 +32,7 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
                    "masses kT/var(q_i), found in the first half of the burn-in");
   command.add_option("--output", asked.output, "file of all draws: CSV");
   command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the chains are stopped");
-  add_number(command, "--every", asked.every, "so many trajectories of a chain a checkpoint is made");
+  add_number(command, "--every", asked.every, "trajectories of a chain between two checkpoints");
   command.add_flag("--resume", asked.resume, "go on from the checkpoint");
   add_common(command, common);
   add_force(command, common, "sample with a scheme at another step or system than it was learned for");
