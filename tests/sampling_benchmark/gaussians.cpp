@@ -186,7 +186,8 @@ void add_gaussians(const extent& how, page& to, table& rows) {
       "trajectory "
       "should be: a quarter of the period of most frequencies here is 1.57, and where the step at an "
       "acceptance "
-      "of 0.9 is longer than the mean length, chains take steps of that length and accept more.",
+      "of 0.9 is longer than the mean length, chains take steps of that length and accept more. "
+      "Lengths and the family of this race were chosen after looking at earlier runs.",
       deviation_of_logarithm(spread), fitted_on));
   const race main = run_race(fmt::format("gaussian, condition 100 after masses, d = {}", size),
                              target_of(spread), words, squares(spread), &error_curve::largest, lengths, how);
