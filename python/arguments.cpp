@@ -173,7 +173,8 @@ void take_potential(const argument_reader& arguments, program::typed_potential& 
   potential.parameters = named_numbers(arguments.inner("parameters"));
 }
 
-/// Those that the system declares, as numbers of its kinds or texts; another is refused with the system's own list.
+/// Those that the system declares, as numbers of its kinds or texts; another is refused with the system's own
+/// list.
 void take_parameters(const argument_reader& arguments, program::system_settings& settings) {
   for (const auto& name : arguments.names()) settings.parameters[name] = "";
   for (const auto& parameter : program::declaration_of(settings.name).parameters) {

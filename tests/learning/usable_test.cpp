@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(a_search_that_is_cut_short_is_flagged) {
   for (const int iterations : {0, 1, 3}) {
     for (const double b1 : {1e-3, 0.3, 0.7, 0.999}) {
       for (const double beta1 : {0.0, 0.1, 0.5}) {
-        const auto fit = fit_oscillator(
-            0.5, {.start = {b1, beta1}, .max_iterations = iterations, .random_starts = 0});
+        const auto fit =
+            fit_oscillator(0.5, {.start = {b1, beta1}, .max_iterations = iterations, .random_starts = 0});
         BOOST_CHECK_NO_THROW(require_in_range<nystrom>(fit.method.parameters()));
         BOOST_TEST_CONTEXT("from " << b1 << ", " << beta1 << " in " << iterations << "\n"
                                    << fit.summary.full()) {

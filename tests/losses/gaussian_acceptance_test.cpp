@@ -132,7 +132,8 @@ BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
   const auto frequencies = spread_frequencies(40, 0.02);
   const double acceptance = acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
   const auto step_of = [&](const tabulated& method, double from = 0.0) {
-    return nysalt::gaussian_step(method, frequencies, acceptance, from) / method.letters().evaluations_per_step;
+    return nysalt::gaussian_step(method, frequencies, acceptance, from) /
+           method.letters().evaluations_per_step;
   };
   double best = 0.0;
   for (const auto& rival : {tabulated(verlet{}), tabulated(mclachlan2v{}), tabulated(bcss3{}),

@@ -22,8 +22,8 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
   BOOST_TEST(is("energy:10", "energy", 10));
   BOOST_TEST(is("covariance", "covariance", 1));
   BOOST_TEST((loss_named("state:5") != loss_named("state:6")));
-  for (const char* name : {"trajectory", "state:1", "state:5", "energy:10", "acceptance", "gaussian_acceptance",
-                            "covariance"}) {
+  for (const char* name :
+       {"trajectory", "state:1", "state:5", "energy:10", "acceptance", "gaussian_acceptance", "covariance"}) {
     BOOST_TEST(loss_named(name).description() == name);
   }
 }

@@ -71,7 +71,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   for (const auto& method : all["methods"]) {
     // Their limits depend on the step, and on the system.
     const auto name = method["name"].get<std::string>();
-    const bool has_limit = !name.starts_with("s_aia") && name != "impulse" && !name.starts_with("phase_fitted_");
+    const bool has_limit =
+        !name.starts_with("s_aia") && name != "impulse" && !name.starts_with("phase_fitted_");
     const std::string limit = has_limit ? "number" : "null";
     BOOST_TEST(shape(method) ==
                "name:text letters:text order:integer evaluations_per_step:integer limit_per_evaluation:" +
@@ -94,22 +95,24 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
       names("systems") ==
       "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 phi4_lattice gaussian "
       "logistic_regression ");
-  BOOST_TEST(names("families") ==
-             "nystrom aba4 aba5 aba6 bab2 bab3 bab4 bab5 bab6 aba3_free aba4_free aba6_free bab6_free fg_chin "
-             "fg4 "
-             "fd_chin "
-             "r_aba2 r_aba4 r_aba6 "
-             "r_fg4 ");
+  BOOST_TEST(
+      names("families") ==
+      "nystrom aba4 aba5 aba6 bab2 bab3 bab4 bab5 bab6 aba3_free aba4_free aba6_free bab6_free fg_chin "
+      "fg4 "
+      "fd_chin "
+      "r_aba2 r_aba4 r_aba6 "
+      "r_fg4 ");
   BOOST_TEST(names("metrics") == "path relative state exchange energy acceptance distribution acf ");
-  BOOST_TEST(names("methods") ==
-             "verlet verlet_aba verlet_2x mclachlan2 mclachlan2v bcss2 bcss2v bcss3 bcss4 predescu3 forest_ruth "
-             "pefrl vefrl "
-             "omelyan5v omelyan5p mclachlan_atela4 mclachlan5 blanes_moan_s6 srkn6b srkn11b srkn14a "
-             "takahashi_imada chin4a chin4a_displaced omelyan_fg4 impulse baoab baoab_2x aboba obabo "
-             "takahashi_imada_processed "
-             "fg4_processed s_aia2 s_aia3 phase_fitted_chin4a "
-             "phase_fitted_omelyan_fg4 phase_fitted_pefrl phase_fitted_vefrl phase_fitted_mclachlan5 "
-             "phase_fitted_omelyan5v phase_fitted_srkn6b ");
+  BOOST_TEST(
+      names("methods") ==
+      "verlet verlet_aba verlet_2x mclachlan2 mclachlan2v bcss2 bcss2v bcss3 bcss4 predescu3 forest_ruth "
+      "pefrl vefrl "
+      "omelyan5v omelyan5p mclachlan_atela4 mclachlan5 blanes_moan_s6 srkn6b srkn11b srkn14a "
+      "takahashi_imada chin4a chin4a_displaced omelyan_fg4 impulse baoab baoab_2x aboba obabo "
+      "takahashi_imada_processed "
+      "fg4_processed s_aia2 s_aia3 phase_fitted_chin4a "
+      "phase_fitted_omelyan_fg4 phase_fitted_pefrl phase_fitted_vefrl phase_fitted_mclachlan5 "
+      "phase_fitted_omelyan5v phase_fitted_srkn6b ");
 }
 
 BOOST_AUTO_TEST_CASE(learn_tells_of_the_fit) {

@@ -164,7 +164,8 @@ BOOST_AUTO_TEST_CASE(a_fit_that_is_a_classical_method_is_named_as_that) {
 
 BOOST_AUTO_TEST_CASE(learned_rows_are_what_learn_learns_and_errors_what_compare_finds) {
   const auto all = document(fpu + "--budget 80 --seed 3");
-  const auto fit = document("learn --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed 3");
+  const auto fit =
+      document("learn --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed 3");
   for (const auto& one : all["fits"]) {
     if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["parameters"]);
   }

@@ -18,8 +18,7 @@ void add_force(CLI::App& command, common_settings& common, const char* what);
 /// options.
 std::vector<CLI::Option*> add_system(
     CLI::App& command, system_settings& system,
-    const char* start =
-        "law, gibbs or trajectory, or a CSV file of positions [gibbs in a bath, else law]");
+    const char* start = "law, gibbs or trajectory, or a CSV file of positions [gibbs in a bath, else law]");
 
 /// How methods meet a bath.
 void add_placement(CLI::App& command, std::string& placement);
