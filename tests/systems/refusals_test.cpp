@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(targets_of_sampling_have_laws) {
   BOOST_TEST(!made(rows, Eigen::Vector2d(0.0, 1.0), 1.0));
 }
 
-// Margins as large as exp() would overflow at, and systems of other data that are told apart.
+// Margins at which exp() would overflow, and descriptions that differ where the data differ.
 BOOST_AUTO_TEST_CASE(a_logistic_regression_is_finite_far_out_and_known_by_its_data) {
   const logistic_regression posterior = a_posterior_of_rows();
   const Eigen::Vector3d far(3000.0, -2000.0, 1000.0);
