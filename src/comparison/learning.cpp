@@ -56,7 +56,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
     };
     for (learning_problem* each = &problem; each != nullptr; each = each->shorter.get()) {
       watched(each->loss);
-      std::ranges::for_each(each->earlier_losses, watched);
+      for (auto& stage : each->stages) watched(stage.loss);
     }
   }
   auto [theta, fit] = solve(problem);

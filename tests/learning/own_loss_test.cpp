@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
                             .random_starts = 0};
   auto problem = make_learning_problem(family, galaxy, data, data_of(2), options);
   problem.loss = objective_of(loss);
-  problem.earlier_losses.clear();
+  problem.stages.clear();
   problem.shorter.reset();
   problem.scores = [&](const Eigen::VectorXd& theta) {
     return trajectory_scores(trajectory_gradients(loss, theta), loss.share());

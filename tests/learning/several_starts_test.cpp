@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(a_search_in_stages_begins_at_the_minimum_of_the_one_step_lo
     const auto of_loss = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; };
     return search({.family = &family,
                    .loss = two_wells,
-                   .earlier_losses = {least_at(-1.0)},
+                   .stages = {{.loss = least_at(-1.0)}},
                    .one_step_loss = one_step,
                    .judge = of_loss,
                    .admits = all,
@@ -180,4 +180,35 @@ BOOST_AUTO_TEST_CASE(a_search_in_stages_begins_at_the_minimum_of_the_one_step_lo
   BOOST_TEST(found.best.from == "one step");
   BOOST_TEST(std::abs(found.best.theta[0] - 1.0) <= near_rounding);
   BOOST_TEST(std::abs(begun_at({}).best.theta[0] - left_minimum()) <= near_rounding);
+}
+
+// No start comes below 1 in the stage.
+BOOST_AUTO_TEST_CASE(a_search_ends_at_a_stage_whose_minima_are_all_above_what_it_bears) {
+  int passes = 0;
+  const auto stage = [&](const Eigen::VectorXd& theta) -> squares {
+    const double r = theta[0] + 1.0;
+    return {1.0 + r * r, number(r), Eigen::MatrixXd::Ones(1, 1)};
+  };
+  const auto counted = [&](const Eigen::VectorXd& theta) {
+    ++passes;
+    return two_wells(theta);
+  };
+  std::vector<named_parameters> starts;
+  for (const double x : {-1.3, -1.2, -1.1, 1.2}) starts.push_back({"start", number(x)});
+  const auto found_with = [&](double lost_above) {
+    return search({.family = &family,
+                   .loss = counted,
+                   .stages = {{.loss = stage, .steps = 16, .lost_above = lost_above}},
+                   .judge = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; },
+                   .admits = all,
+                   .free = {0},
+                   .max_iterations = 100},
+                  starts);
+  };
+  BOOST_TEST(found_with(0.9).lost_after == 16);
+  BOOST_TEST(passes == 0);
+  const auto found = found_with(1.1);
+  BOOST_TEST(found.lost_after == 0);
+  BOOST_TEST(passes > 0);
+  BOOST_TEST(std::abs(found.best.theta[0] - left_minimum()) <= near_rounding);
 }

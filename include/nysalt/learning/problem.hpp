@@ -10,6 +10,7 @@
 
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/learning/search.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/metric.hpp"
@@ -54,12 +55,12 @@ struct rival_method {
 /// data each has its own part, and the functions are collective: all ranks search together, and find the
 /// same.
 struct learning_problem {
-  run_time_family family;                   ///< what is fitted
-  fit_options options;                      ///< as they were given
-  double step;                              ///< h of the data
-  objective loss;                           ///< what is minimised
-  std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
-  objective one_step_before{};              ///< gives a search in stages one more start; empty: none
+  run_time_family family;              ///< what is fitted
+  fit_options options;                 ///< as they were given
+  double step;                         ///< h of the data
+  objective loss;                      ///< what is minimised
+  std::vector<search_stage> stages{};  ///< what is minimised roughly before, to find where minima lie
+  objective one_step_before{};         ///< gives a search in stages one more start; empty: none
   /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   shard held_out;  ///< which held-out trajectories this rank has

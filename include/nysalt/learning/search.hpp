@@ -31,13 +31,21 @@ struct candidate {
   bool is_held = false;    ///< whether the guard held it, at the edge of what it admits
 };
 
+/// A loss that a search minimises roughly before the loss proper, to find where minima lie.
+struct search_stage {
+  objective loss;  ///< over few steps first, then over more
+  int steps = 0;   ///< the last after which errors count
+  /// Where all minima of this loss are larger, no method follows the data over so many steps.
+  double lost_above = std::numeric_limits<double>::infinity();
+};
+
 /// What a search is told.
 struct search_task {
-  const run_time_family* family;            ///< its ranges and where it is defined
-  objective loss;                           ///< what is minimised
-  std::vector<objective> earlier_losses{};  ///< what is minimised roughly before, to find where minima lie
-  objective one_step_loss{};                ///< the least of its minima is a start, too; empty: none is
-  std::vector<named_parameters> kept{};     ///< further starts of the last stage alone
+  const run_time_family* family;         ///< its ranges and where it is defined
+  objective loss;                        ///< what is minimised
+  std::vector<search_stage> stages{};    ///< what is minimised roughly before
+  objective one_step_loss{};             ///< the least of its minima is a start, too; empty: none is
+  std::vector<named_parameters> kept{};  ///< further starts of the last stage alone
   std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
   std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
@@ -61,17 +69,19 @@ struct search_result {
   candidate best;                      ///< what is to be used
   std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it
   int tried = 0;                       ///< number of searches
+  int lost_after = 0;                  ///< steps of the stage at which the search was given up; 0: it was not
 };
 
-/// Where there are earlier losses, each of them in turn is minimised, roughly, from the starts first and then
-/// from the best of its minima that differ, twelve and then three, those first that the guard admits; and
-/// with what is left the search proper begins, and with the least of the minima of the one-step loss that
-/// those of the first stage lead to: valleys of trajectories at small steps are narrow. From each start to
-/// its minimum; the judge takes the best that the guard admits and that withstands a trial run, of those that
-/// converged or ended in a valley. Where there is none, the search goes on among admitted points only, from
-/// the starts that are and from the refuge: what it finds lies at the edge mostly. A single start is what it
-/// was, whatever the judge thinks. Cost: a search for each start, twice where the guard acts, and a trial run
-/// for each of a few candidates.
+/// Where there are stages, the loss of each of them in turn is minimised, roughly, from the starts first and
+/// then from the best of its minima that differ, twelve and then three, those first that the guard admits. A
+/// search whose minima of a stage are all above what that stage bears ends there. With what is left the
+/// search proper begins, and with the least of the minima of the one-step loss that those of the first stage
+/// lead to: valleys of trajectories at small steps are narrow. From each start to its minimum; the judge
+/// takes the best that the guard admits and that withstands a trial run, of those that converged or ended in
+/// a valley. Where there is none, the search goes on among admitted points only, from the starts that are and
+/// from the refuge: what it finds lies at the edge mostly. A single start is what it was, whatever the judge
+/// thinks. Cost: a search for each start, twice where the guard acts, and a trial run for each of a few
+/// candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

@@ -39,36 +39,86 @@ struct dual {
   dual& operator*=(const dual& b) { return *this = *this * b; }
   dual& operator/=(const dual& b) { return *this = *this / b; }
 
-  friend dual operator+(const dual& a, const dual& b) {
-    return combine(a.value + b.value, a, b, [](const T& da, const T& db) -> T { return da + db; });
+  // Always inlined: a call would pass all numbers of a dual over packs through memory.
+  [[gnu::always_inline]] friend dual operator+(const dual& a, const dual& b) {
+    dual result;
+    result.value = a.value + b.value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = a.derivative[k] + b.derivative[k];
+    }
+    return result;
   }
-  friend dual operator-(const dual& a, const dual& b) {
-    return combine(a.value - b.value, a, b, [](const T& da, const T& db) -> T { return da - db; });
+  [[gnu::always_inline]] friend dual operator-(const dual& a, const dual& b) {
+    dual result;
+    result.value = a.value - b.value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = a.derivative[k] - b.derivative[k];
+    }
+    return result;
   }
-  friend dual operator*(const dual& a, const dual& b) {
-    return combine(a.value * b.value, a, b,
-                   [&](const T& da, const T& db) -> T { return da * b.value + a.value * db; });
+  [[gnu::always_inline]] friend dual operator*(const dual& a, const dual& b) {
+    dual result;
+    result.value = a.value * b.value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = a.derivative[k] * b.value + a.value * b.derivative[k];
+    }
+    return result;
   }
-  friend dual operator/(const dual& a, const dual& b) {
+  [[gnu::always_inline]] friend dual operator/(const dual& a, const dual& b) {
     const T quotient = a.value / b.value;
-    return combine(quotient, a, b,
-                   [&](const T& da, const T& db) -> T { return (da - quotient * db) / b.value; });
+    dual result;
+    result.value = quotient;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = (a.derivative[k] - quotient * b.derivative[k]) / b.value;
+    }
+    return result;
   }
-  friend dual operator-(const dual& a) { return a.chain(-a.value, T(-1.0)); }
+  [[gnu::always_inline]] friend dual operator-(const dual& a) {
+    dual result;
+    result.value = -a.value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = -a.derivative[k];
+    }
+    return result;
+  }
 
   // With constants, which have no derivatives to carry.
-  friend dual operator+(const dual& a, double c) { return a.chain(a.value + c, T(1.0)); }
-  friend dual operator+(double c, const dual& a) { return a + c; }
-  friend dual operator-(const dual& a, double c) { return a.chain(a.value - c, T(1.0)); }
-  friend dual operator-(double c, const dual& a) { return a.chain(c - a.value, T(-1.0)); }
-  friend dual operator*(const dual& a, double c) {
-    return combine(a.value * c, a, a, [&](const T& da, const T&) -> T { return da * c; });
+  [[gnu::always_inline]] friend dual operator+(dual a, double c) {
+    a.value += c;
+    return a;
   }
-  friend dual operator*(double c, const dual& a) { return a * c; }
-  friend dual operator/(const dual& a, double c) {  // not times 1/c, which rounds twice
-    return combine(a.value / c, a, a, [&](const T& da, const T&) -> T { return da / c; });
+  [[gnu::always_inline]] friend dual operator+(double c, const dual& a) { return a + c; }
+  [[gnu::always_inline]] friend dual operator-(dual a, double c) {
+    a.value -= c;
+    return a;
   }
-  friend dual operator/(double c, const dual& a) { return dual(c) / a; }
+  [[gnu::always_inline]] friend dual operator-(double c, const dual& a) {
+    dual result;
+    result.value = c - a.value;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = -a.derivative[k];
+    }
+    return result;
+  }
+  [[gnu::always_inline]] friend dual operator*(const dual& a, double c) {
+    dual result;
+    result.value = a.value * c;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = a.derivative[k] * c;
+    }
+    return result;
+  }
+  [[gnu::always_inline]] friend dual operator*(double c, const dual& a) { return a * c; }
+  // Not times 1/c, which rounds twice.
+  [[gnu::always_inline]] friend dual operator/(const dual& a, double c) {
+    dual result;
+    result.value = a.value / c;
+    for (std::size_t k = 0; k < N; ++k) {
+      result.derivative[k] = a.derivative[k] / c;
+    }
+    return result;
+  }
+  [[gnu::always_inline]] friend dual operator/(double c, const dual& a) { return dual(c) / a; }
 
   // Order is that of the values: a branch is taken as it would be without derivatives.
   friend auto operator<(const dual& a, const dual& b) { return a.value < b.value; }
@@ -79,16 +129,11 @@ struct dual {
   friend auto operator!=(const dual& a, const dual& b) { return a.value != b.value; }
 
   /// f(a) from f(a.value) and f'(a.value).
-  dual chain(const T& f, const T& slope) const {
-    return combine(f, *this, *this, [&](const T& da, const T&) -> T { return slope * da; });
-  }
-
- private:
-  static dual combine(const T& value, const dual& a, const dual& b, auto&& rule) {
+  [[gnu::always_inline]] dual chain(const T& f, const T& slope) const {
     dual result;
-    result.value = value;
+    result.value = f;
     for (std::size_t k = 0; k < N; ++k) {
-      result.derivative[k] = rule(a.derivative[k], b.derivative[k]);
+      result.derivative[k] = slope * derivative[k];
     }
     return result;
   }

@@ -11,8 +11,8 @@ namespace nysalt {
 
 Eigen::VectorXd descend_at_edge(const objective& loss,
                                 const std::function<bool(const Eigen::VectorXd&)>& admits,
-                                Eigen::VectorXd theta, const std::vector<Eigen::Index>& free) {
-  constexpr int most_passes = 400;
+                                Eigen::VectorXd theta, const std::vector<Eigen::Index>& free,
+                                int most_passes) {
   constexpr double longest = 0.3;  // coefficients are of order one
   constexpr double shortest = 1e-3;
   squares here = loss(theta);

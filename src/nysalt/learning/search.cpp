@@ -165,8 +165,11 @@ void keep_least(std::vector<named_parameters>& starts, const objective& loss, st
   for (auto& [value, start] : all) starts.push_back(std::move(start));
 }
 
-/// Starts from which a search goes along the edge of stability, which takes many passes over the data.
+/// Starts from which a search goes along the edge of stability, which takes many passes over the data: of
+/// twelve, after some passes, the best three.
 constexpr std::size_t most_at_edge = 12;
+constexpr std::size_t most_to_the_end = 3;
+constexpr int some_passes = 40;
 
 }  // namespace
 
@@ -174,13 +177,20 @@ search_result search(const search_task& task, const std::vector<named_parameters
   std::vector<named_parameters> starts = given;
   std::vector<std::size_t>
       most_of;  // minima that are carried on: three from the last stage, four times as many before
-  for (std::size_t n = task.earlier_losses.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
+  for (std::size_t n = task.stages.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
   std::optional<named_parameters> of_one_step;
-  for (const auto& loss : task.earlier_losses) {
+  for (const search_stage& stage : task.stages) {
     const std::size_t most = most_of.back();
     most_of.pop_back();
     if (starts.size() <= most) continue;
-    auto next = most_promising(task, loss, starts, most);
+    auto next = most_promising(task, stage.loss, starts, most);
+    const bool is_lost = std::ranges::none_of(
+        next, [&](const auto& minimum) { return stage.loss(minimum.theta).value <= stage.lost_above; });
+    if (is_lost && std::isfinite(stage.lost_above)) {
+      search_result none{.best = {}, .unguarded = {}, .tried = static_cast<int>(given.size())};
+      none.lost_after = stage.steps;
+      return none;
+    }
     if (!next.empty()) starts = std::move(next);
     if (task.one_step_loss && !of_one_step) of_one_step = one_step_minimum(task, starts);
   }
@@ -215,6 +225,12 @@ search_result search(const search_task& task, const std::vector<named_parameters
   if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
   std::erase_if(refuges, [&](const named_parameters& start) { return !is_allowed(start.theta); });
   keep_least(refuges, task.loss, most_at_edge);
+  if (refuges.size() > most_to_the_end) {
+    for (auto& start : refuges) {
+      start.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free, some_passes);
+    }
+    keep_least(refuges, task.loss, most_to_the_end);
+  }
   if (task.refuge && is_allowed(task.refuge->theta)) refuges.push_back(*task.refuge);
   for (const auto& start : refuges) {
     candidate one{

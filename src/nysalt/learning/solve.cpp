@@ -20,16 +20,19 @@
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
-#include "nysalt/methods/classical_methods.hpp"
 #include "starts_of_fit.hpp"
+#include "strongest_rival.hpp"
 
 namespace nysalt {
 
+using detail::contender;
 using detail::fix;
+using detail::is_better;
 using detail::length_of_trial;
 using detail::noise_of_difference;
 using detail::objection;
 using detail::starts_of;
+using detail::summarise_rival;
 using detail::trial_length;
 
 namespace {
@@ -53,31 +56,11 @@ bool tells_of_rare_states(const trial_result& trial) {
   return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
 
-/// A method that is compared by its held-out losses.
-struct contender {
-  std::string name;
-  std::vector<double> losses;  // of each held-out trajectory of this rank
-  double loss = 0.0;           // of all
-  std::function<bool()> withstands{};
-  Eigen::VectorXd theta{};  // of members of the family
-};
-
-/// Whether the loss of a is smaller than that of b by two standard errors of their difference, and by more
-/// than rounding: losses below 1e-24 are errors of 1e-12 of an increment.
-bool is_better(const contender& a, const contender& b, const shard& share) {
-  const double noise = noise_of_difference(a.losses, b.losses, share);
-  return b.loss > 1e-24 && a.loss < b.loss - 2.0 * noise && a.loss < b.loss * (1.0 - 1e-9);
-}
-
-}  // namespace
-
-namespace {
-
 /// Of a processed family, the best member without a processor: what is learned is no worse than the kernel,
 /// which the first stages of a search with a processor lose sight of. Nothing of other families.
 std::optional<named_parameters> best_kernel(search_task task, const std::vector<named_parameters>& all) {
   const run_time_family& family = *task.family;
-  if (!family.letters.is_processed() || task.earlier_losses.empty()) return std::nullopt;
+  if (!family.letters.is_processed() || task.stages.empty()) return std::nullopt;
   const Eigen::Index of_processor = std::ssize(family.letters.processor()) - 2;  // two follow from the others
   const Eigen::Index of_kernel = family.parameters() - of_processor;
   std::vector<named_parameters> starts;
@@ -94,7 +77,9 @@ std::optional<named_parameters> best_kernel(search_task task, const std::vector<
   task.one_step_loss = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
-  return named_parameters{"kernel alone", search(task, starts).best.theta};
+  const search_result found = search(task, starts);
+  if (found.lost_after > 0) return std::nullopt;
+  return named_parameters{"kernel alone", found.best.theta};
 }
 
 /// What a search by the one-step loss finds where the guard let no minimum of the loss itself through, if the
@@ -107,7 +92,7 @@ void try_one_step(search_task task, const std::vector<named_parameters>& starts,
   if (!task.one_step_loss || (was_sound && !found.best.is_held)) return;
   const objective whole = task.loss;
   task.loss = task.one_step_loss;
-  task.earlier_losses = {task.one_step_loss};
+  task.stages = {{.loss = task.one_step_loss, .steps = 1}};
   task.one_step_loss = {};
   task.kept = {};
   const search_result other = search(task, starts);
@@ -118,8 +103,15 @@ void try_one_step(search_task task, const std::vector<named_parameters>& starts,
   found.best.is_held = true;  // no minimum of the loss itself
 }
 
+/// What came of one problem: a fit, or after how many steps no method followed the data.
+struct attempt {
+  std::optional<fit> found;
+  int lost_after = 0;
+  double seconds = 0.0;
+};
+
 /// Searches from all starts, and judges the best.
-fit solve_as_it_is(const learning_problem& problem) {
+attempt solve_as_it_is(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
   const run_time_family& family = problem.family;
   const fit_options& options = problem.options;
@@ -169,7 +161,7 @@ fit solve_as_it_is(const learning_problem& problem) {
   };
   search_task task{.family = &problem.family,
                    .loss = problem.loss,
-                   .earlier_losses = problem.earlier_losses,
+                   .stages = problem.stages,
                    .one_step_loss = problem.one_step_before,
                    .judge = problem.judge,
                    .admits =
@@ -187,8 +179,15 @@ fit solve_as_it_is(const learning_problem& problem) {
     task.refuge = named_parameters{"refuge", *family.refuge};
     fix(options, task.refuge->theta);
   }
+  if (problem.shorter == nullptr) {
+    for (auto& stage : task.stages) stage.lost_above = std::numeric_limits<double>::infinity();
+  }
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  };
   if (const auto kernel = best_kernel(task, starts)) task.kept.push_back(*kernel);
   search_result found = search(task, starts);
+  if (found.lost_after > 0) return {{}, found.lost_after, seconds()};
   try_one_step(task, starts, found);
 
   const auto member_at = [&](const std::string& name, const Eigen::VectorXd& theta) {
@@ -290,45 +289,12 @@ fit solve_as_it_is(const learning_problem& problem) {
     if (near) summary.resonance = in_words(*near);
   }
 
-  // The strongest rival of the same cost, whether the family contains it or not.
-  if (has_data) {
-    std::vector<contender> rivals = std::move(members);
-    std::vector<std::optional<rival_method>> methods;
-    for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
-      // Rotations are not counted, and are not free: words with them are compared with each other.
-      if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
-      if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
-      // Nor do words without a processor pay for looking.
-      if (method.letters().evaluations_to_look > family.letters.evaluations_to_look) continue;
-      methods.push_back(problem.rival(method));
-      const auto& known = methods.back();
-      if (!known) continue;
-      contender one{known->name, known->held_out_losses};
-      one.loss = share.sum(one.losses);
-      one.withstands = [&run_for_trial,
-                        trial = known->trial] {  // where no trial is run nothing is against it
-        return run_for_trial(trial).objection().empty();
-      };
-      rivals.push_back(std::move(one));
-    }
-    std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });
-    std::ranges::stable_sort(rivals, {}, &contender::loss);
-    for (const auto& rival : rivals) {
-      if (rival.name == "start") continue;
-      const bool is_beaten = is_better(chosen, rival, share);
-      if (!is_beaten && !rival.withstands()) continue;
-      summary.rival = rival.name;
-      summary.rival_loss = rival.loss;
-      summary.rival_noise = noise_of_difference(chosen.losses, rival.losses, share);
-      summary.gains_nothing = !is_beaten;
-      break;
-    }
-  }
+  if (has_data) summarise_rival(problem, chosen, std::move(members), run_for_trial, summary);
   summary.reason = objection(summary, best.converged || best.in_valley || best.is_held, instability);
   summary.usable = summary.reason.empty();
   summary.learning_evaluations = problem.evaluations();
-  summary.fit_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return {theta, summary};
+  summary.fit_seconds = seconds();
+  return {.found = fit{theta, summary}, .seconds = summary.fit_seconds};
 }
 
 }  // namespace
@@ -336,11 +302,17 @@ fit solve_as_it_is(const learning_problem& problem) {
 /// Over fewer steps where the data cannot be followed over so many. Throws std::invalid_argument for options
 /// that the family cannot take. Cost: see learn().
 fit solve(const learning_problem& problem) {
-  fit found = solve_as_it_is(problem);
-  if (problem.shorter == nullptr || problem.follows(found.theta)) return found;
-  fit other = solve(*problem.shorter);
-  if (found.summary.usable && !other.summary.usable) return found;
-  other.summary.fit_seconds += found.summary.fit_seconds;
+  const attempt first = solve_as_it_is(problem);
+  const auto& found = first.found;
+  if (found && (problem.shorter == nullptr || problem.follows(found->theta))) return *found;
+  const learning_problem* next = problem.shorter.get();
+  const auto is_lost_too = [&] {
+    return !next->stages.empty() && next->stages.back().steps >= first.lost_after;
+  };
+  while (!found && next->shorter != nullptr && is_lost_too()) next = next->shorter.get();
+  fit other = solve(*next);
+  if (found && found->summary.usable && !other.summary.usable) return *found;
+  other.summary.fit_seconds += first.seconds;
   return other;
 }
 

@@ -25,7 +25,7 @@ namespace {
 /// Those of the effort where a search goes in stages, else none; of a black box, whose cost is not known,
 /// few.
 int usual_random_starts(const learning_problem& problem, std::size_t free) {
-  if (problem.earlier_losses.empty()) return 0;
+  if (problem.stages.empty()) return 0;
   if (problem.is_of_black_box) return 4;
   const int all = problem.options.effort == effort::quick    ? 40
                   : problem.options.effort == effort::normal ? 120
@@ -45,9 +45,8 @@ std::vector<named_parameters> starts_of(const learning_problem& problem,
   for (auto& start : starts) fix(options, start.theta);
   const std::size_t known = starts.size();
   const objective on_oscillators =
-      problem.earlier_losses.empty()
-          ? objective()
-          : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
+      problem.stages.empty() ? objective()
+                             : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
   const int random_starts = options.random_starts.value_or(usual_random_starts(problem, free.size()));
   for (int n = 0; n < random_starts; ++n) {

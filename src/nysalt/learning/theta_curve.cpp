@@ -13,7 +13,7 @@
 namespace nysalt {
 
 namespace {
-constexpr double met = 1e-9;
+constexpr double same_step = 1e-9;  // relative
 }  // namespace
 
 theta_curve::theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas)
@@ -21,7 +21,7 @@ theta_curve::theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd>
   bool sound = !steps_.empty() && steps_.size() == thetas_.size();
   for (std::size_t k = 0; sound && k < steps_.size(); ++k) {
     sound = std::isfinite(steps_[k]) &&
-            (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] * (1.0 + 2.0 * met) < steps_[k]) &&
+            (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] * (1.0 + 2.0 * same_step) < steps_[k]) &&
             thetas_[k].allFinite() && thetas_[k].size() == thetas_[0].size();
   }
   if (sound) return;
@@ -29,11 +29,12 @@ theta_curve::theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd>
 }
 
 bool theta_curve::covers(double step) const {
-  return steps_.front() * (1.0 - met) <= step && step <= steps_.back() * (1.0 + met);
+  return steps_.front() * (1.0 - same_step) <= step && step <= steps_.back() * (1.0 + same_step);
 }
 
 bool theta_curve::has(double step) const {
-  return std::any_of(steps_.begin(), steps_.end(), [&](double s) { return std::abs(step - s) <= met * s; });
+  return std::any_of(steps_.begin(), steps_.end(),
+                     [&](double s) { return std::abs(step - s) <= same_step * s; });
 }
 
 Eigen::VectorXd theta_curve::at(double step) const {
@@ -42,7 +43,7 @@ Eigen::VectorXd theta_curve::at(double step) const {
         sentence("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
   }
   for (std::size_t k = 0; k < steps_.size(); ++k) {
-    if (std::abs(step - steps_[k]) <= met * steps_[k]) return thetas_[k];
+    if (std::abs(step - steps_[k]) <= same_step * steps_[k]) return thetas_[k];
   }
   const auto after =
       static_cast<std::size_t>(std::upper_bound(steps_.begin(), steps_.end(), step) - steps_.begin());

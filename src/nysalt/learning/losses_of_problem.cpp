@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "losses_of_problem.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace nysalt::detail {
+
+void put_losses(learning_problem& problem, const source_of_losses& from, const rivals_by& rival,
+                const data_loss& at_end, int most_steps, const std::function<std::int64_t()>& before) {
+  const flow_map_data& data = from.data;
+  const loss_kind& kind = *from.chosen.kind;
+  const int whole = std::min(shortest_of(data), shortest_of(from.held_out));
+  const int shortest = std::min(whole, most_steps);
+  const auto stages = from.other == nullptr ? kind.stages(from.chosen.steps, shortest)
+                                            : after_each_step(from.other->steps, shortest);
+  std::vector<data_loss> losses_of_stages;
+  const int every = trajectories_apart(data, size(from.system));
+  const bool is_of_trajectories = from.other == nullptr && kind.is_shortened;
+  const bool has_several_steps = is_of_trajectories && shortest > 1;
+  bool has_all = false;  // the last stage
+  for (auto stage : stages) {
+    // Two stretches a trajectory tell where minima lie.
+    const int apart = is_of_trajectories ? std::max(stage.apart, whole / 2) : stage.apart;
+    has_all = every == 1 && apart == stage.apart;
+    stage.every = every;
+    stage.apart = apart;
+    losses_of_stages.push_back(from.over(data, stage));
+  }
+  const data_loss loss = has_all ? losses_of_stages.back() : from.over(data, stages.back());
+  std::optional<data_loss> one_step_before;
+  if (has_several_steps) {
+    one_step_before = from.over(data, {.steps = {1}, .apart = std::max(whole / 8, 1), .every = every});
+  }
+  const auto held = from.over(from.held_out, stages.back());
+  const auto passes = [=] {
+    std::int64_t here = held.evaluations() + before();
+    for (const auto& stage : losses_of_stages) here += stage.evaluations();
+    if (!has_all) here += loss.evaluations();
+    if (one_step_before) here += one_step_before->evaluations();
+    return here;
+  };
+  const learning_problem without = problem;
+  problem.loss = loss.of_theta;
+  problem.scores = loss.scores;
+  problem.held_out_losses = held.by_trajectory;
+  const auto judge = from.other == nullptr ? kind.judge : judge_of_minima::held_out_loss;
+  problem.judge = judge == judge_of_minima::held_out_end    ? at_end.value
+                  : judge == judge_of_minima::training_loss ? loss.value
+                                                            : held.value;
+  const std::int64_t of_data = data.evaluations + from.held_out.evaluations;
+  problem.evaluations = [&ranks = data.share().ranks(), of_data, passes] {
+    return of_data + ranks.total(passes());
+  };
+  problem.rival = [rival, held](const tabulated& method) { return rival(method, held); };
+  problem.facts.loss_steps = stages.back().steps.back();
+  for (std::size_t n = 0; from.asks_data() && n < stages.size(); ++n) {
+    problem.stages.push_back({.loss = losses_of_stages[n].of_theta, .steps = stages[n].steps.back()});
+    if (!has_several_steps) continue;
+    constexpr double lost = 0.25;  // an error of half the motion
+    problem.stages.back().lost_above = lost * motion_in(data, *from.measure, stages[n]);
+  }
+  if (!from.asks_data()) {  // the loss judges, too
+    problem.loss = kind.without_data(from.system, from.family, data.step);
+    problem.judge = [law = problem.loss](const Eigen::VectorXd& theta) { return law(theta).value; };
+    if (kind.is_of_proposals)
+      problem.stages = {{.loss = problem.loss}};  // from many starts: a pass costs little
+  }
+  if (!has_several_steps) return;
+  problem.one_step_before = one_step_before->of_theta;
+  constexpr double lost = 0.0025;  // an error of a twentieth of the motion
+  problem.follows = [value = loss.value, most = lost * motion_in(data, *from.measure, stages.back())](
+                        const Eigen::VectorXd& theta) { return value(theta) <= most; };
+  problem.shorter = std::make_shared<learning_problem>(without);
+  put_losses(*problem.shorter, from, rival, at_end, shortest / 4 + 1, passes);
+}
+
+}  // namespace nysalt::detail

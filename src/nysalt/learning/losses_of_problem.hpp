@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+// What of a problem of learning depends on the loss, and on how many steps it looks at.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "../losses/data_loss.hpp"
+#include "facts_of_data.hpp"
+#include "nysalt/learning/make_problem.hpp"
+
+namespace nysalt::detail {
+
+/// From what the losses of a problem are made.
+struct source_of_losses {
+  const run_time_family& family;
+  const model& system;
+  const flow_map_data& data;
+  const flow_map_data& held_out;
+  loss_choice chosen;
+  const other_loss* other;  // null: the chosen one is minimised
+  coordinates which;
+  std::shared_ptr<const metric> measure;  // in them
+  int threads;
+  bool in_lanes;
+
+  loss_inputs inputs(const flow_map_data& pairs, after_steps_options how) const {
+    how.threads = threads;
+    return {family, system, pairs, measure, std::move(how), in_lanes};
+  }
+  data_loss over(const flow_map_data& pairs, const after_steps_options& how) const {
+    const auto from = inputs(pairs, how);
+    if (other == nullptr) return chosen.kind->over_data(from);
+    return in_lanes ? after_steps_of(from, *other->in_lanes) : after_steps_of(from, *other->one_by_one);
+  }
+  data_loss at_end() const {
+    const int end = shortest_of(held_out);
+    return of_states(inputs(held_out, {.steps = {end}, .apart = end}));
+  }
+  bool asks_data() const { return other != nullptr || chosen.kind->asks_data(); }
+};
+
+/// Other methods at the step of the data, by a loss of held-out data.
+using rivals_by = std::function<std::optional<rival_method>(const tabulated&, const data_loss&)>;
+
+/// Puts in what depends on the number of steps that the loss looks at, of trajectories of so many at most,
+/// and the same problem over a quarter of them. `before` counts the evaluations of other losses at this rank.
+void put_losses(learning_problem& problem, const source_of_losses& from, const rivals_by& rival,
+                const data_loss& at_end, int most_steps, const std::function<std::int64_t()>& before);
+
+}  // namespace nysalt::detail
