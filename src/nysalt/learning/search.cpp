@@ -97,9 +97,11 @@ namespace {
 
 /// The best minima of an earlier loss that differ, those first that the guard admits. Every other two of the
 /// searches may climb: they cross the bends of narrow valleys, and the others stay where they begin, so that
-/// either find minima that the others miss.
-std::vector<named_parameters> most_promising(const search_task& task, const objective& loss,
-                                             const std::vector<named_parameters>& starts, std::size_t most) {
+/// either find minima that the others miss. And the least loss that was found.
+std::pair<std::vector<named_parameters>, double> most_promising(const search_task& task,
+                                                                const objective& loss,
+                                                                const std::vector<named_parameters>& starts,
+                                                                std::size_t most) {
   constexpr double far_apart = 0.05;  // of coefficients of order one
   struct found {
     named_parameters at;
@@ -131,7 +133,7 @@ std::vector<named_parameters> most_promising(const search_task& task, const obje
     if (admitted.size() == most) break;
     admitted.push_back(at);
   }
-  return admitted;
+  return {admitted, all.empty() ? std::numeric_limits<double>::infinity() : all.front().loss};
 }
 
 /// The least minimum of the one-step loss that the first few starts lead to, if one of them converges.
@@ -183,10 +185,8 @@ search_result search(const search_task& task, const std::vector<named_parameters
     const std::size_t most = most_of.back();
     most_of.pop_back();
     if (starts.size() <= most) continue;
-    auto next = most_promising(task, stage.loss, starts, most);
-    const bool is_lost = std::ranges::none_of(
-        next, [&](const auto& minimum) { return stage.loss(minimum.theta).value <= stage.lost_above; });
-    if (is_lost && std::isfinite(stage.lost_above)) {
+    auto [next, least] = most_promising(task, stage.loss, starts, most);
+    if (least > stage.lost_above) {
       search_result none{.best = {}, .unguarded = {}, .tried = static_cast<int>(given.size())};
       none.lost_after = stage.steps;
       return none;
