@@ -186,7 +186,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
     most_of.pop_back();
     if (starts.size() <= most) continue;
     auto [next, least] = most_promising(task, stage.loss, starts, most);
-    if (least > stage.lost_above) {
+    if (least > stage.lost_above && task.kept.empty()) {
       search_result none{.best = {}, .unguarded = {}, .tried = static_cast<int>(given.size())};
       none.lost_after = stage.steps;
       return none;
