@@ -195,10 +195,11 @@ BOOST_AUTO_TEST_CASE(a_search_ends_at_a_stage_whose_minima_are_all_above_what_it
   };
   std::vector<named_parameters> starts;
   for (const double x : {-1.3, -1.2, -1.1, 1.2}) starts.push_back({"start", number(x)});
-  const auto found_with = [&](double lost_above) {
+  const auto found_with = [&](double lost_above, const std::vector<named_parameters>& kept = {}) {
     return search({.family = &family,
                    .loss = counted,
                    .stages = {{.loss = stage, .steps = 16, .lost_above = lost_above}},
+                   .kept = kept,
                    .judge = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; },
                    .admits = all,
                    .free = {0},
@@ -210,5 +211,6 @@ BOOST_AUTO_TEST_CASE(a_search_ends_at_a_stage_whose_minima_are_all_above_what_it
   const auto found = found_with(1.1);
   BOOST_TEST(found.lost_after == 0);
   BOOST_TEST(passes > 0);
+  BOOST_TEST(found_with(0.9, {starts.back()}).lost_after == 0);  // what is kept may follow the data
   BOOST_TEST(std::abs(found.best.theta[0] - left_minimum()) <= near_rounding);
 }

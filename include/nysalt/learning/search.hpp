@@ -35,7 +35,8 @@ struct candidate {
 struct search_stage {
   objective loss;  ///< over few steps first, then over more
   int steps = 0;   ///< the last after which errors count
-  /// Where all minima of this loss are larger, no method follows the data over so many steps.
+  /// Upper bound on the least loss found at which the search goes on: above it no member of the family
+  /// follows the data for `steps` steps. Not applied where there are kept starts.
   double lost_above = std::numeric_limits<double>::infinity();
 };
 

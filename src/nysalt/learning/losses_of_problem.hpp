@@ -46,8 +46,9 @@ struct source_of_losses {
 /// Other methods at the step of the data, by a loss of held-out data.
 using rivals_by = std::function<std::optional<rival_method>(const tabulated&, const data_loss&)>;
 
-/// Puts in what depends on the number of steps that the loss looks at, of trajectories of so many at most,
-/// and the same problem over a quarter of them. `before` counts the evaluations of other losses at this rank.
+/// Sets the members of `problem` that depend on the horizon of the loss, which is at most `most_steps` steps,
+/// and `problem.shorter`, the same problem over a quarter of that horizon. `before` counts the evaluations of
+/// other losses at this rank. Collective.
 void put_losses(learning_problem& problem, const source_of_losses& from, const rivals_by& rival,
                 const data_loss& at_end, int most_steps, const std::function<std::int64_t()>& before);
 
