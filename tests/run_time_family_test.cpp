@@ -4,10 +4,13 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/fg4.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/losses/squares.hpp"
@@ -108,7 +111,42 @@ struct with_further_start : aba<4> {
   static std::vector<std::array<double, 3>> further_starts() { return {{0.2, 0.5, -0.2}}; }
 };
 
+/// Whether members of the family that `larger` contains are members of `larger`, the processor being nothing.
+bool embeds(const run_time_family& larger) {
+  draws random;
+  const auto& [inner, slopes, origin] = *larger.contained;
+  Eigen::VectorXd theta = inner.starts.front().theta;
+  for (double& x : theta) x += random.uniform(-0.1, 0.1);
+  const auto embedded = larger.coefficients(larger.contained->embed(theta));
+  const auto expected = inner.coefficients(theta);
+  double most = 0.0;
+  for (std::size_t i = 0; i < embedded.size(); ++i) {
+    most = std::max(most, std::abs(embedded[i] - (i < expected.size() ? expected[i] : 0.0)));
+  }
+  return most <= 8.0 * eps;  // sums of up to seven numbers below one
+}
+
+struct with_wrong_letters_first : free_composition<drift, kick, 3> {
+  static constexpr std::string_view name = "wrong";
+  using contained = bab<3>;
+};
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(members_of_a_contained_family_are_members) {
+  for (const auto& family : {run_time_family(aba3_free()), run_time_family(aba6_free()),
+                             run_time_family(bab6_free()), processed(run_time_family(fg4()), 3),
+                             thermostatted(run_time_family(aba4_free()), placement::middle)}) {
+    BOOST_TEST_CONTEXT(family.name) {
+      BOOST_REQUIRE(family.contained);
+      BOOST_TEST(family.contained->family.parameters() < family.parameters());
+      BOOST_TEST(embeds(family));
+    }
+  }
+  BOOST_TEST(!run_time_family(aba<4>()).contained);
+  BOOST_TEST(refuses<std::logic_error>([] { run_time_family{with_wrong_letters_first()}; },
+                                       {"wrong", "bab3", "ABABABA"}));
+}
 
 BOOST_AUTO_TEST_CASE(it_knows_what_the_type_knows) {
   check_type<nystrom>();

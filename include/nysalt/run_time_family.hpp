@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct named_parameters {
   std::string name;       ///< what it is called
   Eigen::VectorXd theta;  ///< its parameters
 };
+
+struct contained_family;
 
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
@@ -61,6 +64,7 @@ class run_time_family {
         starts.push_back({"further start", Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters)});
       }
     }
+    if constexpr (requires { typename F::contained; }) contain(run_time_family(typename F::contained{}));
   }
 
   /// A method as a family of one member, without parameters.
@@ -72,6 +76,7 @@ class run_time_family {
   std::vector<parameter_range> ranges;       ///< where each may lie
   std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest
   std::vector<named_parameters> starts;      ///< the family's own, its classical members, further ones
+  std::shared_ptr<const contained_family> contained;  ///< whose optimum is a start, too; null: none
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;
@@ -101,6 +106,9 @@ class run_time_family {
   friend run_time_family processed(const run_time_family& kernel, int pairs);
 
  private:
+  /// `inner` has the same word, and the parameters here are the first coefficients of the word.
+  void contain(run_time_family inner);
+
   template <Family F>
   static parameters_of<F> array_from(const Eigen::VectorXd& theta) {
     parameters_of<F> result;
@@ -126,6 +134,16 @@ class run_time_family {
 
   std::function<std::vector<double>(const Eigen::VectorXd&)> coefficients_;
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
+};
+
+/// A family of fewer parameters all of whose members are members of a larger one.
+struct contained_family {
+  run_time_family family;
+  Eigen::MatrixXd slopes;  ///< of the parameters of the larger family by those of this one
+  Eigen::VectorXd origin;  ///< the parameters of the larger family where those of this one are 0
+
+  /// The parameters of the member of the larger family.
+  Eigen::VectorXd embed(const Eigen::VectorXd& theta) const { return origin + slopes * theta; }
 };
 
 /// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is looked at.

@@ -95,15 +95,39 @@ learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan
   return system.learn(plan, shown.counter(plan.how.trajectories));
 }
 
+namespace {
+
+/// Whether the one follows the data for more steps, or for as many with a smaller error.
+bool is_better(const fit_summary& one, const fit_summary& other) {
+  if (one.usable != other.usable) return one.usable;
+  if (one.loss_steps != other.loss_steps) return one.loss_steps > other.loss_steps;
+  return one.held_out_loss < other.held_out_loss;
+}
+
+}  // namespace
+
 std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_plan plan,
                                         std::vector<double> steps, progress& shown) {
   std::sort(steps.begin(), steps.end());
   std::vector<learned_scheme> learned;
-  for (std::size_t n = steps.size(); n-- > 0;) {
+  const auto learn_at = [&](std::size_t n, const std::vector<double>& from, bool from_there_alone) {
     plan.step = steps[n];
-    learned.insert(learned.begin(), learn_with(system, plan, shown));
-    plan.from = theta_of(learned.front().fit);
-    plan.from_there_alone = true;
+    plan.from = from;
+    plan.from_there_alone = from_there_alone;
+    return learn_with(system, plan, shown);
+  };
+  std::vector<double> from;
+  bool follows = false;
+  for (std::size_t n = steps.size(); n-- > 0;) {
+    learned.insert(learned.begin(), learn_at(n, from, follows));
+    from = theta_of(learned.front().fit);
+    follows = learned.front().fit.follows_to_the_end();
+  }
+  // Back to larger steps, where the search from elsewhere found nothing that follows the data so far.
+  for (std::size_t n = 1; n < steps.size(); ++n) {
+    if (learned[n].fit.follows_to_the_end()) continue;
+    learned_scheme other = learn_at(n, theta_of(learned[n - 1].fit), true);
+    if (is_better(other.fit, learned[n].fit)) learned[n] = std::move(other);
   }
   return learned;
 }

@@ -46,6 +46,23 @@ run_time_family::run_time_family(std::string method_name, run_time_word word,
         return Eigen::MatrixXd(count, 0);
       }) {}
 
+void run_time_family::contain(run_time_family inner) {
+  if (inner.letters.letters() != letters.letters() || inner.parameters() >= parameters()) {
+    throw std::logic_error(sentence(
+        "{}: the contained family must have the word {} and fewer parameters, got {} with the word {}", name,
+        letters.letters(), inner.name, inner.letters.letters()));
+  }
+  const Eigen::Index count = parameters();
+  const auto first_coefficients = [&](const Eigen::VectorXd& theta) -> Eigen::VectorXd {
+    const auto all = inner.coefficients(theta);
+    return Eigen::Map<const Eigen::VectorXd>(all.data(), count);
+  };
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inner.parameters());
+  const Eigen::VectorXd origin = first_coefficients(zero);
+  const Eigen::MatrixXd slopes = inner.jacobian(zero).topRows(count);
+  contained = std::make_shared<const contained_family>(contained_family{std::move(inner), slopes, origin});
+}
+
 bool run_time_family::is_defined(const Eigen::VectorXd& theta) const {
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
@@ -71,6 +88,11 @@ run_time_family thermostatted(const run_time_family& plain, placement where) {
   result.jacobian_ = [plain, where](const Eigen::VectorXd& theta) {
     return thermostatted_jacobian(plain, where, theta);
   };
+  if (plain.contained) {
+    const auto& [inner, slopes, origin] = *plain.contained;
+    result.contained = std::make_shared<const contained_family>(
+        contained_family{thermostatted(inner, where), slopes, origin});
+  }
   return result;
 }
 
@@ -111,6 +133,9 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
                  kernel.name, kernel.letters.letters()));
   }
   run_time_family result = kernel;
+  const Eigen::Index all = kernel.parameters() + 2 * (pairs - 1);
+  result.contained = std::make_shared<const contained_family>(contained_family{
+      kernel, Eigen::MatrixXd::Identity(all, kernel.parameters()), Eigen::VectorXd::Zero(all)});
   std::string letters = kernel.letters.letters() + run_time_word::processor_mark;
   for (int k = 0; k < pairs; ++k) letters += "BA";
   result.letters = run_time_word(letters);

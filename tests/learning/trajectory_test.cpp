@@ -8,6 +8,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg4.hpp"
+#include "nysalt/families/free_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/r_aba.hpp"
 #include "nysalt/learn.hpp"
@@ -55,13 +56,37 @@ BOOST_AUTO_TEST_CASE(whole_trajectories_tell_which_errors_add_up) {
 // Two stages have no parameter for the phase of a stiff spring.
 BOOST_AUTO_TEST_CASE(where_no_member_follows_the_data_the_loss_looks_at_fewer_steps) {
   const auto sets = sets_at(0.04);
-  const auto steps_of = [&](const auto& family, const char* loss) {
+  const auto fitted = [&](const auto& family, const char* loss) {
     return learn(run_time_family(family), chain, sets.data, sets.held_out, {.loss = loss_named(loss)})
-        .summary.loss_steps;
+        .summary;
   };
-  BOOST_TEST(steps_of(fg4{}, "trajectory") == 200);
-  BOOST_TEST(steps_of(nystrom{}, "trajectory") <= 13);
-  BOOST_TEST(steps_of(nystrom{}, "state:5") == 5);
+  const auto four = fitted(fg4{}, "trajectory");
+  BOOST_TEST(four.loss_steps == 200);
+  BOOST_TEST(four.follows_to_the_end());
+  BOOST_TEST(four.following() == "");
+  const auto two = fitted(nystrom{}, "trajectory");
+  BOOST_TEST(two.loss_steps <= 13);
+  BOOST_TEST(!two.follows_to_the_end());
+  BOOST_TEST(two.brief().ends_with("; but " + two.following()));
+  BOOST_TEST(two.following().find(two.follows ? "not for 200" : "a twentieth") != std::string::npos);
+  const auto of_five = fitted(nystrom{}, "state:5");
+  BOOST_TEST(of_five.loss_steps == 5);
+  BOOST_TEST(of_five.follows_to_the_end());  // a loss of few steps says nothing of more
+}
+
+// Six kicks with eleven parameters have the six of the symmetric family among them, and follow where these
+// do.
+BOOST_AUTO_TEST_CASE(a_larger_family_is_no_worse_than_the_one_that_it_contains) {
+  const auto sets = sets_at(0.12);
+  const auto fitted = [&](const auto& family) {
+    return learn(run_time_family(family), chain, sets.data, sets.held_out, {.effort = effort::quick}).summary;
+  };
+  const auto symmetric = fitted(aba<3>{});
+  const auto larger = fitted(aba3_free{});
+  BOOST_TEST_CONTEXT(symmetric.full() << larger.full()) {
+    BOOST_TEST(larger.loss_steps >= symmetric.loss_steps);
+    if (larger.loss_steps == symmetric.loss_steps) BOOST_TEST(larger.loss <= symmetric.loss * (1.0 + 1e-6));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_loss_takes_the_energy_coordinates_of_systems_with_modes_unless_told) {

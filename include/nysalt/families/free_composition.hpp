@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "nysalt/detail/palindrome.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/bab.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/kick.hpp"
@@ -46,18 +48,22 @@ struct free_composition : composition<2 * Stages - 1> {
 /// A B ... A with three kicks, five parameters.
 struct aba3_free : free_composition<drift, kick, 3> {
   static constexpr std::string_view name = "aba3_free";
+  using contained = aba<3>;
 };
 /// A B ... A with four kicks, seven parameters.
 struct aba4_free : free_composition<drift, kick, 4> {
   static constexpr std::string_view name = "aba4_free";
+  using contained = aba<4>;
 };
 /// A B ... A with six kicks, eleven parameters.
 struct aba6_free : free_composition<drift, kick, 6> {
   static constexpr std::string_view name = "aba6_free";
+  using contained = aba<6>;
 };
 /// B A ... B with six drifts, eleven parameters.
 struct bab6_free : free_composition<kick, drift, 6> {
   static constexpr std::string_view name = "bab6_free";
+  using contained = bab<6>;
 };
 
 }  // namespace nysalt

@@ -45,6 +45,8 @@ struct fit_summary {
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
   std::string loss_name;            ///< see loss_choice
   int loss_steps = 1;               ///< of the longest stretch that the loss looks at
+  int trajectory_steps = 1;         ///< of the shortest trajectory of the data
+  bool follows = true;  ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
   bool is_of_data = true;           ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
@@ -125,6 +127,12 @@ struct fit_summary {
 
   /// A sentence about expected_excess.
   std::string uncertainty() const;
+
+  /// Whether the method follows the data to the end, as far as the loss tells.
+  bool follows_to_the_end() const { return follows && loss_steps >= trajectory_steps; }
+
+  /// For how many steps the method follows the data, in words; empty where it follows them to the end.
+  std::string following() const;
 
   /// One line: parameters, losses, and whether it is usable.
   std::string brief() const;

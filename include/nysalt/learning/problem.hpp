@@ -73,7 +73,8 @@ struct learning_problem {
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
   /// Whether the method stays near the data over all steps that the loss looks at: with an error below a
-  /// twentieth of the motion. Where it does not, phases are lost, and the loss tells little.
+  /// twentieth of the motion. Where it does not, phases are lost, and the loss tells little. Empty: the loss
+  /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
   std::shared_ptr<learning_problem> shorter{};  ///< the same over a quarter of the steps; null: there is none
   std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was

@@ -79,10 +79,11 @@ struct search_result {
 /// search proper begins, and with the least of the minima of the one-step loss that those of the first stage
 /// lead to: valleys of trajectories at small steps are narrow. From each start to its minimum; the judge
 /// takes the best that the guard admits and that withstands a trial run, of those that converged or ended in
-/// a valley. Where there is none, the search goes on among admitted points only, from the starts that are and
-/// from the refuge: what it finds lies at the edge mostly. A single start is what it was, whatever the judge
-/// thinks. Cost: a search for each start, twice where the guard acts, and a trial run for each of a few
-/// candidates.
+/// a valley. Where there is none, or where it errs by more than twice what one does that is not admitted, or
+/// by more than a kept start, the search goes on among admitted points only, from the starts that are and
+/// from the refuge: what it finds lies at the edge mostly, and the judge decides. A single start is what it
+/// was, whatever the judge thinks. Cost: a search for each start, twice where the guard acts, and a trial run
+/// for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

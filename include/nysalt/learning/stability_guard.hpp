@@ -25,10 +25,11 @@ enum class met { ever, often };
 
 /// Knows the frequencies of a system: the union of its frequency_bands() and of the frequencies of its
 /// linearised motion along some states, with 2 % more on either side. Where no bands are declared the first
-/// band is all from 0 to the highest. Outside of the bands a word may be unstable: gaps() tells where. Words
-/// with rotations are stable on the quadratic part at any step. The guard looks at how much such words
-/// magnify each of its modes under soft forces of any positive stiffness up to the largest along the states,
-/// and at pairs of modes that the soft forces couple.
+/// is from 0 on, and there are others where frequencies along 64 states or more lie in ranges far apart.
+/// Outside of the bands a word may be unstable: gaps() tells where. Words with rotations are stable on the
+/// quadratic part at any step. The guard looks at how much such words magnify each of its modes under soft
+/// forces of any positive stiffness up to the largest along the states, and at pairs of modes that the soft
+/// forces couple.
 class stability_guard {
  public:
   /// Looks at growth over so many steps: less than a factor e is admitted. Of words with rotations, if there
@@ -96,6 +97,9 @@ class stability_guard {
   /// What is met along so many states: of each state its frequencies, where they are known.
   void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
+
+  /// Bands where none are declared, from the frequencies of all states and of typical ones.
+  void estimate(const frequencies_along& along, std::size_t typical);
 
   /// Raises the end of the nearest band where frequencies lie beyond it; frequencies below all bands make one
   /// of their own.

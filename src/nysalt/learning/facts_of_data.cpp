@@ -45,24 +45,25 @@ int shortest_of(const flow_map_data& data) {
   return static_cast<int>(std::max<std::int64_t>(of_all, 1));
 }
 
-double motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how) {
+Eigen::VectorXd motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how) {
   const auto last = static_cast<std::size_t>(how.steps.back());
   const stretch_starts starts(data, last, static_cast<std::size_t>(how.apart));
   const double terms =
       static_cast<double>(data.share().ranks().total(std::ssize(starts.pairs)) * std::ssize(how.steps));
-  std::vector<double> squares(data.trajectories(), 0.0);
-  Eigen::VectorXd r(measure.residuals());
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(measure.residuals());
+  std::vector<Eigen::VectorXd> squares(data.trajectories(), zero);
+  Eigen::VectorXd r = zero;
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     for (std::size_t n = starts.first_of[m]; n < starts.first_of[m + 1]; ++n) {
       const std::size_t first = starts.pairs[n];
       for (const int steps : how.steps) {
         const auto& finish = data.finish[first + static_cast<std::size_t>(steps) - 1];
         measure.residual(finish.q, finish.p, data.start[first], r.data());
-        for (const double x : r) squares[m] += x * x / terms;
+        squares[m] += r.cwiseAbs2() / terms;
       }
     }
   }
-  return data.share().sum(squares);
+  return data.share().sum(squares, zero);
 }
 
 int trajectories_apart(const flow_map_data& data, Eigen::Index coordinates) {

@@ -19,8 +19,8 @@ double error_of_reference(const flow_map_data& data, const metric& measure);
 /// The number of steps of the shortest trajectory.
 int shortest_of(const flow_map_data& data);
 
-/// The mean over stretches and times of the squared distance from where a stretch begins.
-double motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how);
+/// The mean over stretches and times of each squared residual of the distance from where a stretch begins.
+Eigen::VectorXd motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how);
 
 /// The stages of a search look at some of the trajectories alone, 16 at least, where all have more
 /// coordinates together than tell where minima lie: a hundred trajectories of a dozen.

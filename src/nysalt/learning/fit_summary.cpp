@@ -40,6 +40,12 @@ std::string fit_summary::uncertainty() const {
       is_decided_by_few() ? ", too few to rely on it: take more, or starts of less different energies" : "");
 }
 
+std::string fit_summary::following() const {
+  if (follows_to_the_end()) return {};
+  if (!follows) return fmt::format("its error exceeds a twentieth of the motion within {} steps", loss_steps);
+  return fmt::format("it follows trajectories for {} steps, not for {}", loss_steps, trajectory_steps);
+}
+
 std::string fit_summary::brief() const {
   std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
   for (const auto& p : parameters) {
@@ -51,6 +57,7 @@ std::string fit_summary::brief() const {
   }
   text += fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
                       held_out_is_new ? "" : " (the same data)", verdict_in_words());
+  if (usable && !follows_to_the_end()) text += "; but " + following();
   return text;
 }
 
@@ -71,6 +78,8 @@ std::string fit_summary::full() const {
                  : gains_nothing
                      ? fmt::format("yes, but nothing is gained over {}: {}", rival, what_to_take())
                      : "yes");
+  if (!follows_to_the_end())
+    line("trajectories", following() + "; take a smaller step to follow them longer");
   const std::string of_steps = is_of_data && 1 < loss_steps ? fmt::format(" over {} steps", loss_steps) : "";
   line("loss", is_of_data ? fmt::format("{:.6e} ({}{}) on {} pairs of {} trajectories", loss, loss_name,
                                         of_steps, samples, trajectories)

@@ -6,6 +6,24 @@
 
 namespace nysalt::detail {
 
+namespace {
+
+/// Whether the errors at these times are below a twentieth of the motion, in the mean over coordinates: each
+/// over its own motion, as a fast one of small amplitude is not followed where only slow ones are; in the
+/// energy norm all over that of all.
+std::function<bool(const Eigen::VectorXd&)> follows_over(const source_of_losses& from,
+                                                         after_steps_options times) {
+  Eigen::VectorXd motion = motion_in(from.data, *from.measure, times);
+  if (from.which == coordinates::energy) motion.setConstant(motion.mean());
+  loss_inputs inputs = from.inputs(from.data, std::move(times));
+  inputs.measure = std::make_shared<const metric>(from.measure->over(motion));
+  constexpr double lost = 0.05 * 0.05;
+  return [value = of_states(inputs).value, most = lost * static_cast<double>(motion.size())](
+             const Eigen::VectorXd& theta) { return value(theta) <= most; };
+}
+
+}  // namespace
+
 void put_losses(learning_problem& problem, const source_of_losses& from, const rivals_by& rival,
                 const data_loss& at_end, int most_steps, const std::function<std::int64_t()>& before) {
   const flow_map_data& data = from.data;
@@ -58,7 +76,7 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
     problem.stages.push_back({.loss = losses_of_stages[n].of_theta, .steps = stages[n].steps.back()});
     if (!has_several_steps) continue;
     constexpr double lost = 0.25;  // an error of half the motion
-    problem.stages.back().lost_above = lost * motion_in(data, *from.measure, stages[n]);
+    problem.stages.back().lost_above = lost * motion_in(data, *from.measure, stages[n]).sum();
   }
   if (!from.asks_data()) {  // the loss judges, too
     problem.loss = kind.without_data(from.system, from.family, data.step);
@@ -66,11 +84,11 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
     if (kind.is_of_proposals)
       problem.stages = {{.loss = problem.loss}};  // from many starts: a pass costs little
   }
+  if (!is_of_trajectories) return;
+  problem.facts.trajectory_steps = whole;
+  problem.follows = follows_over(from, stages.back());
   if (!has_several_steps) return;
   problem.one_step_before = one_step_before->of_theta;
-  constexpr double lost = 0.0025;  // an error of a twentieth of the motion
-  problem.follows = [value = loss.value, most = lost * motion_in(data, *from.measure, stages.back())](
-                        const Eigen::VectorXd& theta) { return value(theta) <= most; };
   problem.shorter = std::make_shared<learning_problem>(without);
   put_losses(*problem.shorter, from, rival, at_end, shortest / 4 + 1, passes);
 }

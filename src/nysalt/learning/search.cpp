@@ -209,18 +209,27 @@ search_result search(const search_task& task, const std::vector<named_parameters
   const auto sound = by_judgement(std::move(all));
   if (sound.empty()) return result;
   result.best = sound.front();
-  if (const auto found = first_to_withstand(task, sound)) {
-    if (found->theta != sound.front().theta) result.unguarded = sound.front();
-    result.best = *found;
-    return result;
-  }
-  result.unguarded = sound.front();
-
-  std::vector<candidate> held;
+  const auto found = first_to_withstand(task, sound);
   const auto is_allowed = [&](const Eigen::VectorXd& theta) {
     const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
     return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
   };
+  // Where all minima that are admitted err by more than twice what one does that is not, or by more than a
+  // kept start, there may be better ones at the edge.
+  const auto found_is_above = [&](double judged) { return found && judged < found->judged; };
+  constexpr double twofold = 4.0;  // of squared errors
+  const bool edge_may_be_better = found_is_above(twofold * sound.front().judged) ||
+                                  std::ranges::any_of(task.kept, [&](const named_parameters& start) {
+                                    return found_is_above(task.judge(start.theta)) && is_allowed(start.theta);
+                                  });
+  if (!found || found->theta != sound.front().theta) result.unguarded = sound.front();
+  if (found && !edge_may_be_better) {
+    result.best = *found;
+    return result;
+  }
+
+  std::vector<candidate> held;
+  if (found) held.push_back(*found);
   std::vector<named_parameters> refuges = starts;
   if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
   std::erase_if(refuges, [&](const named_parameters& start) { return !is_allowed(start.theta); });

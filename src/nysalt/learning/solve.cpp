@@ -34,6 +34,7 @@ using detail::objection;
 using detail::starts_of;
 using detail::summarise_rival;
 using detail::trial_length;
+using detail::within;
 
 namespace {
 
@@ -56,30 +57,28 @@ bool tells_of_rare_states(const trial_result& trial) {
   return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
 
-/// Of a processed family, the best member without a processor: what is learned is no worse than the kernel,
-/// which the first stages of a search with a processor lose sight of. Nothing of other families.
-std::optional<named_parameters> best_kernel(search_task task, const std::vector<named_parameters>& all) {
-  const run_time_family& family = *task.family;
-  if (!family.letters.is_processed() || task.stages.empty()) return std::nullopt;
-  const Eigen::Index of_processor = std::ssize(family.letters.processor()) - 2;  // two follow from the others
-  const Eigen::Index of_kernel = family.parameters() - of_processor;
-  std::vector<named_parameters> starts;
-  constexpr std::size_t apart = 3;  // of the starts: a kernel has fewer parameters
-  for (std::size_t n = 0; n < all.size(); n += apart) {
-    starts.push_back(all[n]);
-    for (const Eigen::Index k : task.free) {
-      if (k >= of_kernel) starts.back().theta[k] = 0.0;
-    }
-  }
-  std::erase_if(task.free, [&](Eigen::Index k) { return k >= of_kernel; });
+/// The best member of the family that this one contains: what is learned is no worse than what fewer
+/// parameters give, which the first stages of a search among many lose sight of. Nothing where there is none.
+std::optional<named_parameters> best_contained(search_task task, const learning_problem& problem) {
+  const auto inner = problem.family.contained;
+  const fit_options& options = problem.options;
+  const bool is_whole = std::ssize(task.free) == problem.family.parameters();
+  if (!inner || task.stages.empty() || options.start || !is_whole) return std::nullopt;
+  fit_options how = options;
+  how.fixed.clear();
+  how.further_starts.clear();
+  how.effort = effort::quick;
+  task.family = &inner->family;
+  task.free.clear();
+  for (Eigen::Index k = 0; k < inner->family.parameters(); ++k) task.free.push_back(k);
   task.withstands = {};
   task.refuge = {};
   task.one_step_loss = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
-  const search_result found = search(task, starts);
+  const search_result found = search(within(*inner, task), starts_of(inner->family, how, problem, task.free));
   if (found.lost_after > 0) return std::nullopt;
-  return named_parameters{"kernel alone", found.best.theta};
+  return named_parameters{"best of " + inner->family.name, inner->embed(found.best.theta)};
 }
 
 /// What a search by the one-step loss finds where the guard let no minimum of the loss itself through, if the
@@ -121,7 +120,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
   }
-  auto starts = starts_of(problem, free);
+  auto starts = starts_of(family, options, problem, free);
   const auto fitted = phase_fitted_member(problem);
   if (fitted && !options.start) {
     starts.push_back(*fitted);
@@ -185,7 +184,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
-  if (const auto kernel = best_kernel(task, starts)) task.kept.push_back(*kernel);
+  if (const auto known = best_contained(task, problem)) task.kept.push_back(*known);
   search_result found = search(task, starts);
   if (found.lost_after > 0) return {{}, found.lost_after, seconds()};
   try_one_step(task, starts, found);
@@ -243,6 +242,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   summary.iterations = best.iterations;
   summary.is_in_valley = best.in_valley;
   summary.is_held_by_guard = best.is_held;
+  summary.follows = !problem.follows || problem.follows(theta);
   summary.highest_frequency = problem.guard.highest_along();
   if (found.unguarded) {
     summary.unguarded = objection_of_guard(found.unguarded->theta, met::often);
@@ -304,7 +304,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
 fit solve(const learning_problem& problem) {
   const attempt first = solve_as_it_is(problem);
   const auto& found = first.found;
-  if (found && (problem.shorter == nullptr || problem.follows(found->theta))) return *found;
+  if (found && (problem.shorter == nullptr || found->summary.follows)) return *found;
   const learning_problem* next = problem.shorter.get();
   const auto is_lost_too = [&] {
     return !next->stages.empty() && next->stages.back().steps >= first.lost_after;

@@ -36,6 +36,33 @@ double exceeded_often(std::vector<double> values, std::size_t states) {
   return values[rank];
 }
 
+/// Ranges of frequencies that lie apart, as those of stiff bonds and of what they hold do: with nothing
+/// between them over a quarter of their distance from 0 and over a tenth of the highest. The first begins at
+/// 0. One range where not all frequencies are known, or of few states.
+std::vector<frequency_band> clusters(const frequencies_along& along) {
+  constexpr double quarter = 0.25;
+  constexpr double tenth = 0.1;
+  constexpr std::size_t enough = 64;
+  std::vector<double> all;
+  for (const auto& one : along.of_state) all.insert(all.end(), one.begin(), one.end());
+  std::ranges::sort(all);
+  if (!along.are_complete || along.of_state.size() < enough) return {{0.0, all.back()}};
+  std::vector<frequency_band> result{{0.0, 0.0}};
+  for (const double omega : all) {
+    const double distance = omega - result.back().high;
+    if (distance > std::max(quarter * result.back().high, tenth * all.back()))
+      result.push_back({omega, omega});
+    result.back().high = std::max(result.back().high, omega);
+  }
+  return result;
+}
+
+std::string in_words(const std::vector<frequency_band>& bands) {
+  std::vector<std::string> each;
+  for (const auto& [low, high] : bands) each.push_back(fmt::format("{:.4g}..{:.4g}", low, high));
+  return fmt::format("{}", fmt::join(each, " "));
+}
+
 }  // namespace
 
 stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
@@ -63,15 +90,10 @@ void stability_guard::look_along(const frequencies_along& along, std::size_t cou
     for (const auto& band : bands_) description_ += fmt::format(" [{:g}, {:g}]", band.low, band.high);
     extend(along, typical);
   } else if (highest_along_ > 0.0) {
-    std::vector<double> highest;
-    for (std::size_t k = 0; k < typical; ++k) {
-      if (!along.of_state[k].empty()) highest.push_back(along.of_state[k].back());
-    }
-    bands_.push_back({0.0, highest_along_ * (1.0 + margin)});
-    often_.push_back({0.0, exceeded_often(highest, typical) * (1.0 + margin)});
-    description_ = fmt::format("estimated 0..{:.4g} along {} states", bands_[0].high, count);
-    if (often_[0].high < bands_[0].high)
-      description_ += fmt::format(", 0..{:.4g} in nine tenths of them", often_[0].high);
+    estimate(along, typical);
+    description_ = fmt::format("estimated {} along {} states", in_words(bands_), count);
+    if (in_words(often_) != in_words(bands_))
+      description_ += fmt::format(", {} in nine tenths of them", in_words(often_));
   } else if (has_quadratic_kinetic && count == 0) {
     throw std::invalid_argument(
         "stability_guard: no frequency_bands() are declared, and there are no states to look at");
@@ -79,6 +101,28 @@ void stability_guard::look_along(const frequencies_along& along, std::size_t cou
     description_ = "no linear criterion: no bands are declared, and K''(p) is not known";
   } else {
     description_ = fmt::format("no linear criterion: nothing oscillates along {} states", count);
+  }
+}
+
+void stability_guard::estimate(const frequencies_along& along, std::size_t typical) {
+  const std::vector<frequency_band> met = clusters(along);
+  for (std::size_t k = 0; k < met.size(); ++k) {
+    const auto& [low, high] = met[k];
+    std::vector<double> highest;
+    std::vector<double> below_high;  // how far the lowest is
+    for (std::size_t state = 0; state < typical; ++state) {
+      const auto& all = along.of_state[state];
+      const auto first = std::ranges::lower_bound(all, low);
+      const auto last = std::ranges::upper_bound(all, high);
+      if (first == last) continue;
+      highest.push_back(*std::prev(last));
+      below_high.push_back(high - *first);
+    }
+    bands_.push_back({low * (1.0 - margin), high * (1.0 + margin)});
+    const double often = exceeded_often(highest, typical);
+    if (often == 0.0 && k > 0) continue;
+    const double lowest = k == 0 ? 0.0 : high - exceeded_often(below_high, typical);
+    often_.push_back({lowest * (1.0 - margin), often * (1.0 + margin)});
   }
 }
 

@@ -24,21 +24,18 @@ namespace {
 
 /// Those of the effort where a search goes in stages, else none; of a black box, whose cost is not known,
 /// few.
-int usual_random_starts(const learning_problem& problem, std::size_t free) {
+int usual_random_starts(const learning_problem& problem, effort how_much, std::size_t free) {
   if (problem.stages.empty()) return 0;
   if (problem.is_of_black_box) return 4;
-  const int all = problem.options.effort == effort::quick    ? 40
-                  : problem.options.effort == effort::normal ? 120
-                                                             : 400;
+  const int all = how_much == effort::quick ? 40 : how_much == effort::normal ? 120 : 400;
   return free <= 2 ? all / 5 : all;
 }
 
 }  // namespace
 
-std::vector<named_parameters> starts_of(const learning_problem& problem,
+std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+                                        const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free) {
-  const run_time_family& family = problem.family;
-  const fit_options& options = problem.options;
   std::vector<named_parameters> starts = family.starts;
   if (options.start) starts = {{"start", *options.start}};
   starts.insert(starts.end(), options.further_starts.begin(), options.further_starts.end());
@@ -48,7 +45,8 @@ std::vector<named_parameters> starts_of(const learning_problem& problem,
       problem.stages.empty() ? objective()
                              : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
-  const int random_starts = options.random_starts.value_or(usual_random_starts(problem, free.size()));
+  const int random_starts =
+      options.random_starts.value_or(usual_random_starts(problem, options.effort, free.size()));
   for (int n = 0; n < random_starts; ++n) {
     const auto number = static_cast<std::uint64_t>(n);
     const auto& around = starts[static_cast<std::size_t>(n) / 4 % known];  // each with all deviations
@@ -61,6 +59,31 @@ std::vector<named_parameters> starts_of(const learning_problem& problem,
     starts.push_back(std::move(start));
   }
   return starts;
+}
+
+search_task within(const contained_family& inner, search_task task) {
+  const auto loss_of = [&](const objective& loss) -> objective {
+    if (!loss) return loss;
+    return [inner, loss](const Eigen::VectorXd& theta) {
+      squares result = loss(inner.embed(theta));
+      result.half_gradient = inner.slopes.transpose() * result.half_gradient;
+      result.normal_matrix = inner.slopes.transpose() * result.normal_matrix * inner.slopes;
+      return result;
+    };
+  };
+  const auto of = [&](const auto& function) -> std::remove_cvref_t<decltype(function)> {
+    if (!function) return function;
+    return [inner, function](const Eigen::VectorXd& theta) { return function(inner.embed(theta)); };
+  };
+  task.family = &inner.family;
+  task.loss = loss_of(task.loss);
+  for (auto& stage : task.stages) stage.loss = loss_of(stage.loss);
+  task.one_step_loss = loss_of(task.one_step_loss);
+  task.judge = of(task.judge);
+  task.admits = of(task.admits);
+  task.withstands = of(task.withstands);
+  task.admits_at_edge = of(task.admits_at_edge);
+  return task;
 }
 
 void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {

@@ -6,6 +6,7 @@
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/learning/problem.hpp"
+#include "nysalt/learning/search.hpp"
 #include "nysalt/run_time_family.hpp"
 
 namespace nysalt::detail {
@@ -13,9 +14,15 @@ namespace nysalt::detail {
 /// Puts in the values of parameters that are not to be learned.
 void fix(const fit_options& options, Eigen::VectorXd& theta);
 
-/// Those of the family or the one that was asked for, further ones, and random ones.
-std::vector<named_parameters> starts_of(const learning_problem& problem,
+/// Those of the family or the one that was asked for, further ones, and random ones. Of `problem` only what
+/// is known of the system and the data counts.
+std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+                                        const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free);
+
+/// The same task, of a larger family, among the members of one that it contains. The kept starts and the
+/// refuge are of the smaller family.
+search_task within(const contained_family& inner, search_task task);
 
 /// Ranks search each by itself with the same sums. They would not take the same steps if their processors'
 /// libraries differed in a bit. Throws std::runtime_error at all ranks then.
