@@ -144,6 +144,15 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
   }
 }
 
+std::vector<frequency_band> prepared_problem::bands_along_starts() const {
+  if (has_frequency_bands(made_.system) || size(made_.system) > most_for_all_frequencies) return {};
+  try {
+    return guard(false).frequencies();
+  } catch (const std::invalid_argument&) {  // the run will tell
+    return {};
+  }
+}
+
 stability_guard prepared_problem::guard(bool rotations) const {
   const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
   return stability_guard(made_.system, states, rotations);

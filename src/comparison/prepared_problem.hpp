@@ -90,6 +90,8 @@ class prepared_problem {
   /// Trajectories that are stepped at a time.
   int lanes() const;
 
+  /// Where a small system declares no bands, those of the guard; none if its force is not finite there.
+  std::vector<frequency_band> bands_along_starts() const;
   /// Of its bands, or of the frequencies along some starts by its law.
   stability_guard guard(bool rotations) const;
   /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/learning/stability_guard.hpp"
@@ -47,6 +48,7 @@ known_frequencies frequencies_along_starts(const prepared_problem& system, std::
                                            std::uint64_t count) {
   constexpr double accuracy = 0.02;  // the estimate's 1 %, rounded outwards, and some room
   known_frequencies known = frequencies_of(system);
+  if (auto apart = system.bands_along_starts(); apart.size() > 1) known.bands = std::move(apart);
   known.along_starts = system.frequency_along_starts(seed, count);
   known.starts = count;
   if (known.along_starts > known.highest() * (1.0 + accuracy)) raise(known.bands, *known.along_starts);

@@ -27,8 +27,9 @@ inline constexpr double turn_margin = 0.05;
 /// diffuse too slowly for a trial run to see.
 inline constexpr double tried_margin = 0.2;
 
-/// Angular frequencies that a system is asked to be stable for: its bands, and 0 to the highest where it
-/// declares none. The last band goes up to the highest of what is known beside.
+/// Angular frequencies that a system is asked to be stable for: its bands; where it declares none those that
+/// its starts tell, where they lie far apart, and else 0 to the highest. The last band goes up to the highest
+/// of what is known beside.
 struct known_frequencies {
   std::vector<frequency_band> bands;
   std::optional<double> declared;  // these three: the highest, by where it is known from

@@ -108,6 +108,26 @@ BOOST_AUTO_TEST_CASE(where_no_minimum_is_admitted_the_guard_holds_what_it_admits
   BOOST_TEST(std::abs(found.unguarded->theta[0] - 1.0) <= near_rounding);
 }
 
+// The right well has no loss and is not admitted; at 1.05 the loss is .011, in the left well .04.
+BOOST_AUTO_TEST_CASE(an_admitted_minimum_far_above_another_is_left_for_the_edge_where_that_is_better) {
+  const auto of_loss = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; };
+  const auto left_and_beyond = [](double edge) {
+    return [edge](const Eigen::VectorXd& theta) { return theta[0] < -0.5 || theta[0] > edge; };
+  };
+  const auto found = searched(of_loss, left_and_beyond(1.05), {-1.2, 1.5});
+  BOOST_TEST(found.best.is_held);
+  BOOST_TEST(found.best.theta[0] > 1.05);
+  BOOST_TEST(found.best.judged < of_loss(number(left_minimum())));
+  const auto stayed = searched(of_loss, left_and_beyond(1.2), {-1.2, 1.5});  // .19 there
+  BOOST_TEST(!stayed.best.is_held);
+  BOOST_TEST(std::abs(stayed.best.theta[0] - left_minimum()) <= near_rounding);
+  BOOST_TEST(stayed.unguarded.has_value());
+  // Where the refused one is not much better, the edge is not looked at.
+  const auto less_different = [&](const Eigen::VectorXd& theta) { return 0.03 + two_wells(theta).value; };
+  BOOST_TEST(searched(less_different, left_and_beyond(1.05), {-1.2, 1.5}).tried == 2);
+  BOOST_TEST(found.tried > 2);
+}
+
 BOOST_AUTO_TEST_CASE(where_nothing_is_admitted_that_is_said) {
   const auto none = [](const Eigen::VectorXd&) { return false; };
   const auto found = searched(likes_right, none, {1.2, -1.2});

@@ -16,6 +16,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
@@ -42,6 +43,16 @@ double spectral_radius(const run_time_word& word, const std::vector<double>& c, 
   const auto m = matrix_on_oscillator(word, c, z * z);
   return test::spectral_radius(Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}});
 }
+
+/// The force of the FPU chain, which declares nothing.
+struct undeclared_chain {
+  static constexpr int dimension = 6;
+  fpu_chain<3> chain{50.0};
+  template <class T>
+  void force(const vector<T, 6>& q, vector<T, 6>& f) const {
+    chain.force(q, f);
+  }
+};
 
 }  // namespace
 
@@ -141,6 +152,41 @@ BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
   BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 2.001 / highest));
   // In its second window this word would pass if the highest frequency were all that counts.
   BOOST_TEST(!guard.admits(two_stages, with_a_gap(), 3.5 / highest));
+}
+
+// Soft bonds of energies below 2 have frequencies up to 5.8, and stiff ones between 50 and 50.4.
+BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
+  const auto states_of = [](std::uint64_t count) {
+    const fpu_law<3> law(fpu_chain<3>(50.0));
+    std::vector<phase_point<double, 6>> states;
+    for (std::uint64_t n = 0; n < count; ++n) states.push_back(law(1, n));
+    return states;
+  };
+  const stability_guard guard(undeclared_chain{}, states_of(200));
+  const auto& bands = guard.frequencies();
+  BOOST_TEST_CONTEXT(guard.description()) {
+    BOOST_REQUIRE(bands.size() == 2U);
+    BOOST_TEST(bands[0].low == 0.0);
+    BOOST_TEST(bands[0].high < 10.0);
+    BOOST_TEST(48.0 < bands[1].low);
+    BOOST_TEST(bands[1].high < 53.0);
+    BOOST_TEST(guard.frequencies(met::often).size() == 2U);
+  }
+  // Unstable between z = 2.58 and 3.16: the stiff band may lie beyond, but not within.
+  BOOST_TEST(guard.admits(two_stages, with_a_gap(), 3.5 / 50.0));
+  BOOST_TEST(!guard.admits(two_stages, with_a_gap(), 2.9 / 50.0));
+  const stability_guard of_few(undeclared_chain{}, states_of(20));  // too few to tell what is not met
+  BOOST_TEST(of_few.frequencies().size() == 1U);
+  BOOST_TEST(!of_few.admits(two_stages, with_a_gap(), 3.5 / 50.0));
+}
+
+// Of a ring of wells frequencies fill all between 0 and the highest.
+BOOST_AUTO_TEST_CASE(undeclared_frequencies_without_a_gap_are_one_band) {
+  draws random;
+  const dynamic_potential ring{4};
+  std::vector<phase_point<double, Eigen::Dynamic>> states;
+  for (int n = 0; n < 200; ++n) states.push_back(random.state(ring, 0.8));
+  BOOST_TEST(stability_guard(ring, states).frequencies().size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(without_bands_and_states_a_kinetic_energy_that_is_not_quadratic_has_no_guard) {

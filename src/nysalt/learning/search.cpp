@@ -229,7 +229,6 @@ search_result search(const search_task& task, const std::vector<named_parameters
   }
 
   std::vector<candidate> held;
-  if (found) held.push_back(*found);
   std::vector<named_parameters> refuges = starts;
   if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
   std::erase_if(refuges, [&](const named_parameters& start) { return !is_allowed(start.theta); });
@@ -251,8 +250,13 @@ search_result search(const search_task& task, const std::vector<named_parameters
     ++result.tried;
   }
   held = by_judgement(std::move(held));
-  if (held.empty()) return result;
-  result.best = first_to_withstand(task, held).value_or(held.front());
+  const auto at_edge = first_to_withstand(task, held);
+  constexpr double hardly = 0.99;  // a minimum, of which more is known, is as good
+  if (found && !(at_edge && at_edge->judged < hardly * found->judged)) {
+    result.best = *found;
+  } else if (!held.empty()) {
+    result.best = at_edge.value_or(held.front());
+  }
   return result;
 }
 
