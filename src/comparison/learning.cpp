@@ -97,9 +97,13 @@ learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan
 
 namespace {
 
+bool is_found(const fit_summary& fit) { return fit.usable && fit.follows_to_the_end(); }
+
 /// Whether the one follows the data for more steps, or for as many with a smaller error.
 bool is_better(const fit_summary& one, const fit_summary& other) {
   if (one.usable != other.usable) return one.usable;
+  const auto followed = [](const fit_summary& fit) { return fit.follows ? fit.loss_steps : 0; };
+  if (followed(one) != followed(other)) return followed(one) > followed(other);
   if (one.loss_steps != other.loss_steps) return one.loss_steps > other.loss_steps;
   return one.held_out_loss < other.held_out_loss;
 }
@@ -117,15 +121,15 @@ std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_pl
     return learn_with(system, plan, shown);
   };
   std::vector<double> from;
-  bool follows = false;
+  bool is_near = false;
   for (std::size_t n = steps.size(); n-- > 0;) {
-    learned.insert(learned.begin(), learn_at(n, from, follows));
+    learned.insert(learned.begin(), learn_at(n, from, is_near));
     from = theta_of(learned.front().fit);
-    follows = learned.front().fit.follows_to_the_end();
+    is_near = is_found(learned.front().fit);
   }
   // Back to larger steps, where the search from elsewhere found nothing that follows the data so far.
   for (std::size_t n = 1; n < steps.size(); ++n) {
-    if (learned[n].fit.follows_to_the_end()) continue;
+    if (is_found(learned[n].fit) || !learned[n - 1].fit.usable) continue;
     learned_scheme other = learn_at(n, theta_of(learned[n - 1].fit), true);
     if (is_better(other.fit, learned[n].fit)) learned[n] = std::move(other);
   }

@@ -13,7 +13,9 @@
 #include "nysalt/ensembles/one_long_trajectory.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
+#include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
 
@@ -144,13 +146,31 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
   }
 }
 
-std::vector<frequency_band> prepared_problem::bands_along_starts() const {
-  if (has_frequency_bands(made_.system) || size(made_.system) > most_for_all_frequencies) return {};
-  try {
-    return guard(false).frequencies();
-  } catch (const std::invalid_argument&) {  // the run will tell
-    return {};
+const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
+  if (bands_along_motion_) return *bands_along_motion_;
+  const model system = made_.system.alone();
+  auto& bands = bands_along_motion_.emplace();
+  if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
+    return bands;
+  constexpr double angle = 0.1;  // of the fastest motion in a step
+  constexpr std::int64_t steps = 500;
+  constexpr int samples = 4;
+  const auto stepper = make_stepper(system, tabulated(verlet()), angle / made_.frequency);
+  states_in_double states;
+  for (const auto& start : typical_and_energetic_starts(system, made_.starts, 1, 0, 64)) {
+    auto run = stepper.open(start);
+    for (int n = 0; n < samples; ++n) {
+      stepper.advance(run, steps);
+      const auto state = stepper.synchronous(run);
+      if (state.q.allFinite() && state.p.allFinite()) states.push_back(state);
+    }
   }
+  try {
+    if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
+  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will tell
+  }
+  if (bands.size() == 1) bands.clear();
+  return bands;
 }
 
 stability_guard prepared_problem::guard(bool rotations) const {

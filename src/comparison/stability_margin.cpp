@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/learning/stability_guard.hpp"
@@ -24,6 +23,8 @@ double known_frequencies::highest() const {
 std::string known_frequencies::source() const {
   if (highest() == declared) return "declared";
   if (highest() == of_law) return "met by rare starts";
+  if (are_of_motion && !(along_starts && highest() == *along_starts))
+    return "seen along the motion from some starts";
   return fmt::format("seen along {} starts", starts);
 }
 
@@ -39,6 +40,8 @@ void raise(std::vector<frequency_band>& bands, double highest) {
 
 known_frequencies frequencies_of(const prepared_problem& system) {
   known_frequencies known{system.frequency_bands(), highest_frequency(system), system.frequency_of_law(), {}};
+  if (known.bands.empty()) known.bands = system.bands_along_motion();
+  known.are_of_motion = !known.bands.empty() && !known.declared;
   if (known.bands.empty()) known.bands.push_back({0.0, known.of_law});
   raise(known.bands, known.of_law);
   return known;
@@ -48,7 +51,6 @@ known_frequencies frequencies_along_starts(const prepared_problem& system, std::
                                            std::uint64_t count) {
   constexpr double accuracy = 0.02;  // the estimate's 1 %, rounded outwards, and some room
   known_frequencies known = frequencies_of(system);
-  if (auto apart = system.bands_along_starts(); apart.size() > 1) known.bands = std::move(apart);
   known.along_starts = system.frequency_along_starts(seed, count);
   known.starts = count;
   if (known.along_starts > known.highest() * (1.0 + accuracy)) raise(known.bands, *known.along_starts);

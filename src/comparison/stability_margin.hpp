@@ -28,20 +28,21 @@ inline constexpr double turn_margin = 0.05;
 inline constexpr double tried_margin = 0.2;
 
 /// Angular frequencies that a system is asked to be stable for: its bands; where it declares none those that
-/// its starts tell, where they lie far apart, and else 0 to the highest. The last band goes up to the highest
-/// of what is known beside.
+/// are met along the motion, where they lie far apart, and else 0 to the highest. The last band goes up to
+/// the highest of what is known beside.
 struct known_frequencies {
   std::vector<frequency_band> bands;
   std::optional<double> declared;  // these three: the highest, by where it is known from
   double of_law;
   std::optional<double> along_starts;
   std::uint64_t starts = 0;
+  bool are_of_motion = false;  // the bands
 
   double highest() const;
   /// "declared", or else.
   std::string source() const;
 };
-/// What is known without work.
+/// What is known with little work.
 known_frequencies frequencies_of(const prepared_problem& system);
 /// And along so many of its starts, if that is not dear.
 known_frequencies frequencies_along_starts(const prepared_problem& system, std::uint64_t seed,

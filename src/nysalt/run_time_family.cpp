@@ -2,6 +2,8 @@
 // A family as data.
 #include "nysalt/run_time_family.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -47,20 +49,30 @@ run_time_family::run_time_family(std::string method_name, run_time_word word,
       }) {}
 
 void run_time_family::contain(run_time_family inner) {
-  if (inner.letters.letters() != letters.letters() || inner.parameters() >= parameters()) {
-    throw std::logic_error(sentence(
-        "{}: the contained family must have the word {} and fewer parameters, got {} with the word {}", name,
-        letters.letters(), inner.name, inner.letters.letters()));
-  }
+  const Eigen::VectorXd somewhere = inner.starts.front().theta;
   const Eigen::Index count = parameters();
-  const auto first_coefficients = [&](const Eigen::VectorXd& theta) -> Eigen::VectorXd {
-    const auto all = inner.coefficients(theta);
-    return Eigen::Map<const Eigen::VectorXd>(all.data(), count);
+  const bool is_smaller = inner.letters.letters() == letters.letters() && inner.parameters() < count &&
+                          count <= std::ssize(inner.coefficients(somewhere));
+  contained_family result{std::move(inner), {}, {}};
+  const auto is_member = [&](const Eigen::VectorXd& theta) {
+    constexpr double rounding = 1e-12;  // sums of some coefficients of order one
+    const auto ours = coefficients(result.embed(theta));
+    const auto theirs = result.family.coefficients(theta);
+    return std::ranges::equal(ours, theirs, [](double x, double y) { return std::abs(x - y) <= rounding; });
   };
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inner.parameters());
-  const Eigen::VectorXd origin = first_coefficients(zero);
-  const Eigen::MatrixXd slopes = inner.jacobian(zero).topRows(count);
-  contained = std::make_shared<const contained_family>(contained_family{std::move(inner), slopes, origin});
+  if (is_smaller) {
+    const auto all = result.family.coefficients(somewhere);
+    result.slopes = result.family.jacobian(somewhere).topRows(count);
+    result.origin = Eigen::Map<const Eigen::VectorXd>(all.data(), count) - result.slopes * somewhere;
+  }
+  constexpr double elsewhere = 0.9;
+  if (!is_smaller || !is_member(somewhere) || !is_member(elsewhere * somewhere)) {
+    throw std::logic_error(sentence(
+        "{}: members of the contained family must be members, and the first coefficients of the word the "
+        "parameters, got {} of the word {} in {}",
+        name, result.family.name, result.family.letters.letters(), letters.letters()));
+  }
+  contained = std::make_shared<const contained_family>(std::move(result));
 }
 
 bool run_time_family::is_defined(const Eigen::VectorXd& theta) const {

@@ -6,6 +6,8 @@
 #include "../support/rounding.hpp"
 #include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/aba.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/free_composition.hpp"
@@ -33,6 +35,15 @@ data_sets sets_at(double step) {
   };
   return {make(1), make(2)};
 }
+
+/// A slow oscillator, and a fast one of small amplitude.
+struct two_speeds {
+  static constexpr int dimension = 2;
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    return q[0] * q[0] * 0.5 + q[1] * q[1] * 1250.0;
+  }
+};
 
 }  // namespace
 
@@ -74,18 +85,43 @@ BOOST_AUTO_TEST_CASE(where_no_member_follows_the_data_the_loss_looks_at_fewer_st
   BOOST_TEST(of_five.follows_to_the_end());  // a loss of few steps says nothing of more
 }
 
-// Six kicks with eleven parameters have the six of the symmetric family among them, and follow where these
-// do.
-BOOST_AUTO_TEST_CASE(a_larger_family_is_no_worse_than_the_one_that_it_contains) {
-  const auto sets = sets_at(0.12);
-  const auto fitted = [&](const auto& family) {
-    return learn(run_time_family(family), chain, sets.data, sets.held_out, {.effort = effort::quick}).summary;
+// In 100 double steps of Verlet the angle of the fast oscillator errs by six turns where h omega = 3, and by
+// .004 where it is .15; that of the slow one, which moves far more, by .001 and less.
+BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
+  const phase_point<double, 2> centre{{1.0, 0.002}, {0.0, 0.1}};
+  const auto follows = [&](double step) {
+    const auto make = [&](std::uint64_t seed) {
+      return make_flow_map_data(two_speeds{}, normal_around<2>(centre, 1e-3, 1e-3),
+                                fine_steps<>(step / 180.0),
+                                {.step = step, .horizon = 100.0 * step, .trajectories = 8, .seed = seed});
+    };
+    const auto data = make(1);
+    const run_time_family family{aba<2>{}};
+    const auto problem = make_learning_problem(family, two_speeds{}, data, make(2), {});
+    return problem.follows(family.starts.front().theta);
   };
-  const auto symmetric = fitted(aba<3>{});
-  const auto larger = fitted(aba3_free{});
-  BOOST_TEST_CONTEXT(symmetric.full() << larger.full()) {
-    BOOST_TEST(larger.loss_steps >= symmetric.loss_steps);
-    if (larger.loss_steps == symmetric.loss_steps) BOOST_TEST(larger.loss <= symmetric.loss * (1.0 + 1e-6));
+  BOOST_TEST(!follows(0.06));
+  BOOST_TEST(follows(0.003));
+}
+
+// From a start alone the search in five parameters ends elsewhere.
+BOOST_AUTO_TEST_CASE(a_larger_family_is_no_worse_than_the_one_that_it_contains) {
+  const auto sets = sets_at(0.08);
+  const auto fitted = [&](const run_time_family& family) {
+    return learn(family, chain, sets.data, sets.held_out, {.random_starts = 8}).summary;
+  };
+  const run_time_family larger{aba3_free{}};
+  run_time_family alone = larger;
+  alone.contained.reset();
+  const auto of_two = fitted(run_time_family(aba<3>{}));
+  const auto of_five = fitted(larger);
+  const auto of_five_alone = fitted(alone);
+  BOOST_TEST_CONTEXT(of_two.full() << of_five.full() << of_five_alone.full()) {
+    BOOST_TEST(of_two.loss_steps == 100);
+    BOOST_TEST(of_five.loss_steps == 100);
+    BOOST_TEST(of_five.loss <= of_two.loss * (1.0 + 1e-6));  // the search goes on from there
+    BOOST_TEST(of_five.from == "best of aba3");
+    BOOST_TEST((of_five_alone.loss_steps < 100 || of_five_alone.loss > of_five.loss));
   }
 }
 

@@ -35,9 +35,6 @@ class metric {
   /// a weight is not finite.
   metric(const model& system, const flow_map_data& data, coordinates which);
 
-  /// The same coordinates over other scales: r[k] is divided by the root of squares[k], unless that is 0.
-  metric over(const Eigen::VectorXd& squares) const;
-
   /// Number of coordinates that count: 2 N less those that never move.
   Eigen::Index residuals() const { return static_cast<Eigen::Index>(active_.size()); }
   /// Names of coordinates without motion, which have no scale and are left out.

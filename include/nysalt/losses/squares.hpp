@@ -112,6 +112,19 @@ objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };
 }
 
+/// The part of each residual in the loss, of all ranks. Cost: one pass over the data.
+template <class Loss>
+Eigen::VectorXd residual_squares(const Loss& loss, const Eigen::VectorXd& theta) {
+  using R = typename Loss::scalar;
+  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
+    for (std::size_t k = 0; k < r.values.size(); ++k) terms[k] = r.values[k] * r.values[k];
+  };
+  const auto residuals = static_cast<Eigen::Index>(loss.residuals());
+  const auto by_trajectory = loss.sums(theta, false, residuals, of_stretch);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(residuals);
+  return loss.share().sum(by_trajectory, zero);
+}
+
 /// What each trajectory of this rank adds to the gradient of the loss, by residual: a column each.
 template <class Loss>
 std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {

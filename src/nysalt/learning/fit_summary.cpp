@@ -42,8 +42,9 @@ std::string fit_summary::uncertainty() const {
 
 std::string fit_summary::following() const {
   if (follows_to_the_end()) return {};
-  if (!follows) return fmt::format("its error exceeds a twentieth of the motion within {} steps", loss_steps);
-  return fmt::format("it follows trajectories for {} steps, not for {}", loss_steps, trajectory_steps);
+  const std::string steps = fmt::format("{} step{}", loss_steps, loss_steps == 1 ? "" : "s");
+  if (!follows) return fmt::format("its error exceeds a twentieth of the motion within {}", steps);
+  return fmt::format("it follows trajectories for {}, not for {}", steps, trajectory_steps);
 }
 
 std::string fit_summary::brief() const {

@@ -11,15 +11,17 @@ namespace {
 /// Whether the errors at these times are below a twentieth of the motion, in the mean over coordinates: each
 /// over its own motion, as a fast one of small amplitude is not followed where only slow ones are; in the
 /// energy norm all over that of all.
-std::function<bool(const Eigen::VectorXd&)> follows_over(const source_of_losses& from,
-                                                         after_steps_options times) {
+std::function<bool(const Eigen::VectorXd&)> follows_over(const source_of_losses& from, const data_loss& loss,
+                                                         const after_steps_options& times) {
   Eigen::VectorXd motion = motion_in(from.data, *from.measure, times);
   if (from.which == coordinates::energy) motion.setConstant(motion.mean());
-  loss_inputs inputs = from.inputs(from.data, std::move(times));
-  inputs.measure = std::make_shared<const metric>(from.measure->over(motion));
-  constexpr double lost = 0.05 * 0.05;
-  return [value = of_states(inputs).value, most = lost * static_cast<double>(motion.size())](
-             const Eigen::VectorXd& theta) { return value(theta) <= most; };
+  return [by_residual = loss.by_residual, motion](const Eigen::VectorXd& theta) {
+    constexpr double lost = 0.05 * 0.05;
+    const Eigen::VectorXd squares = by_residual(theta);  // those of a time after those of another
+    double relative = 0.0;
+    for (Eigen::Index k = 0; k < squares.size(); ++k) relative += squares[k] / motion[k % motion.size()];
+    return relative <= lost * static_cast<double>(motion.size());
+  };
 }
 
 }  // namespace
@@ -86,7 +88,7 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
   }
   if (!is_of_trajectories) return;
   problem.facts.trajectory_steps = whole;
-  problem.follows = follows_over(from, stages.back());
+  problem.follows = follows_over(from, loss, stages.back());
   if (!has_several_steps) return;
   problem.one_step_before = one_step_before->of_theta;
   problem.shorter = std::make_shared<learning_problem>(without);

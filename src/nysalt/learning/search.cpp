@@ -214,15 +214,17 @@ search_result search(const search_task& task, const std::vector<named_parameters
     const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
     return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
   };
-  // Where all minima that are admitted err by more than twice what one does that is not, or by more than a
-  // kept start, there may be better ones at the edge.
+  // Where all minima that are admitted err by more than twice what a refused one does, or by more than a kept
+  // start, there may be better ones at the edge.
+  const bool is_best = found && found->theta == sound.front().theta;
   const auto found_is_above = [&](double judged) { return found && judged < found->judged; };
   constexpr double twofold = 4.0;  // of squared errors
-  const bool edge_may_be_better = found_is_above(twofold * sound.front().judged) ||
-                                  std::ranges::any_of(task.kept, [&](const named_parameters& start) {
-                                    return found_is_above(task.judge(start.theta)) && is_allowed(start.theta);
-                                  });
-  if (!found || found->theta != sound.front().theta) result.unguarded = sound.front();
+  const bool edge_may_be_better =
+      !is_best && (found_is_above(twofold * sound.front().judged) ||
+                   std::ranges::any_of(task.kept, [&](const named_parameters& start) {
+                     return found_is_above(task.judge(start.theta)) && is_allowed(start.theta);
+                   }));
+  if (!is_best) result.unguarded = sound.front();
   if (found && !edge_may_be_better) {
     result.best = *found;
     return result;

@@ -31,6 +31,7 @@ using detail::is_better;
 using detail::length_of_trial;
 using detail::noise_of_difference;
 using detail::objection;
+using detail::options_within;
 using detail::starts_of;
 using detail::summarise_rival;
 using detail::trial_length;
@@ -61,22 +62,20 @@ bool tells_of_rare_states(const trial_result& trial) {
 /// parameters give, which the first stages of a search among many lose sight of. Nothing where there is none.
 std::optional<named_parameters> best_contained(search_task task, const learning_problem& problem) {
   const auto inner = problem.family.contained;
-  const fit_options& options = problem.options;
-  const bool is_whole = std::ssize(task.free) == problem.family.parameters();
-  if (!inner || task.stages.empty() || options.start || !is_whole) return std::nullopt;
-  fit_options how = options;
-  how.fixed.clear();
-  how.further_starts.clear();
-  how.effort = effort::quick;
-  task.family = &inner->family;
+  if (!inner || task.stages.empty() || problem.options.start) return std::nullopt;
+  const auto options = options_within(*inner, problem.options);
+  if (!options) return std::nullopt;
   task.free.clear();
-  for (Eigen::Index k = 0; k < inner->family.parameters(); ++k) task.free.push_back(k);
+  for (Eigen::Index k = 0; k < inner->family.parameters(); ++k) {
+    if (!options->fixed[static_cast<std::size_t>(k)]) task.free.push_back(k);
+  }
   task.withstands = {};
   task.refuge = {};
   task.one_step_loss = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
-  const search_result found = search(within(*inner, task), starts_of(inner->family, how, problem, task.free));
+  const auto starts = starts_of(inner->family, *options, problem, task.free);
+  const search_result found = search(within(*inner, task), starts);
   if (found.lost_after > 0) return std::nullopt;
   return named_parameters{"best of " + inner->family.name, inner->embed(found.best.theta)};
 }
@@ -184,7 +183,8 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto seconds = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   };
-  if (const auto known = best_contained(task, problem)) task.kept.push_back(*known);
+  const auto contained = best_contained(task, problem);
+  if (contained) task.kept.push_back(*contained);
   search_result found = search(task, starts);
   if (found.lost_after > 0) return {{}, found.lost_after, seconds()};
   try_one_step(task, starts, found);
@@ -207,6 +207,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
     }
     if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
     if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
+    if (contained) members.push_back(member_at(contained->name, contained->theta));
     std::ranges::stable_sort(members, {}, &contender::loss);
   }
   const bool has_settled = found.best.converged || found.best.in_valley || found.best.is_held;

@@ -38,21 +38,32 @@ double exceeded_often(std::vector<double> values, std::size_t states) {
 
 /// Ranges of frequencies that lie apart, as those of stiff bonds and of what they hold do: with nothing
 /// between them over a quarter of their distance from 0 and over a tenth of the highest. The first begins at
-/// 0. One range where not all frequencies are known, or of few states.
+/// 0. The k-th lowest frequency is continuous along the motion, and passes through all between the least and
+/// the largest that is met. One range where not all frequencies are known, or of few states.
 std::vector<frequency_band> clusters(const frequencies_along& along) {
   constexpr double quarter = 0.25;
   constexpr double tenth = 0.1;
-  constexpr std::size_t enough = 64;
-  std::vector<double> all;
-  for (const auto& one : along.of_state) all.insert(all.end(), one.begin(), one.end());
-  std::ranges::sort(all);
-  if (!along.are_complete || along.of_state.size() < enough) return {{0.0, all.back()}};
+  constexpr int enough = 64;
+  const double highest = along.highest().frequency;
+  std::vector<frequency_band> of_number;
+  int known = 0;
+  for (const auto& one : along.of_state) {
+    if (one.empty()) continue;
+    ++known;
+    if (of_number.empty()) of_number.assign(one.size(), {highest, 0.0});
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      of_number[k] = {std::min(of_number[k].low, one[k]), std::max(of_number[k].high, one[k])};
+    }
+  }
+  if (!along.are_complete || known < enough) return {{0.0, highest}};
   std::vector<frequency_band> result{{0.0, 0.0}};
-  for (const double omega : all) {
-    const double distance = omega - result.back().high;
-    if (distance > std::max(quarter * result.back().high, tenth * all.back()))
-      result.push_back({omega, omega});
-    result.back().high = std::max(result.back().high, omega);
+  for (const auto& [low, high] : of_number) {
+    const bool is_first = result.back().high == 0.0;
+    const double distance = low - result.back().high;
+    if (!is_first && distance > std::max(quarter * result.back().high, tenth * highest)) {
+      result.push_back({low, high});
+    }
+    result.back().high = std::max(result.back().high, high);
   }
   return result;
 }
@@ -121,8 +132,9 @@ void stability_guard::estimate(const frequencies_along& along, std::size_t typic
     bands_.push_back({low * (1.0 - margin), high * (1.0 + margin)});
     const double often = exceeded_often(highest, typical);
     if (often == 0.0 && k > 0) continue;
+    // Of a range that few more than a tenth of the states meet the two may come in another order.
     const double lowest = k == 0 ? 0.0 : high - exceeded_often(below_high, typical);
-    often_.push_back({lowest * (1.0 - margin), often * (1.0 + margin)});
+    often_.push_back({std::min(lowest, often) * (1.0 - margin), std::max(lowest, often) * (1.0 + margin)});
   }
 }
 

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/detail/together.hpp"
@@ -59,6 +62,26 @@ std::vector<named_parameters> starts_of(const run_time_family& family, const fit
     starts.push_back(std::move(start));
   }
   return starts;
+}
+
+std::optional<fit_options> options_within(const contained_family& inner, const fit_options& options) {
+  constexpr int few = 40;
+  fit_options result = options;
+  result.further_starts.clear();
+  result.effort = effort::quick;
+  if (result.random_starts) result.random_starts = std::min(*result.random_starts, few);
+  result.fixed.assign(static_cast<std::size_t>(inner.family.parameters()), std::nullopt);
+  for (std::size_t k = 0; k < options.fixed.size(); ++k) {
+    if (!options.fixed[k]) continue;
+    const auto row = inner.slopes.row(static_cast<Eigen::Index>(k));
+    const double rest = *options.fixed[k] - inner.origin[static_cast<Eigen::Index>(k)];
+    Eigen::Index only = 0;  // parameter that it follows from
+    const double slope = row.cwiseAbs().maxCoeff(&only);
+    if (slope == 0.0 && rest == 0.0) continue;
+    if (slope == 0.0 || (row.array() != 0.0).count() != 1) return std::nullopt;
+    result.fixed[static_cast<std::size_t>(only)] = rest / row[only];
+  }
+  return result;
 }
 
 search_task within(const contained_family& inner, search_task task) {

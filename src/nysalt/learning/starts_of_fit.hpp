@@ -2,6 +2,7 @@
 // Where the searches of a fit start, and what is asked of them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "nysalt/communicator.hpp"
@@ -19,6 +20,10 @@ void fix(const fit_options& options, Eigen::VectorXd& theta);
 std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
                                         const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free);
+
+/// For a search, of little effort, in a family that another one contains; nothing where the values of fixed
+/// parameters are not those of a member of the smaller family.
+std::optional<fit_options> options_within(const contained_family& inner, const fit_options& options);
 
 /// The same task, of a larger family, among the members of one that it contains. The kept starts and the
 /// refuge are of the smaller family.

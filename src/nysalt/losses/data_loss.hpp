@@ -30,6 +30,7 @@ struct data_loss {
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   std::function<std::vector<double>(const Eigen::VectorXd&)> by_trajectory;  // of those of this rank
   std::function<double(const Eigen::VectorXd&)> value;
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> by_residual;  // the mean square of each
   std::function<std::int64_t()> evaluations;  // of the force at this rank so far
   /// The same of a method, which has no parameters; by_trajectory() at the empty theta.
   std::function<std::vector<double>(const run_time_family& method)> by_trajectory_of;
@@ -65,6 +66,7 @@ data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::share
       .scores = [loss, kept](const Eigen::VectorXd& theta) { return scores_of(*loss, theta); },
       .by_trajectory = [loss, kept](const Eigen::VectorXd& theta) { return trajectory_losses(*loss, theta); },
       .value = [loss, kept](const Eigen::VectorXd& theta) { return loss_value(*loss, theta); },
+      .by_residual = [loss, kept](const Eigen::VectorXd& theta) { return residual_squares(*loss, theta); },
       .evaluations = [loss] { return loss->evaluations(); },
       .by_trajectory_of =
           [loss, kept](const run_time_family& method) {

@@ -50,14 +50,6 @@ metric::metric(const model& system, const flow_map_data& data, coordinates which
   weigh(data, which);
 }
 
-metric metric::over(const Eigen::VectorXd& squares) const {
-  metric result = *this;
-  for (Eigen::Index k = 0; k < residuals(); ++k) {
-    if (squares[k] > 0.0) result.weight_[active_[static_cast<std::size_t>(k)]] /= std::sqrt(squares[k]);
-  }
-  return result;
-}
-
 void metric::change_coordinates(const model& system, coordinates which) {
   if (!has_modes(system)) {
     throw std::invalid_argument(sentence("the {} coordinates of {} are not known: it has no modes(); use qp",
