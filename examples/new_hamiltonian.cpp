@@ -70,7 +70,7 @@ int main() {
 
 // Expected output:
 // check: the force is -grad V
-// b1 = 0.4920, beta1 = 0.3864, usable: yes
+// b1 = 0.4939, beta1 = 0.3873, usable: yes
 // force derivatives by automatic differentiation
 //
 // symplectic to rounding

@@ -180,13 +180,37 @@ BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
   BOOST_TEST(!of_few.admits(two_stages, with_a_gap(), 3.5 / 50.0));
 }
 
-// Of a ring of wells frequencies fill all between 0 and the highest.
+// Of two coupled wells the two frequencies come together.
 BOOST_AUTO_TEST_CASE(undeclared_frequencies_without_a_gap_are_one_band) {
   draws random;
-  const dynamic_potential ring{4};
-  std::vector<phase_point<double, Eigen::Dynamic>> states;
-  for (int n = 0; n < 200; ++n) states.push_back(random.state(ring, 0.8));
-  BOOST_TEST(stability_guard(ring, states).frequencies().size() == 1U);
+  const potential_only wells;
+  std::vector<phase_point<double, 2>> states;
+  for (int n = 0; n < 200; ++n) states.push_back(random.state(wells, 0.8));
+  BOOST_TEST(stability_guard(wells, states).frequencies().size() == 1U);
+}
+
+// The fast frequency is 20 or 30, and passes through all between them, though no state has one of these.
+BOOST_AUTO_TEST_CASE(what_one_frequency_passes_through_is_one_band) {
+  struct two_stiffnesses {
+    static constexpr int dimension = 2;
+    void force(const vector<double, 2>& q, vector<double, 2>& f) const {
+      f[0] = -q[0];
+      f[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * q[1];
+    }
+    void force_derivative(const vector<double, 2>& q, const vector<double, 2>& v,
+                          vector<double, 2>& g) const {
+      g[0] = -v[0];
+      g[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * v[1];
+    }
+  };
+  std::vector<phase_point<double, 2>> states;
+  for (int n = 0; n < 100; ++n) states.push_back({{n % 2 == 0 ? 1.0 : -1.0, 0.0}, {0.0, 1.0}});
+  const stability_guard guard(two_stiffnesses{}, states);
+  BOOST_TEST_CONTEXT(guard.description()) {
+    BOOST_REQUIRE(guard.frequencies().size() == 2U);
+    BOOST_TEST(guard.frequencies()[1].low < 20.0);
+    BOOST_TEST(guard.frequencies()[1].high > 30.0);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(without_bands_and_states_a_kinetic_energy_that_is_not_quadratic_has_no_guard) {

@@ -104,24 +104,21 @@ BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
   BOOST_TEST(follows(0.003));
 }
 
-// From a start alone the search in five parameters ends elsewhere.
-BOOST_AUTO_TEST_CASE(a_larger_family_is_no_worse_than_the_one_that_it_contains) {
-  const auto sets = sets_at(0.08);
+// From few starts a search among eleven parameters misses what five have.
+BOOST_AUTO_TEST_CASE(a_larger_family_begins_at_the_optimum_of_the_one_that_it_contains) {
+  const auto sets = sets_at(0.12);
   const auto fitted = [&](const run_time_family& family) {
-    return learn(family, chain, sets.data, sets.held_out, {.random_starts = 8}).summary;
+    return learn(family, chain, sets.data, sets.held_out, {.random_starts = 2}).summary;
   };
-  const run_time_family larger{aba3_free{}};
+  const run_time_family larger{bab6_free{}};
   run_time_family alone = larger;
   alone.contained.reset();
-  const auto of_two = fitted(run_time_family(aba<3>{}));
-  const auto of_five = fitted(larger);
-  const auto of_five_alone = fitted(alone);
-  BOOST_TEST_CONTEXT(of_two.full() << of_five.full() << of_five_alone.full()) {
-    BOOST_TEST(of_two.loss_steps == 100);
-    BOOST_TEST(of_five.loss_steps == 100);
-    BOOST_TEST(of_five.loss <= of_two.loss * (1.0 + 1e-6));  // the search goes on from there
-    BOOST_TEST(of_five.from == "best of aba3");
-    BOOST_TEST((of_five_alone.loss_steps < 100 || of_five_alone.loss > of_five.loss));
+  const auto found = fitted(larger);
+  const auto found_alone = fitted(alone);
+  BOOST_TEST_CONTEXT(found.full() << found_alone.full()) {
+    BOOST_TEST(found.from == "best of bab6");
+    BOOST_TEST(found.follows_to_the_end());
+    BOOST_TEST((!found_alone.follows_to_the_end() || found_alone.loss > 2.0 * found.loss));
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/noise_seam.hpp"
+#include "nysalt/detail/pairs_in_loop.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
@@ -94,9 +96,18 @@ class prepared_word<word<L...>, C, N> {
   [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                       auto& cursor) const {
     constexpr bool last_differs = W::plan.in_last != W::plan.in_loop;
-    for (std::int64_t n = last_differs ? 1 : 0; n < steps; ++n) {
-      loop<in_loop_plan, W::first_in_loop>(system, x, cursor);
-      cursor.next();
+    const std::int64_t alike = last_differs ? steps - 1 : steps;
+    if constexpr (is_in_pairs && !is_dual<T>) {
+      constexpr auto begins = std::same_as<typename W::template letter<W::first_in_loop>, kick>
+                                  ? detail::pair_begins::with_kick
+                                  : detail::pair_begins::with_drift;
+      const auto pairs = pairs_of_loop(std::make_index_sequence<(end - W::first_in_loop) / 2>{});
+      detail::take_pairs<begins>(system, x, cursor.room, pairs.data(), pairs.size(), alike);
+    } else {
+      for (std::int64_t n = 0; n < alike; ++n) {
+        loop<in_loop_plan, W::first_in_loop>(system, x, cursor);
+        cursor.next();
+      }
     }
     if constexpr (last_differs) {
       if (steps > 0) {
@@ -123,6 +134,35 @@ class prepared_word<word<L...>, C, N> {
  private:
   using first = typename W::template letter<0>;
   static constexpr std::size_t end = W::halves_meet ? W::length - 1 : W::length;  // of loop and plain step
+
+  /// Whether a step of an open run is drifts and kicks in turn, several of each, whose forces nothing else
+  /// needs.
+  static constexpr bool is_in_pairs = [] {
+    constexpr std::size_t first = W::first_in_loop;
+    if (!std::same_as<C, double> || end - first < 4 || (end - first) % 2 != 0) return false;
+    constexpr std::array is_kick{std::same_as<L, kick>...};
+    constexpr std::array is_drift{std::same_as<L, drift>...};
+    for (std::size_t i = first; i < end; ++i) {
+      if (!is_kick[i] && !is_drift[i]) return false;
+      if (i > first && is_kick[i] == is_kick[i - 1]) return false;
+      if (is_kick[i] && W::plan.in_loop[i] != evaluation::alone) return false;
+    }
+    return true;
+  }();
+
+  template <std::size_t I>
+  double folded() const {
+    if constexpr (W::merges && I + 1 == W::length) {
+      return seam_;
+    } else {
+      return std::get<I>(letters_);
+    }
+  }
+  template <std::size_t... I>
+  auto pairs_of_loop(std::index_sequence<I...>) const {
+    constexpr std::size_t first = W::first_in_loop;
+    return std::array{std::array{folded<first + 2 * I>(), folded<first + 2 * I + 1>()}...};
+  }
 
   template <std::size_t... I>
   static auto prepare(const coefficients& c, double h, const surroundings_of_word& around,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "nysalt/detail/pairs_in_loop.hpp"
 #include "nysalt/detail/step_program.hpp"
 #include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -176,36 +177,27 @@ template <class T>
   }
 }
 
-/// Drifts and kicks in turn, without a decision: a state of few coordinates stays in registers.
+/// Steps of a program of drifts and kicks in turn.
 template <class S, class T>
-[[gnu::flatten, gnu::noinline]] void take_pairs(const S& system, state_in_place<T, S::dimension>& given,
-                                                auto& room, const step_program<double>& letters,
-                                                std::int64_t steps, const watch<T>& watched) {
+[[gnu::flatten, gnu::noinline]] void take_steps_in_pairs(const S& system,
+                                                         state_in_place<T, S::dimension>& given, auto& room,
+                                                         const step_program<double>& letters,
+                                                         std::int64_t steps, const watch<T>& watched) {
   flow_state<T, S::dimension> x = taken_from<S::dimension>(given);  // local: it cannot alias the system
-  const auto drift_and_kick = [&](std::int64_t count, std::size_t pairs) __attribute__((always_inline)) {
-    for (std::int64_t n = 0; n < count; ++n) {
-      for (std::size_t i = 0; i < pairs; ++i) {
-        const auto& [first, second] = letters.pairs[i];
-        drift::apply(system, first, x, room);
-        kick::evaluate_and_apply(system, second, x, room);
-      }
-    }
+  const auto take = [&]<pair_begins Begins>(std::int64_t count, std::size_t pairs)
+      __attribute__((always_inline)) {
+    take_pairs<Begins>(system, x, room, letters.pairs.data(), pairs, count);
   };
+  using enum pair_begins;
+  const std::size_t all = letters.pairs.size();
   const auto look = [&] { show<field::whole, S, T, double>(system, x, room, letters, watched); };
   if (letters.begins_with_kick) {
-    const auto kick_and_drift = [&](std::int64_t count) __attribute__((always_inline)) {
-      for (std::int64_t n = 0; n < count; ++n) {
-        for (const auto& [first, second] : letters.pairs) {
-          kick::evaluate_and_apply(system, first, x, room);
-          drift::apply(system, second, x, room);
-        }
-      }
-    };
-    watch_steps(steps, watched, kick_and_drift, look);
+    watch_steps(
+        steps, watched, [&](std::int64_t count) { take.template operator()<with_kick>(count, all); }, look);
   } else if (letters.keeps_last_force) {
-    const auto keep_last_force = [&](std::int64_t count) __attribute__((always_inline)) {
-      drift_and_kick(count - 1, letters.pairs.size());
-      drift_and_kick(1, letters.pairs.size() - 1);
+    const auto keep_last_force = [&](std::int64_t count) {
+      take.template operator()<with_drift>(count - 1, all);
+      take.template operator()<with_drift>(1, all - 1);
       const auto& [first, second] = letters.pairs.back();
       drift::apply(system, first, x, room);
       force_of<field::whole, T>(system, x.q, x.f);
@@ -214,21 +206,18 @@ template <class S, class T>
     watch_steps(steps, watched, keep_last_force, look);
   } else {
     watch_steps(
-        steps, watched,
-        [&](std::int64_t count)
-            __attribute__((always_inline)) { drift_and_kick(count, letters.pairs.size()); },
-        look);
+        steps, watched, [&](std::int64_t count) { take.template operator()<with_drift>(count, all); }, look);
   }
   given_back<S::dimension>(x, given);
 }
 
-/// `steps` steps, observed or not: by take_pairs() where the program allows it.
+/// `steps` steps, observed or not: by take_steps_in_pairs() where the program allows it.
 template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
                 const step_program<C>& letters, std::int64_t steps, const callback& other,
                 const watch<T>& watched) {
   if constexpr (F == field::whole && std::same_as<C, double> && !is_dual<T>) {
-    if (!letters.pairs.empty()) return take_pairs(system, x, room, letters, steps, watched);
+    if (!letters.pairs.empty()) return take_steps_in_pairs(system, x, room, letters, steps, watched);
   }
   watch_steps(
       steps, watched, [&](std::int64_t count) { take_any_steps<F>(system, x, room, letters, count, other); },

@@ -71,7 +71,6 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
   }
   task.withstands = {};
   task.refuge = {};
-  task.one_step_loss = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
   const auto starts = starts_of(inner->family, *options, problem, task.free);
