@@ -57,7 +57,8 @@ def measure(command):
 def what_to_compile(sources, folder):
     yield "the first program, examples/first_steps.cpp", sources / "examples/first_steps.cpp"
     yield "a program of core alone, tests/consumer/core/main.cpp", sources / "tests/consumer/core/main.cpp"
-    yield "a bundled system, src/program/systems/fpu.cpp", sources / "src/program/systems/fpu.cpp"
+    for system in sorted((sources / "src/program/systems").glob("*.cpp")):
+        yield f"a bundled system, {system.name}", system
     for header in ("core.hpp", "nysalt.hpp", "learn.hpp", "odeint.hpp"):
         source = folder / (header.replace(".hpp", ".cpp"))
         source.write_text(f"#include <nysalt/{header}>\n", encoding="utf-8")
@@ -79,7 +80,7 @@ def main():
         for name, source in what_to_compile(sources, pathlib.Path(scratch)):
             cells = []
             for compiler in compilers:
-                command = [compiler, *flags_of(folder / compiler), "-o", f"{scratch}/made.o", "-c", str(source)]
+                command = [compiler, *flags_of(folder / compiler), f"-I{sources}/src", "-o", f"{scratch}/made.o", "-c", str(source)]
                 cost = measure(command)
                 fails = fails or cost is None
                 cells += ["does not compile", ""] if cost is None else [f"{cost[0]:.1f}", f"{cost[1]:.0f}"]
