@@ -66,6 +66,7 @@ json by_name(const fit_summary& fit, double fitted_parameter::*field) {
 }
 
 json fit_json(const fit_summary& fit) {
+  const bool is_of_trajectories = fit.trajectory_steps > 1;
   return {{"family", fit.family},
           {"parameters", by_name(fit, &fitted_parameter::value)},
           {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
@@ -75,6 +76,8 @@ json fit_json(const fit_summary& fit) {
           {"held_out_loss", fit.is_of_data ? json(fit.held_out_loss) : json(nullptr)},
           {"one_step_error", fit.one_step_error},
           {"trajectory_error", fit.trajectory_error},
+          {"followed_steps", is_of_trajectories ? json(fit.follows ? fit.loss_steps : 0) : json(nullptr)},
+          {"trajectory_steps", is_of_trajectories ? json(fit.trajectory_steps) : json(nullptr)},
           {"samples", fit.samples},
           {"usable", fit.usable},
           {"verdict", std::string(to_string(fit.verdict()))},

@@ -42,7 +42,8 @@ std::string shape(const json& object) {
 
 const std::string of_a_fit =
     "family:text parameters:object standard_errors:object step:number objective:text loss:number "
-    "held_out_loss:number one_step_error:number trajectory_error:number samples:integer usable:flag "
+    "held_out_loss:number one_step_error:number trajectory_error:number followed_steps:integer "
+    "trajectory_steps:integer samples:integer usable:flag "
     "verdict:text rival:text rival_loss:number rival_loss_noise:number trial:object reason:null "
     "seconds:number data_seconds:number fit_seconds:number "
     "learning_evaluations:integer expected_excess:number excess_share:number "
