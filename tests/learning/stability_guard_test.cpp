@@ -44,6 +44,19 @@ double spectral_radius(const run_time_word& word, const std::vector<double>& c, 
   return test::spectral_radius(Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}});
 }
 
+/// A fast oscillator whose stiffness a slow one switches.
+struct two_stiffnesses {
+  static constexpr int dimension = 2;
+  void force(const vector<double, 2>& q, vector<double, 2>& f) const {
+    f[0] = -q[0];
+    f[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * q[1];
+  }
+  void force_derivative(const vector<double, 2>& q, const vector<double, 2>& v, vector<double, 2>& g) const {
+    g[0] = -v[0];
+    g[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * v[1];
+  }
+};
+
 /// The force of the FPU chain, which declares nothing.
 struct undeclared_chain {
   static constexpr int dimension = 6;
@@ -191,18 +204,6 @@ BOOST_AUTO_TEST_CASE(undeclared_frequencies_without_a_gap_are_one_band) {
 
 // The fast frequency is 20 or 30, and passes through all between them, though no state has one of these.
 BOOST_AUTO_TEST_CASE(what_one_frequency_passes_through_is_one_band) {
-  struct two_stiffnesses {
-    static constexpr int dimension = 2;
-    void force(const vector<double, 2>& q, vector<double, 2>& f) const {
-      f[0] = -q[0];
-      f[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * q[1];
-    }
-    void force_derivative(const vector<double, 2>& q, const vector<double, 2>& v,
-                          vector<double, 2>& g) const {
-      g[0] = -v[0];
-      g[1] = -(650.0 + 250.0 * std::tanh(1e3 * q[0])) * v[1];
-    }
-  };
   std::vector<phase_point<double, 2>> states;
   for (int n = 0; n < 100; ++n) states.push_back({{n % 2 == 0 ? 1.0 : -1.0, 0.0}, {0.0, 1.0}});
   const stability_guard guard(two_stiffnesses{}, states);
