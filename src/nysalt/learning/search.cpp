@@ -43,10 +43,19 @@ candidate descend(const search_task& task, const std::function<bool(const Eigen:
   return found;
 }
 
-/// Those that the judge can judge, from the one that it likes best on; of equals the first comes first.
-std::vector<candidate> by_judgement(std::vector<candidate> all) {
+/// A parameter is held at the end of all ranges: the data do not tell it, and such a fit is not usable.
+bool has_run_away(const candidate& one, const std::vector<Eigen::Index>& free) {
+  return std::ranges::any_of(free, [&](Eigen::Index k) {
+    return std::ranges::find(one.free, k) == one.free.end() && std::abs(one.theta[k]) == farthest_parameter;
+  });
+}
+
+/// Those that the judge can judge, from the one that it likes best on; of equals the first comes first. Those
+/// that have run away come last.
+std::vector<candidate> by_judgement(std::vector<candidate> all, const std::vector<Eigen::Index>& free) {
   std::erase_if(all, [](const candidate& one) { return !std::isfinite(one.judged); });
   std::ranges::stable_sort(all, {}, &candidate::judged);
+  std::ranges::stable_partition(all, [&](const candidate& one) { return !has_run_away(one, free); });
   return all;
 }
 
@@ -206,7 +215,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
     for (auto& one : all) one.in_valley = !one.converged;
   }
   std::erase_if(all, [](const candidate& c) { return !c.converged && !c.in_valley; });
-  const auto sound = by_judgement(std::move(all));
+  const auto sound = by_judgement(std::move(all), task.free);
   if (sound.empty()) return result;
   result.best = sound.front();
   const auto found = first_to_withstand(task, sound);
@@ -251,7 +260,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
     held.push_back(one);
     ++result.tried;
   }
-  held = by_judgement(std::move(held));
+  held = by_judgement(std::move(held), task.free);
   const auto at_edge = first_to_withstand(task, held);
   constexpr double hardly = 0.99;  // a minimum, of which more is known, is as good
   if (found && !(at_edge && at_edge->judged < hardly * found->judged)) {

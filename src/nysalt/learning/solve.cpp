@@ -289,6 +289,9 @@ attempt solve_as_it_is(const learning_problem& problem) {
     if (near) summary.resonance = in_words(*near);
   }
 
+  if (contained) {  // what is learned, too, and no rival of it
+    std::erase_if(members, [&](const contender& one) { return one.name == contained->name; });
+  }
   if (has_data) summarise_rival(problem, chosen, std::move(members), run_for_trial, summary);
   summary.reason = objection(summary, best.converged || best.in_valley || best.is_held, instability);
   summary.usable = summary.reason.empty();
