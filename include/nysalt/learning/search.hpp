@@ -42,13 +42,13 @@ struct search_stage {
 
 /// What a search is told.
 struct search_task {
-  const run_time_family* family;         ///< its ranges and where it is defined
-  objective loss;                        ///< what is minimised
-  std::vector<search_stage> stages{};    ///< what is minimised roughly before
-  objective one_step_loss{};             ///< the least of its minima is a start, too; empty: none is
-  std::vector<named_parameters> kept{};  ///< further starts of the last stage alone
-  std::function<double(const Eigen::VectorXd&)> judge;       ///< what is least for the best
-  std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
+  const run_time_family* family;                        ///< its ranges and where it is defined
+  objective loss;                                       ///< what is minimised
+  std::vector<search_stage> stages{};                   ///< what is minimised roughly before
+  objective one_step_loss{};                            ///< its least minimum is a start, too; empty: none is
+  std::vector<named_parameters> kept{};                 ///< further starts of the last stage alone
+  std::function<double(const Eigen::VectorXd&)> judge;  ///< what is least for the best
+  std::function<bool(const Eigen::VectorXd&)> admits;   ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
   /// The guard where the search goes on among admitted points only; empty: the same.
   std::function<bool(const Eigen::VectorXd&)> admits_at_edge{};
@@ -76,14 +76,14 @@ struct search_result {
 /// Where there are stages, the loss of each of them in turn is minimised, roughly, from the starts first and
 /// then from the best of its minima that differ, twelve and then three, those first that the guard admits. A
 /// search whose minima of a stage are all above what that stage bears ends there. With what is left the
-/// search proper begins, and with the least of the minima of the one-step loss that those of the first stage
-/// lead to: valleys of trajectories at small steps are narrow. From each start to its minimum; the judge
-/// takes the best that the guard admits and that withstands a trial run, of those that converged or ended in
-/// a valley. Where there is none, or where it errs by more than twice what one does that is not admitted, or
-/// by more than a kept start, the search goes on among admitted points only, from the starts that are and
-/// from the refuge: what it finds lies at the edge mostly, and the judge decides. A single start is what it
-/// was, whatever the judge thinks. Cost: a search for each start, twice where the guard acts, and a trial run
-/// for each of a few candidates.
+/// search proper begins, and with two of the minima of the one-step loss that twelve of the first stage lead
+/// to, the least and that of the least loss: valleys of trajectories at small steps are narrow. From each
+/// start to its minimum; the judge takes the best that the guard admits and that withstands a trial run, of
+/// those that converged or ended in a valley. Where there is none, or where it errs by more than twice what
+/// one does that is not admitted, or by more than a kept start, the search goes on among admitted points
+/// only, from the starts that are and from the refuge: what it finds lies at the edge mostly, and the judge
+/// decides. A single start is what it was, whatever the judge thinks. Cost: a search for each start, twice
+/// where the guard acts, and a trial run for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

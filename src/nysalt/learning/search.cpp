@@ -145,21 +145,31 @@ std::pair<std::vector<named_parameters>, double> most_promising(const search_tas
   return {admitted, all.empty() ? std::numeric_limits<double>::infinity() : all.front().loss};
 }
 
-/// The least minimum of the one-step loss that the first few starts lead to, if one of them converges.
-std::optional<named_parameters> one_step_minimum(const search_task& task,
-                                                 const std::vector<named_parameters>& starts) {
-  constexpr std::size_t most = 3;
+/// Of the minima of the one-step loss that the first few starts lead to, the least, and that of the least
+/// loss: where errors are tiny one step tells several minima apart that trajectories see as one narrow
+/// valley.
+std::vector<named_parameters> one_step_minima(const search_task& task,
+                                              const std::vector<named_parameters>& starts) {
+  constexpr std::size_t most = 12;
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
-  std::optional<named_parameters> best;
-  double least = std::numeric_limits<double>::infinity();
+  struct found {
+    named_parameters at;
+    double of_one_step = std::numeric_limits<double>::infinity();
+    double loss = std::numeric_limits<double>::infinity();
+  };
+  std::vector<found> all;
   for (std::size_t n = 0; n < std::min(most, starts.size()); ++n) {
     const auto end =
         minimise(task.one_step_loss, is_defined, starts[n].theta, task.free, task.max_iterations);
-    if (!(end.loss < least) || !task.family->is_in_range(end.theta)) continue;
-    least = end.loss;
-    best = {"one step", end.theta};
+    if (!std::isfinite(end.loss) || !task.family->is_in_range(end.theta)) continue;
+    all.push_back({{"one step", end.theta}, end.loss, task.loss(end.theta).value});
   }
-  return best;
+  if (all.empty()) return {};
+  const auto least = std::ranges::min_element(all, {}, &found::of_one_step);
+  const auto best = std::ranges::min_element(all, {}, &found::loss);
+  std::vector<named_parameters> result{least->at};
+  if (best != least) result.push_back(best->at);
+  return result;
 }
 
 /// Those with the least losses, from the least on; none without a finite one.
@@ -189,7 +199,7 @@ search_result search(const search_task& task, const std::vector<named_parameters
   std::vector<std::size_t>
       most_of;  // minima that are carried on: three from the last stage, four times as many before
   for (std::size_t n = task.stages.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
-  std::optional<named_parameters> of_one_step;
+  std::vector<named_parameters> of_one_step;
   for (const search_stage& stage : task.stages) {
     const std::size_t most = most_of.back();
     most_of.pop_back();
@@ -201,9 +211,9 @@ search_result search(const search_task& task, const std::vector<named_parameters
       return none;
     }
     if (!next.empty()) starts = std::move(next);
-    if (task.one_step_loss && !of_one_step) of_one_step = one_step_minimum(task, starts);
+    if (task.one_step_loss && of_one_step.empty()) of_one_step = one_step_minima(task, starts);
   }
-  if (of_one_step) starts.push_back(*of_one_step);
+  starts.insert(starts.end(), of_one_step.begin(), of_one_step.end());
   starts.insert(starts.end(), task.kept.begin(), task.kept.end());
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
