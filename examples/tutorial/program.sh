@@ -39,7 +39,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   reference             srkn11b with step 0.0001
 #   starts                fpu_law(omega=50), seed 1, held out 2251799813685249
 #   force derivatives     automatic differentiation
-#   cost                  207740632 force evaluations; data ~ s, fit ~ s
+#   cost                  209107632 force evaluations; data ~ s, fit ~ s
 # Written: scheme.json
 # scheme.json: BAGAB, order 2, 3 evaluations a step
 # stable up to z = h omega = 3.14279661, 1.04759887 for each evaluation
