@@ -46,8 +46,8 @@ struct fit_summary {
   std::string loss_name;            ///< see loss_choice
   int loss_steps = 1;               ///< of the longest stretch that the loss looks at
   int trajectory_steps = 1;         ///< of the shortest trajectory of the data
-  bool follows = true;  ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
-  bool is_of_data = true;           ///< false: the loss asks no data, and these only judge
+  bool follows = true;     ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
+  bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
   /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
