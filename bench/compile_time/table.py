@@ -80,7 +80,8 @@ def main():
         for name, source in what_to_compile(sources, pathlib.Path(scratch)):
             cells = []
             for compiler in compilers:
-                command = [compiler, *flags_of(folder / compiler), f"-I{sources}/src", "-o", f"{scratch}/made.o", "-c", str(source)]
+                command = [compiler, *flags_of(folder / compiler), f"-I{sources}/src", "-o", f"{scratch}/made.o", "-c",
+                           str(source)]
                 cost = measure(command)
                 fails = fails or cost is None
                 cells += ["does not compile", ""] if cost is None else [f"{cost[0]:.1f}", f"{cost[1]:.0f}"]
