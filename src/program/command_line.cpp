@@ -66,7 +66,7 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
     return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
             offer_compare(app, common), offer_recommend(app, common), offer_stability(app, common),
             offer_sample(app, common),  offer_new(app, common),       offer_build(app, common),
-            offer_cite(app, common)};
+            offer_export(app, common),  offer_cite(app, common)};
   } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
     std::string name = problem.what();                // "...: NAME is already added"
     name = name.substr(name.rfind(": ") == std::string::npos ? 0 : name.rfind(": ") + 2);

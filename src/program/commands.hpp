@@ -12,6 +12,7 @@ inline constexpr int no_result = 3;  // every trajectory diverged, or the fit is
 
 int build(const build_command& command, const common_settings& common);
 int cite(const cite_command& command, const common_settings& common);
+int export_method(const export_command& command, const common_settings& common);
 int list(const list_command& command, const common_settings& common);
 int learn(const learn_command& command, const common_settings& common);
 int new_system(const new_command& command, const common_settings& common);

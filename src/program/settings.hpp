@@ -122,6 +122,15 @@ struct new_command {
   std::string name;
 };
 
+struct export_command {
+  std::string method;
+  std::string host;
+  std::string output;  // empty: standard output
+  std::string name;    // empty: that of the family or method
+  std::optional<double> step;
+  bool displaced = false;
+};
+
 struct cite_command {
   std::vector<std::string> files;
   std::string system;  // empty: not said

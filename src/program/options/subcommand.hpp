@@ -24,6 +24,7 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common);
 subcommand offer_build(CLI::App& app, common_settings& common);
 subcommand offer_cite(CLI::App& app, common_settings& common);
 subcommand offer_compare(CLI::App& app, common_settings& common);
+subcommand offer_export(CLI::App& app, common_settings& common);
 subcommand offer_learn(CLI::App& app, common_settings& common);
 subcommand offer_list(CLI::App& app, common_settings& common);
 subcommand offer_new(CLI::App& app, common_settings& common);

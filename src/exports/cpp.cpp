@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+// Export to C++11.
+#include "exports.hpp"
+#include "fill.hpp"
+
+namespace nysalt::program {
+
+std::string export_to_cpp(const exported_method& method) {
+  return fill(R"(@HEADER@//
+// Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q), D(b, c) is B(b) with the force
+// at q + c h^2 M^-1 f(q). A run is start once, steps, and finish on a copy of q and p that is looked at; without a
+// processor start and finish do nothing. A force that is known is not evaluated again, also from step to step.
+// Test: c++ -DNYSALT_SELF_TEST -x c++ FILE && ./a.out
+#ifndef NYSALT_@NAME@_HPP
+#define NYSALT_@NAME@_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+namespace @NAME@ {
+
+// force(q, f) writes the force at q; both are vectors of the length of inverse_mass.
+template <class Force>
+class integrator {
+ public:
+  using vector = std::vector<double>;
+
+  integrator(Force force, vector inverse_mass, double h)
+      : force_(force), inverse_mass_(inverse_mass), h_(h), f_(inverse_mass), x_(inverse_mass), g_(inverse_mass) {}
+
+  void start(vector& q, vector& p) {
+    static const double c[] = {@START_COEFFICIENTS@};
+    apply("@START@", c, false, q, p);
+  }
+  void steps(vector& q, vector& p, long count) {
+    static const double c[] = {@KERNEL_COEFFICIENTS@};
+    bool known = false;
+    for (long k = 0; k < count; ++k) known = apply("@KERNEL@", c, known, q, p);
+  }
+  void finish(vector& q, vector& p) {
+    static const double c[] = {@FINISH_COEFFICIENTS@};
+    apply("@FINISH@", c, false, q, p);
+  }
+
+ private:
+  bool apply(const char* letters, const double* c, bool known, vector& q, vector& p) {
+    const std::size_t n = q.size();
+    for (; *letters; ++letters) {
+      if (*letters == 'A') {
+        for (std::size_t i = 0; i < n; ++i) q[i] += *c * h_ * inverse_mass_[i] * p[i];
+        known = false;
+        c += 1;
+        continue;
+      }
+      if (!known) force_(q, f_);
+      known = true;
+      if (*letters == 'B') {
+        for (std::size_t i = 0; i < n; ++i) p[i] += *c * h_ * f_[i];
+        c += 1;
+      } else {
+        for (std::size_t i = 0; i < n; ++i) x_[i] = q[i] + c[1] * h_ * h_ * inverse_mass_[i] * f_[i];
+        force_(x_, g_);
+        for (std::size_t i = 0; i < n; ++i) p[i] += c[0] * h_ * g_[i];
+        c += 2;
+      }
+    }
+    return known;
+  }
+
+  Force force_;
+  vector inverse_mass_;
+  double h_;
+  vector f_, x_, g_;
+};
+
+struct pinned_force {
+  void operator()(const std::vector<double>& q, std::vector<double>& f) const {
+    f[0] = -q[0] - 2 * q[0] * q[1];
+    f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
+  }
+};
+
+// 0 if ten steps of two oscillators end where nysalt's own do; their rounding differs by less than 1e-13.
+inline int self_test() {
+  const double end_q[] = {@Q@}, end_p[] = {@P@};
+  std::vector<double> q{0.3, 0.2}, p{0.1, -0.25};
+  integrator<pinned_force> run(pinned_force(), {1.0, 0.5}, 0.1);
+  run.start(q, p);
+  run.steps(q, p, 10);
+  run.finish(q, p);
+  double off = 0;
+  for (int i = 0; i < 2; ++i) off = std::max(off, std::max(std::abs(q[i] - end_q[i]), std::abs(p[i] - end_p[i])));
+  std::printf("@NAME@: off by %.1e\n", off);
+  return off < 1e-13 ? 0 : 1;
+}
+
+}  // namespace @NAME@
+
+#ifdef NYSALT_SELF_TEST
+int main() { return @NAME@::self_test(); }
+#endif
+
+#endif
+)",
+              values_of(method, "//"));
+}
+
+}  // namespace nysalt::program

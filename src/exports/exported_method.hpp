@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSL-1.0
+// A method on the way to another language or code.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "nysalt/methods/tabulated.hpp"
+
+namespace nysalt::program {
+
+/// A method for export, and what the header of the exported file says about it.
+struct exported_method {
+  tabulated method;
+  std::string name;                ///< an identifier in all hosts
+  std::vector<std::string> about;  ///< lines of the header: what it is, what it was learned for, how to cite
+};
+
+/// Letters with the coefficients that they take, as a program in which a gradient kick is a displaced one.
+struct exported_letters {
+  std::string letters;               ///< A, B and D
+  std::vector<double> coefficients;  ///< one for A and B; b and c for D
+
+  /// How many of them are `letter`.
+  std::size_t count(char letter) const;
+};
+
+/// The kernel that is stepped.
+exported_letters kernel_of(const exported_method& method);
+/// What acts before the first step; empty without a processor.
+exported_letters start_of(const exported_method& method);
+/// What acts on a copy of the state that is looked at; empty without a processor.
+exported_letters finish_of(const exported_method& method);
+
+/// The same method with D(b, 2 c/b) for each G(b, c). Throws refusal for a letter G with b = 0.
+exported_method with_displaced_kicks(const exported_method& method);
+
+/// The coefficients of letters that are A and B in turn, on one list; neighbours of one kind are joined and
+/// letters of coefficient zero left out. Throws refusal, naming the host, for a word with a processor or
+/// other letters.
+exported_letters composition_of(const exported_method& method, const std::string& host);
+
+/// The pinned problem of self-tests: two coupled oscillators with the masses 1 and 2,
+/// f = (-q1 - 2 q1 q2, -q2 - q1^2 + q2^2), from q = (0.3, 0.2), p = (0.1, -0.25), 10 steps of 0.1.
+struct self_test {
+  std::vector<double> q, p;  ///< where nysalt's own stepper ends
+};
+self_test self_test_of(const exported_method& method);
+
+}  // namespace nysalt::program

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "fill.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace nysalt::program {
+
+std::string fill(std::string_view text, const std::vector<std::pair<std::string, std::string>>& values) {
+  std::string result;
+  while (true) {
+    const auto begin = text.find('@');
+    result += text.substr(0, begin);
+    if (begin == std::string_view::npos) return result;
+    const auto end = text.find('@', begin + 1);
+    if (end == std::string_view::npos) throw std::logic_error("fill: a gap without an end");
+    const auto key = text.substr(begin + 1, end - begin - 1);
+    const auto found =
+        std::ranges::find(values, key, [](const auto& one) { return std::string_view(one.first); });
+    if (found == values.end()) throw std::logic_error(fmt::format("fill: no value for {}", key));
+    result += found->second;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::string digits(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string digits(const std::vector<double>& values, char exponent) {
+  std::string result;
+  for (const double value : values) {
+    std::string text = digits(value);
+    if (exponent != 'e') {
+      const auto at = text.find('e');
+      if (at == std::string::npos) text += fmt::format("{}0", exponent);
+      if (at != std::string::npos) text[at] = exponent;
+    }
+    result += (result.empty() ? "" : ", ") + text;
+  }
+  return result;
+}
+
+std::string header(const exported_method& method, std::string_view mark) {
+  std::string result;
+  for (const auto& line : method.about) {
+    std::string plain = line;
+    for (char& c : plain) {
+      if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+    }
+    result += fmt::format("{} {}\n", mark, plain);
+  }
+  return result;
+}
+
+std::vector<std::pair<std::string, std::string>> values_of(const exported_method& method,
+                                                           std::string_view mark, char exponent) {
+  std::vector<std::pair<std::string, std::string>> result{{"NAME", method.name},
+                                                          {"HEADER", header(method, mark)}};
+  const auto add = [&](const std::string& key, const exported_letters& part) {
+    result.emplace_back(key, part.letters);
+    // Where there is none, one that nothing reads: a list must not be empty.
+    const std::vector<double> none{0.0};
+    result.emplace_back(key + "_COEFFICIENTS",
+                        digits(part.letters.empty() ? none : part.coefficients, exponent));
+    result.emplace_back(key + "_SLOTS", std::to_string(std::max<std::size_t>(part.coefficients.size(), 1)));
+    result.emplace_back(key + "_LENGTH", std::to_string(part.letters.size()));
+  };
+  add("KERNEL", kernel_of(method));
+  add("START", start_of(method));
+  add("FINISH", finish_of(method));
+  const self_test end = self_test_of(method);
+  result.emplace_back("Q", digits(end.q, exponent));
+  result.emplace_back("P", digits(end.p, exponent));
+  return result;
+}
+
+}  // namespace nysalt::program

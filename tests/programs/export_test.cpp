@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSL-1.0
+// `nysalt export` writes what other languages and codes run to where nysalt's own steps end.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+bool there_is(const scratch& folder, const std::string& command) {
+  return shell(folder, "command -v " + command).code == 0;
+}
+
+/// How the self-test of a file `method.HOST` is run; empty where this machine lacks the host.
+std::string self_test_in(const scratch& folder, const std::string& host) {
+  if (host == "c")
+    return "gcc -Wall -Wextra -Werror -DNYSALT_SELF_TEST -x c method.c -o c.test -lm && ./c.test";
+  if (host == "cpp")
+    return "g++ -std=c++11 -Wall -Wextra -Werror -DNYSALT_SELF_TEST -x c++ method.cpp -o cpp.test && "
+           "./cpp.test";
+  if (host == "odeint")
+    return "g++ -std=c++14 -DNYSALT_SELF_TEST -x c++ method.odeint -o odeint.test && ./odeint.test";
+  if (host == "fortran" && there_is(folder, "gfortran")) {
+    return "cp method.fortran method.f90 && printf 'program t\\nuse exported\\nreal(kind(1d0)) :: off\\n"
+           "call self_test(off)\\nif (.not. off < 1d-13) error stop 1\\nend\\n' > t.f90 && "
+           "gfortran method.f90 t.f90 -o fortran.test && ./fortran.test";
+  }
+  if (host == "julia" && there_is(folder, "julia"))
+    return "julia -e 'include(\"method.julia\"); exit(exported.self_test() < 1e-13 ? 0 : 1)'";
+  if (host == "python") {
+    for (const std::string python : {"python3", "/usr/bin/python3"}) {
+      if (shell(folder, python + " -c 'import numpy'").code == 0) return python + " method.python";
+    }
+  }
+  // Stand-ins with the loops of BlackJAX and Mici, which Debian has not.
+  if (host == "blackjax" || host == "mici") return "python3 method." + host;
+  return "";
+}
+
+/// Exports a method to `method.HOST`, as `exported`.
+finished exported(const scratch& folder, const std::string& method, const std::string& host) {
+  return run(folder,
+             "export " + method + " --name exported --displaced --to " + host + " --output method." + host);
+}
+
+const std::vector<std::string> hosts{"c", "cpp", "fortran", "python", "julia", "odeint", "blackjax", "mici"};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(each_host_ends_where_nysalt_does) {
+  const scratch folder("export_hosts");
+  for (const auto& host : hosts) {
+    for (const std::string method : {"verlet", "srkn6b", "fg4_processed"}) {
+      const bool takes_it =
+          method != "fg4_processed" || (host != "odeint" && host != "blackjax" && host != "mici");
+      const auto done = exported(folder, method, host);
+      BOOST_TEST(done.code == (takes_it ? 0 : 2), method << " to " << host << ": " << done.err);
+      const std::string test = self_test_in(folder, host);
+      if (!takes_it || test.empty()) continue;
+      const auto tried = shell(folder, test);
+      BOOST_TEST(tried.code == 0, method << " in " << host << ": " << tried.out << tried.err);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_digit_is_found) {
+  const scratch folder("export_wrong_digit");
+  for (const auto& host : hosts) {
+    BOOST_TEST(exported(folder, "mclachlan2v", host).code == 0);
+    const std::string test = self_test_in(folder, host);
+    if (test.empty()) continue;
+    // 0.1931833275...: the tenth digit, which moves ten steps by 1e-11.
+    BOOST_TEST(shell(folder, "sed -i 's/0[.]193183327/0.193183328/' method." + host).code == 0);
+    BOOST_TEST(shell(folder, test).code != 0, host);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_method_is_exported_or_refused_in_a_sentence) {
+  const scratch folder("export_all");
+  int taken = 0;
+  const auto listed = json_of(run("list --json"));
+  for (const auto& method : listed.at("methods")) {
+    const std::string name = method.at("name");
+    const std::string letters = method.at("letters");
+    const auto done = exported(folder, name, "c");
+    const bool is_of_plain_letters = letters.find_first_not_of("ABDG|") == std::string::npos;
+    const bool is_adaptive = name.starts_with("s_aia") || name.starts_with("phase_fitted_");
+    BOOST_TEST(done.code == (is_of_plain_letters && !is_adaptive ? 0 : 2), name << ": " << done.err);
+    if (done.code != 0) {
+      BOOST_TEST(std::ranges::count(done.err, '\n') == 1);
+      BOOST_TEST(done.err.find(name) != std::string::npos, done.err);
+      continue;
+    }
+    ++taken;
+    const auto tried = shell(folder, self_test_in(folder, "c"));
+    BOOST_TEST(tried.code == 0, name << ": " << tried.out << tried.err);
+  }
+  BOOST_TEST(taken >= 25);
+}
+
+BOOST_AUTO_TEST_CASE(a_scheme_tells_what_it_was_learned_for) {
+  const scratch folder("export_scheme");
+  const auto learned =
+      run(folder, "learn --system henon_heiles --family bab3 --step 0.6 --effort quick --output s.json");
+  BOOST_TEST(learned.code == 0, learned.err);
+  for (const auto& host : hosts) {
+    const auto done = exported(folder, "s.json", host);
+    BOOST_TEST(done.code == 0, host << ": " << done.err);
+    const std::string text = shell(folder, "cat method." + host).out;
+    BOOST_TEST(text.find("henon_heiles() at the step 0.6") != std::string::npos, text);
+    const std::string test = self_test_in(folder, host);
+    if (!test.empty()) BOOST_TEST(shell(folder, test).code == 0, host);
+  }
+  const auto elsewhere = run(folder, "export s.json --to c --step 0.7");
+  BOOST_TEST(elsewhere.code == 2);
+  BOOST_TEST(elsewhere.err.find("--step must be") != std::string::npos, elsewhere.err);
+}
+
+BOOST_AUTO_TEST_CASE(what_no_host_takes_is_refused) {
+  const scratch folder("export_refused");
+  const auto must_be_told = [&](const std::string& arguments, const std::string& words) {
+    const auto done = run(folder, "export " + arguments);
+    BOOST_TEST(done.code == 2, arguments);
+    BOOST_TEST(done.out.empty());
+    BOOST_TEST(done.err.find(words) != std::string::npos, done.err);
+    BOOST_TEST(std::ranges::count(done.err, '\n') == 1);
+  };
+  must_be_told("verlet --to pyton", "did you mean python");
+  must_be_told("fg4_processed --to c", "--displaced");
+  must_be_told("mclachlan2 --to blackjax", "bcss2v");
+  must_be_told("impulse --to c", "quadratic part");
+  must_be_told("baoab --to c", "letters O");
+  must_be_told("learned:fg4 --to c", "must be learned first");
+  must_be_told("s_aia2 --to c", "fixed coefficients");
+  must_be_told("verlet --to c --step 0.1", "same at every step");
+  must_be_told("verlet --to c --output nowhere/verlet.c", "nowhere");
+  BOOST_TEST(run(folder, "export verlet").code == 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_same_as_data) {
+  const auto all = json_of(run("export verlet --to python --json"));
+  BOOST_TEST(all.at("host") == "python");
+  BOOST_TEST(all.at("letters") == "BAB");
+  BOOST_TEST(all.at("evaluations_per_step") == 1);
+  BOOST_TEST(all.at("output").is_null());
+  BOOST_TEST(all.at("text").get<std::string>().find("def steps(") != std::string::npos);
+}
