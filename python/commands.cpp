@@ -8,6 +8,8 @@
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
 #include "../src/comparison/sampling_choice.hpp"
+#include "../src/exports/exported_source.hpp"
+#include "../src/exports/exports.hpp"
 #include "../src/program/fitted_family.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"
@@ -113,6 +115,22 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
   return all;
 }
 
+/// The text of `nysalt export`.
+std::string export_method(const py::dict& arguments) {
+  const argument_reader asked(arguments);
+  std::string method, host;
+  held_methods held;
+  program::export_request how;
+  asked.take("method", method);
+  asked.take("to", host);
+  asked.take("held", held);
+  asked.take("name", how.name);
+  asked.take("step", how.step);
+  asked.take("displaced", how.displaced);
+  const auto& to = program::find_export_host(host);
+  return to.text(program::exported_from(program::find_method(method, held), how));
+}
+
 void save(const std::string& path, const std::string& text) {
   try {
     write_file(path, text);
@@ -132,6 +150,7 @@ void add_commands(py::module_& module) {
   module.def("recommend_for_sampling", &recommend_for_sampling);
   module.def("listing", [] { return dumped(program::listing()); });
   module.def("method", &method);
+  module.def("export", &export_method);
   module.def("save", &save);
   module.def("in_words_of_python", &in_words_of_python);
 }

@@ -25,7 +25,7 @@ import numpy as np
 from . import _nysalt
 
 __version__: str = _nysalt.version
-__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "families", "hamiltonian", "integrate", "learn", "load",
+__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "families", "hamiltonian", "integrate", "learn", "load",
            "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
@@ -373,6 +373,18 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     to_q, to_p, warnings = _nysalt.integrate(_held_by(system), asked, q, p, out)
     _warn(warnings)
     return to_q, to_p
+
+
+def export(method: Method, to: str, *, name: Optional[str] = None, step: Optional[float] = None,
+           displaced: Optional[bool] = None) -> str:
+    """The method as source for another language or code: the text that `nysalt export` writes.
+
+    `to` is "c", "cpp", "fortran", "python", "julia", "odeint", "blackjax" or "mici"; `name` the identifier in the
+    text. `step` is of a scheme over several steps. displaced=True makes displaced kicks of gradient kicks, which
+    are not symplectic. The text has a self-test.
+    """
+    (label,), held = _held_by_name([method])
+    return _nysalt.export(dict(method=label, to=to, held=held, name=name, step=step, displaced=displaced))
 
 
 def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Numbers, *,

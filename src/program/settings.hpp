@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "comparison/settings.hpp"
+#include "exports/export_request.hpp"
 #include "plugin/potential.hpp"
 
 namespace nysalt::program {
@@ -126,9 +127,7 @@ struct export_command {
   std::string method;
   std::string host;
   std::string output;  // empty: standard output
-  std::string name;    // empty: that of the family or method
-  std::optional<double> step;
-  bool displaced = false;
+  export_request how;
 };
 
 struct cite_command {

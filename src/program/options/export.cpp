@@ -19,9 +19,9 @@ subcommand offer_export(CLI::App& app, common_settings& common) {
   command.add_option("METHOD", asked->method, "a name, or the file of a scheme or table")->required();
   command.add_option("--to", asked->host, "the language or code, one of those below")->required();
   command.add_option("--output", asked->output, "the file [standard output]");
-  command.add_option("--name", asked->name, "identifier in the file [the family or method]");
-  add_number(command, "--step", asked->step, "of a scheme of several steps, or of another than its own");
-  command.add_flag("--displaced", asked->displaced,
+  command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
+  add_number(command, "--step", asked->how.step, "of a scheme of several steps, or of another than its own");
+  command.add_flag("--displaced", asked->how.displaced,
                    "gradient kicks G become displaced kicks D, not symplectic");
   add_common(command, common);
   std::string hosts;
