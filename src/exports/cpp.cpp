@@ -20,7 +20,7 @@ std::string export_to_cpp(const exported_method& method) {
 #include <cstdio>
 #include <vector>
 
-namespace @NAME@ {
+namespace nysalt_@NAME@ {
 
 // force(q, f) writes the force at q; both are vectors of the length of inverse_mass.
 template <class Force>
@@ -97,10 +97,10 @@ inline int self_test() {
   return off < 1e-13 ? 0 : 1;
 }
 
-}  // namespace @NAME@
+}  // namespace nysalt_@NAME@
 
 #ifdef NYSALT_SELF_TEST
-int main() { return @NAME@::self_test(); }
+int main() { return nysalt_@NAME@::self_test(); }
 #endif
 
 #endif

@@ -50,7 +50,8 @@ std::string header(const exported_method& method, std::string_view mark) {
   for (const auto& line : method.about) {
     std::string plain = line;
     for (char& c : plain) {
-      if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+      if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~' || c == '\\')
+        c = '?';  // a backslash would go on in the next line
     }
     result += fmt::format("{} {}\n", mark, plain);
   }

@@ -29,8 +29,8 @@ std::string export_to_fortran(const exported_method& method) {
 ! Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q), D(b, c) is B(b) with the force
 ! at q + c h^2 M^-1 f(q). A run is start once, steps, and finish on a copy of q and p that is looked at; without a
 ! processor start and finish do nothing. A force that is known is not evaluated again, also from step to step.
-! Test: a program of three lines: use @NAME@; call self_test(off); print *, off
-module @NAME@
+! Test: a program of three lines: use nysalt_@NAME@; call self_test(off); print *, off
+module nysalt_@NAME@
   implicit none
   private
   public :: start, steps, finish, self_test

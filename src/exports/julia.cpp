@@ -10,8 +10,8 @@ std::string export_to_julia(const exported_method& method) {
 # Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q), D(b, c) is B(b) with the force
 # at q + c h^2 M^-1 f(q). A run is start! once, steps!, and finish! on a copy of q and p that is looked at; without
 # a processor start! and finish! do nothing. A force that is known is not evaluated again, also from step to step.
-# Test: julia -e 'include("FILE"); exit(@NAME@.self_test() < 1e-13 ? 0 : 1)'
-module @NAME@
+# Test: julia -e 'include("FILE"); exit(nysalt_@NAME@.self_test() < 1e-13 ? 0 : 1)'
+module nysalt_@NAME@
 
 const KERNEL = ("@KERNEL@", [@KERNEL_COEFFICIENTS@])
 const START = ("@START@", [@START_COEFFICIENTS@])

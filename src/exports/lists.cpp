@@ -56,7 +56,7 @@ std::string export_to_odeint(const exported_method& method) {
   return fill(R"(@HEADER@//
 // A stepper of Boost.Odeint: its stage i is q += a[i] h v(p), then p += b[i] h f(q). It evaluates the force in each of
 // its @STAGES@ stages, also where b[i] is zero, and keeps none from step to step.
-//   @NAME@<state> stepper;
+//   @NAME@_stepper<state> stepper;
 //   boost::numeric::odeint::integrate_const(stepper, std::make_pair(velocity, force), std::make_pair(q, p), t0, t1, h);
 // Test: c++ -DNYSALT_SELF_TEST -x c++ FILE && ./a.out
 #ifndef NYSALT_@NAME@_ODEINT_HPP
@@ -71,14 +71,14 @@ std::string export_to_odeint(const exported_method& method) {
 #include <utility>
 
 template <class State>
-class @NAME@
+class @NAME@_stepper
     : public boost::numeric::odeint::symplectic_nystroem_stepper_base<
           @STAGES@, 1, State, State, double, State, State, double,
           typename boost::numeric::odeint::algebra_dispatcher<State>::algebra_type,
           typename boost::numeric::odeint::operations_dispatcher<State>::operations_type,
           boost::numeric::odeint::initially_resizer> {
  public:
-  @NAME@()
+  @NAME@_stepper()
       : boost::numeric::odeint::symplectic_nystroem_stepper_base<
             @STAGES@, 1, State, State, double, State, State, double,
             typename boost::numeric::odeint::algebra_dispatcher<State>::algebra_type,
@@ -107,7 +107,7 @@ inline int @NAME@_self_test() {
     f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
   };
   std::pair<state, state> x(state{{0.3, 0.2}}, state{{0.1, -0.25}});
-  @NAME@<state> stepper;
+  @NAME@_stepper<state> stepper;
   for (int k = 0; k < 10; ++k) stepper.do_step(std::make_pair(velocity, force), x, 0.1 * k, 0.1);
   double off = 0;
   for (int i = 0; i < 2; ++i)

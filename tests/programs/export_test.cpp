@@ -27,12 +27,13 @@ std::string self_test_in(const scratch& folder, const std::string& host) {
   if (host == "odeint")
     return "g++ -std=c++14 -DNYSALT_SELF_TEST -x c++ method.odeint -o odeint.test && ./odeint.test";
   if (host == "fortran" && there_is(folder, "gfortran")) {
-    return "cp method.fortran method.f90 && printf 'program t\\nuse exported\\nreal(kind(1d0)) :: off\\n"
+    return "cp method.fortran method.f90 && printf 'program t\\nuse nysalt_exported\\nreal(kind(1d0)) :: "
+           "off\\n"
            "call self_test(off)\\nif (.not. off < 1d-13) error stop 1\\nend\\n' > t.f90 && "
            "gfortran method.f90 t.f90 -o fortran.test && ./fortran.test";
   }
   if (host == "julia" && there_is(folder, "julia"))
-    return "julia -e 'include(\"method.julia\"); exit(exported.self_test() < 1e-13 ? 0 : 1)'";
+    return "julia -e 'include(\"method.julia\"); exit(nysalt_exported.self_test() < 1e-13 ? 0 : 1)'";
   if (host == "python") {
     for (const std::string python : {"python3", "/usr/bin/python3"}) {
       if (shell(folder, python + " -c 'import numpy'").code == 0) return python + " method.python";
@@ -120,6 +121,20 @@ BOOST_AUTO_TEST_CASE(a_scheme_tells_what_it_was_learned_for) {
   const auto elsewhere = run(folder, "export s.json --to c --step 0.7");
   BOOST_TEST(elsewhere.code == 2);
   BOOST_TEST(elsewhere.err.find("--step must be") != std::string::npos, elsewhere.err);
+}
+
+BOOST_AUTO_TEST_CASE(any_name_becomes_an_identifier) {
+  const scratch folder("export_names");
+  for (const auto& host : hosts) {
+    for (const std::string name : {"for", "steps", "7 days; it's"}) {
+      const auto done =
+          run(folder, "export verlet --name \"" + name + "\" --to " + host + " --output method." + host);
+      BOOST_TEST(done.code == 0, done.err);
+      const bool calls_by_name = host == "fortran" || host == "julia";  // self_test_in() knows another name
+      const std::string test = calls_by_name ? "" : self_test_in(folder, host);
+      if (!test.empty()) BOOST_TEST(shell(folder, test).code == 0, host << ": " << name);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_no_host_takes_is_refused) {

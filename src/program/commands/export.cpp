@@ -16,9 +16,13 @@ int export_method(const export_command& command, const common_settings& common) 
   on_first(all_ranks(), [&] {
     const export_host& host = find_export_host(command.host);
     if (!command.output.empty()) require_writable(command.output);
-    const exported_method exported = exported_from(find_method(command.method), command.how);
+    const method_source source = find_method(command.method);
+    const exported_method exported = exported_from(source, command.how);
     const run_time_word& word = exported.method.letters();
     const std::string text = host.text(exported);
+    if (source.learned && !source.learned->usable) {
+      warn(fmt::format("the fit {} is not to be used: {}", source.typed, source.learned->reason));
+    }
     if (!command.output.empty()) write_result(command.output, text, common);
     if (common.json) {
       print(text_of(json{{"host", host.name},
