@@ -379,7 +379,7 @@ def export(method: Method, to: str, *, name: Optional[str] = None, step: Optiona
            displaced: Optional[bool] = None) -> str:
     """The method as source for another language or code: the text that `nysalt export` writes.
 
-    `to` is "c", "cpp", "fortran", "python", "julia", "odeint", "sundials", "blackjax" or "mici"; `name` the identifier in the
+    `to` is "c", "cpp", "fortran", "python", "julia", "odeint", "sundials", "ase", "blackjax" or "mici"; `name` the identifier in the
     text. `step` is of a scheme over several steps. displaced=True makes displaced kicks of gradient kicks, which
     are not symplectic. The text has a self-test.
     """

@@ -18,6 +18,7 @@ const std::vector<export_host>& export_hosts() {
       {"julia", "Julia, a module: the same with any callable force", ".jl", export_to_julia},
       {"odeint", "Boost.Odeint: a stepper of drifts and kicks", ".hpp", export_to_odeint},
       {"sundials", "SUNDIALS ARKODE: the table of SPRKStep, a function in C", ".c", export_to_sundials},
+      {"ase", "ASE: a dynamics at constant energy, of any calculator", ".py", export_to_ase},
       {"blackjax", "BlackJAX: the coefficients of a palindrome that begins with a kick", ".py",
        export_to_blackjax},
       {"mici", "Mici: the free coefficients of a symmetric composition", ".py", export_to_mici}};

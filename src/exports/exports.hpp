@@ -36,6 +36,7 @@ std::string export_to_python(const exported_method& method);
 std::string export_to_julia(const exported_method& method);
 std::string export_to_odeint(const exported_method& method);
 std::string export_to_sundials(const exported_method& method);
+std::string export_to_ase(const exported_method& method);
 std::string export_to_blackjax(const exported_method& method);
 std::string export_to_mici(const exported_method& method);
 

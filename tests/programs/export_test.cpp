@@ -37,9 +37,9 @@ std::string self_test_in(const scratch& folder, const std::string& host) {
   }
   if (host == "julia" && there_is(folder, "julia"))
     return "julia -e 'include(\"method.julia\"); exit(nysalt_exported.self_test() < 1e-13 ? 0 : 1)'";
-  if (host == "python") {
+  if (host == "python" || host == "ase") {
     for (const std::string python : {"python3", "/usr/bin/python3"}) {
-      if (shell(folder, python + " -c 'import numpy'").code == 0) return python + " method.python";
+      if (shell(folder, python + " -c 'import numpy'").code == 0) return python + " method." + host;
     }
   }
   // Stand-ins with the loops of BlackJAX and Mici, which Debian has not; so has that of SUNDIALS above.
@@ -53,8 +53,8 @@ finished exported(const scratch& folder, const std::string& method, const std::s
              "export " + method + " --name exported --displaced --to " + host + " --output method." + host);
 }
 
-const std::vector<std::string> hosts{"c",      "cpp",      "fortran",  "python", "julia",
-                                     "odeint", "sundials", "blackjax", "mici"};
+const std::vector<std::string> hosts{"c",      "cpp",      "fortran", "python",   "julia",
+                                     "odeint", "sundials", "ase",     "blackjax", "mici"};
 
 }  // namespace
 
