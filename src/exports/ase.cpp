@@ -29,6 +29,9 @@ COEFFICIENTS = (@LIST@,)
 class @NAME@_dynamics(MolecularDynamics):
     """The method at constant energy; the timestep is that of all letters together."""
 
+    def __init__(self, atoms, timestep, trajectory=None, logfile=None, loginterval=1):
+        super().__init__(atoms, timestep, trajectory, logfile, loginterval)
+
     def step(self, forces=None):
         atoms, h = self.atoms, self.dt
         masses = atoms.get_masses()[:, np.newaxis]
