@@ -20,7 +20,7 @@ subcommand offer_export(CLI::App& app, common_settings& common) {
   command.add_option("--to", asked->host, "the language or code, one of those below")->required();
   command.add_option("--output", asked->output, "the file [standard output]");
   command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
-  add_number(command, "--step", asked->how.step, "of a scheme of several steps, or of another than its own");
+  add_number(command, "--step", asked->how.step, "of a scheme over several steps: one of them, or between them");
   command.add_flag("--displaced", asked->how.displaced,
                    "gradient kicks G become displaced kicks D, not symplectic");
   add_common(command, common);
