@@ -33,7 +33,7 @@ exported_letters start_of(const exported_method& method);
 /// What acts on a copy of the state that is looked at; empty without a processor.
 exported_letters finish_of(const exported_method& method);
 
-/// The same method with D(b, 2 c/b) for each G(b, c). Throws refusal for a letter G with b = 0.
+/// The same method with D(b, 2 c/b) for each G(b, c), of order 4 at most. Throws refusal for a letter G with b = 0.
 exported_method with_displaced_kicks(const exported_method& method);
 
 /// The coefficients of letters that are A and B in turn, on one list; neighbours of one kind are joined and

@@ -30,8 +30,6 @@ exported_method coefficients_of(const method_source& source, const export_reques
   if (source.fixed) {
     const tabulated& method = *source.fixed;
     if (request.step) refuse("export: --step is for schemes, and {} is the same at every step", source.typed);
-    about.push_back(
-        fmt::format("{}: letters {}, order {}.", method.name(), method.letters().letters(), method.order));
     return {method, identifier_of(request.name.empty() ? method.name() : request.name), about};
   }
   const scheme& learned = *source.learned;
@@ -52,8 +50,7 @@ exported_method coefficients_of(const method_source& source, const export_reques
     refuse("export: --step must be {}, as {} was learned there, got {}", learned.steps(), source.typed, step);
   }
   const tabulated method = learned.at(step);
-  about.push_back(fmt::format("{}: letters {}, order {}, learned by nysalt.", learned.family,
-                              method.letters().letters(), method.order));
+  about.push_back(fmt::format("A member of the family {}, learned by nysalt.", learned.family));
   about.push_back(
       fmt::format("For the system {} at the step {}: at another step or system it promises nothing.",
                   learned.system, step));
@@ -74,6 +71,9 @@ std::string arguments_of_cite(const method_source& source) {
 exported_method exported_from(const method_source& source, const export_request& request) {
   exported_method result = coefficients_of(source, request);
   if (request.displaced) result = with_displaced_kicks(result);
+  result.about.insert(result.about.begin(),
+                      fmt::format("{}: letters {}, order {}.", result.method.name(),
+                                  result.method.letters().letters(), result.method.order));
   result.about.push_back(fmt::format("Force evaluations a step, the first and last joined: {}.",
                                      result.method.letters().evaluations_per_step));
   result.about.push_back(

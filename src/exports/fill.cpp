@@ -69,7 +69,6 @@ std::vector<std::pair<std::string, std::string>> values_of(const exported_method
     result.emplace_back(key + "_COEFFICIENTS",
                         digits(part.letters.empty() ? none : part.coefficients, exponent));
     result.emplace_back(key + "_SLOTS", std::to_string(std::max<std::size_t>(part.coefficients.size(), 1)));
-    result.emplace_back(key + "_LENGTH", std::to_string(part.letters.size()));
   };
   add("KERNEL", kernel_of(method));
   add("START", start_of(method));

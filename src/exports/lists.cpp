@@ -24,8 +24,7 @@ bool is_palindrome(const exported_letters& word) {
   return n % 2 == 1;
 }
 
-/// Nothing else is exact in a host that takes masses as one: the end of two oscillators of nysalt's own
-/// steps.
+/// What a Python file of a list is filled with.
 std::vector<std::pair<std::string, std::string>> values_of_list(const exported_method& method,
                                                                 const std::vector<double>& list) {
   return {{"NAME", method.name},
