@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to ASE, the Atomic Simulation Environment.
+#include "composition.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
 

@@ -114,35 +114,6 @@ exported_method with_displaced_kicks(const exported_method& method) {
   return result;
 }
 
-exported_letters composition_of(const exported_method& method, const std::string& host) {
-  const exported_letters all = kernel_of(method);
-  if (method.method.letters().is_processed()) {
-    refuse(
-        "export: {} has a processor, and {} takes a list of drifts and kicks alone: export to c, cpp, "
-        "fortran, "
-        "python or julia, or take the method without the processor",
-        method.method.name(), host);
-  }
-  if (all.count('D') > 0) {
-    refuse(
-        "export: {} has a displaced kick, and {} takes drifts and kicks alone: take a method of the letters "
-        "A and "
-        "B (nysalt list)",
-        method.method.name(), host);
-  }
-  exported_letters result;
-  for (std::size_t i = 0; i < all.letters.size(); ++i) {
-    if (all.coefficients[i] == 0.0) continue;
-    if (!result.letters.empty() && result.letters.back() == all.letters[i]) {
-      result.coefficients.back() += all.coefficients[i];
-    } else {
-      result.letters += all.letters[i];
-      result.coefficients.push_back(all.coefficients[i]);
-    }
-  }
-  return result;
-}
-
 self_test self_test_of(const exported_method& method) {
   const pinned_oscillators system;
   const stepper<pinned_oscillators, run_time_word> own(system, method.method.letters(),

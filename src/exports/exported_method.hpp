@@ -33,13 +33,9 @@ exported_letters start_of(const exported_method& method);
 /// What acts on a copy of the state that is looked at; empty without a processor.
 exported_letters finish_of(const exported_method& method);
 
-/// The same method with D(b, 2 c/b) for each G(b, c), of order 4 at most. Throws refusal for a letter G with b = 0.
+/// The same method with D(b, 2 c/b) for each G(b, c), of order 4 at most. Throws refusal for a letter G with
+/// b = 0.
 exported_method with_displaced_kicks(const exported_method& method);
-
-/// The coefficients of letters that are A and B in turn, on one list; neighbours of one kind are joined and
-/// letters of coefficient zero left out. Throws refusal, naming the host, for a word with a processor or
-/// other letters.
-exported_letters composition_of(const exported_method& method, const std::string& host);
 
 /// The pinned problem of self-tests: two coupled oscillators with the masses 1 and 2,
 /// f = (-q1 - 2 q1 q2, -q2 - q1^2 + q2^2), from q = (0.3, 0.2), p = (0.1, -0.25), 10 steps of 0.1.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to Fortran 2008.
-#include <fmt/format.h>
-
 #include "exports.hpp"
 #include "fill.hpp"
 
