@@ -44,7 +44,7 @@ function(compile_library)
   # them may give one name to two things. Not those that the systems of users need of the static library: a linker
   # takes whole objects, and would take the learner, and want Ceres, with them.
   foreach(source IN LISTS sources)
-    if(source MATCHES "/(analysis|learning|losses|sampling)/")
+    if(source MATCHES "/(analysis|exports|learning|losses|sampling)/")
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
     endif()
   endforeach()

@@ -8,8 +8,7 @@
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
 #include "../src/comparison/sampling_choice.hpp"
-#include "../src/exports/exported_source.hpp"
-#include "../src/exports/exports.hpp"
+#include "../src/comparison/exported_source.hpp"
 #include "../src/program/fitted_family.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"
@@ -126,9 +125,9 @@ std::string export_method(const py::dict& arguments) {
   asked.take("held", held);
   asked.take("name", how.name);
   asked.take("step", how.step);
+  asked.take("placement", how.placement);
   asked.take("displaced", how.displaced);
-  const auto& to = program::find_export_host(host);
-  return to.text(program::exported_from(program::find_method(method, held), how));
+  return program::export_text(host, program::exported_from(program::find_method(method, held), how));
 }
 
 void save(const std::string& path, const std::string& text) {

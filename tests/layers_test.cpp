@@ -39,7 +39,7 @@ const std::vector<std::vector<std::string>> layers{
     {"detail/oscillator_loss", "learning/", "learn"},
     {"analysis/"},
     {"hmc"},
-    {"version", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
+    {"version", "export_to", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
     {"core"},
     {"odeint", "mpi", "nysalt"}};
 
@@ -135,7 +135,7 @@ texts files_below(const std::filesystem::path& folder) {
 texts read_headers() { return files_below("include/nysalt"); }
 
 /// The folders of src, from the lowest to the highest.
-const std::vector<std::string> folders{"nysalt", "comparison", "exports", "report", "plugin", "program", "reproduction"};
+const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program", "reproduction"};
 
 /// Every source that includes one of a higher folder, in words. What is named by a path from src begins with
 /// the folder; files of the same folder are named without it.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "comparison/settings.hpp"
-#include "exports/export_request.hpp"
+#include "comparison/exported_source.hpp"
 #include "plugin/potential.hpp"
 
 namespace nysalt::program {

@@ -5,8 +5,7 @@
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
 #include "comparison/json.hpp"
-#include "exports/exported_source.hpp"
-#include "exports/exports.hpp"
+#include "comparison/exported_source.hpp"
 #include "nysalt/detail/together.hpp"
 #include "report/manifest.hpp"
 
@@ -14,19 +13,18 @@ namespace nysalt::program {
 
 int export_method(const export_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
-    const export_host& host = find_export_host(command.host);
     if (!command.output.empty()) require_writable(command.output);
     const method_source source = find_method(command.method);
-    const exported_method exported = exported_from(source, command.how);
+    const export_source exported = exported_from(source, command.how);
+    const std::string text = export_text(command.host, exported);
     const run_time_word& word = exported.method.letters();
-    const std::string text = host.text(exported);
     if (source.learned && !source.learned->usable) {
       warn(fmt::format("the fit {} is not to be used: {}", source.typed, source.learned->reason));
     }
     if (!command.output.empty()) write_result(command.output, text, common);
     if (common.json) {
-      print(text_of(json{{"host", host.name},
-                         {"name", exported.name},
+      print(text_of(json{{"host", command.host},
+                         {"name", exported.options.name.empty() ? exported.method.name() : exported.options.name},
                          {"letters", word.letters()},
                          {"coefficients", exported.method.coefficients()},
                          {"evaluations_per_step", word.evaluations_per_step},

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../commands.hpp"
-#include "exports/exports.hpp"
+#include "nysalt/export_to.hpp"
 #include "number_option.hpp"
 #include "shared_options.hpp"
 
@@ -21,11 +21,13 @@ subcommand offer_export(CLI::App& app, common_settings& common) {
   command.add_option("--output", asked->output, "the file [standard output]");
   command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
   add_number(command, "--step", asked->how.step, "of a scheme over several steps: one of them, or between them");
+  command.add_option("--placement", asked->how.placement,
+                     "of letters O in a method without them: end, symmetric or middle [none: no bath]");
   command.add_flag("--displaced", asked->how.displaced,
                    "gradient kicks G become displaced kicks D, not symplectic");
   add_common(command, common);
   std::string hosts;
-  for (const auto& host : export_hosts()) hosts += fmt::format("  {:10} {}\n", host.name, host.what);
+  for (const auto& host : export_hosts()) hosts += fmt::format("  {:14} {}\n", host.name, host.what);
   command.footer("Hosts:\n" + hosts +
                  "\nEach file has a self-test: ten steps that must end where nysalt's own do.\n\n"
                  "Examples:\n"

@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to Mici.
-#include "comparison/refusal.hpp"
+#include "refuse.hpp"
 #include "composition.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 std::string export_to_mici(const exported_method& method) {
   const exported_letters word = composition_of(method, "Mici");
   if (!is_palindrome(word) || word.letters.size() < 3) {
-    refuse(
+    refuse_export(
         "export: mici needs a symmetric word of drifts and kicks, got {} with the letters {}: learn a "
-        "symmetric "
-        "family, bab2 to bab6 or aba4 to aba6",
+        "symmetric family, bab2 to bab6 or aba4 to aba6",
         method.method.name(), word.letters);
   }
   // Its list of free coefficients leaves out one of either kind at the centre, which follow from the sums.
   const std::size_t half = (word.letters.size() + 1) / 2;
   const std::vector<double> free(word.coefficients.begin(),
                                  word.coefficients.begin() + static_cast<std::ptrdiff_t>(half - 2));
-  auto values = values_of_list(method, free);
-  values[2].second += free.size() == 1 ? "," : "";
+  auto values = values_of_header(method, "#");
+  values.emplace_back("LIST", digits(free) + (free.size() == 1 ? "," : ""));
   values.emplace_back("FIRST", word.letters.front() == 'B' ? "True" : "False");
   return fill(R"(@HEADER@#
 # The free coefficients of a symmetric composition: the others follow from symmetry and from sums of one.
@@ -68,4 +67,4 @@ if __name__ == "__main__":
               values);
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

@@ -4,12 +4,15 @@
 #include "exports.hpp"
 #include "fill.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 std::string export_to_odeint(const exported_method& method) {
   const exported_letters word = composition_of(method, "Boost.Odeint");
   const auto [a, b] = in_stages(word, 'A');
-  const self_test end = self_test_of(method);
+  auto values = values_of_header(method, "//");
+  values.emplace_back("STAGES", std::to_string(a.size()));
+  values.emplace_back("A", digits(a));
+  values.emplace_back("B", digits(b));
   return fill(R"(@HEADER@//
 // A stepper of Boost.Odeint: its stage i is q += a[i] h v(p), then p += b[i] h f(q). It evaluates the force in each of
 // its @STAGES@ stages, also where b[i] is zero, and keeps none from step to step.
@@ -79,13 +82,7 @@ int main() { return @NAME@_self_test(); }
 
 #endif
 )",
-              {{"NAME", method.name},
-               {"HEADER", header(method, "//")},
-               {"STAGES", std::to_string(a.size())},
-               {"A", digits(a)},
-               {"B", digits(b)},
-               {"Q", digits(end.q)},
-               {"P", digits(end.p)}});
+              values);
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

@@ -2,12 +2,13 @@
 #include "exported_method.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "comparison/refusal.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/stepper.hpp"
+#include "refuse.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 namespace {
 
@@ -27,33 +28,49 @@ struct pinned_oscillators {
   double inverse_mass(Eigen::Index i) const { return i == 0 ? 1.0 : 0.5; }
 };
 
-exported_letters with_letters(std::string letters, std::vector<double> coefficients) {
-  return {std::move(letters), std::move(coefficients)};
-}
+struct pinned_oscillators_in_bath : pinned_oscillators {
+  nysalt::bath pinned_bath = nysalt::bath::of_temperature(1.5, 0.7);
+
+  const nysalt::bath& bath() const { return pinned_bath; }
+};
+
+/// sin(1), sin(2), ... in the order in which letters O draw.
+struct sines {
+  static constexpr bool draws_freely = false;
+  std::int64_t letters;  ///< O, in a step
+
+  template <class T, int N>
+  void normals(const noise_place& at, vector<T, N>& xi) const {
+    const std::int64_t drawn = (at.step * letters + at.flow) * xi.size();
+    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = T(std::sin(static_cast<double>(drawn + i + 1)));
+  }
+};
 
 void require_known(const exported_method& method, const std::string& letters) {
-  const auto at = letters.find_first_not_of("ABD");
+  const auto at = letters.find_first_not_of("ABDO");
   if (at == std::string::npos) return;
   const char letter = letters[at];
   if (letter == 'G') {
-    refuse(
+    refuse_export(
         "export: {} has the letter G, a gradient kick, whose f'(q) v no host has: give --displaced for the "
         "displaced kick, which agrees with it up to h^5, keeps volume and is reversible, but is not "
         "symplectic",
         method.method.name());
   }
-  if (letter == 'O') {
-    refuse(
-        "export: {} has letters O, and so far only words without a bath are exported: export the method "
-        "without "
-        "--placement, and place its letters O in the host",
-        method.method.name());
-  }
-  refuse(
+  refuse_export(
       "export: {} has the letter {}, which needs the quadratic part of the system: take a method of the "
-      "letters A, "
-      "B and D (nysalt list)",
+      "letters A, B, D and O (nysalt list)",
       method.method.name(), letter);
+}
+
+self_test end_of(const auto& stepper) {
+  phase_point<double, 2> x;
+  x.q << 0.3, 0.2;
+  x.p << 0.1, -0.25;
+  const auto end = integrate(
+                       stepper, x, 10, [](auto&&...) {}, 10)
+                       .finish;
+  return {{end.q[0], end.q[1]}, {end.p[0], end.p[1]}};
 }
 
 }  // namespace
@@ -67,22 +84,22 @@ exported_letters kernel_of(const exported_method& method) {
   const auto all = method.method.coefficients();
   const std::string letters = word.letters().substr(0, word.length);
   require_known(method, letters);
-  return with_letters(letters, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)});
+  return {letters, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}};
 }
 
 exported_letters start_of(const exported_method& method) {
   const run_time_word& word = method.method.letters();
   if (!word.is_processed()) return {};
-  return with_letters(detail::pre_processor(word).letters(),
-                      detail::pre_processor_coefficients(word, method.method.coefficients()));
+  return {pre_processor(word).letters(), pre_processor_coefficients(word, method.method.coefficients())};
 }
 
 exported_letters finish_of(const exported_method& method) {
   const run_time_word& word = method.method.letters();
   if (!word.is_processed()) return {};
-  return with_letters(detail::post_processor(word).letters(),
-                      detail::post_processor_coefficients(word, method.method.coefficients()));
+  return {post_processor(word).letters(), post_processor_coefficients(word, method.method.coefficients())};
 }
+
+bool has_bath(const exported_method& method) { return method.method.letters().stochastic_letters > 0; }
 
 exported_method with_displaced_kicks(const exported_method& method) {
   const run_time_word& word = method.method.letters();
@@ -92,10 +109,9 @@ exported_method with_displaced_kicks(const exported_method& method) {
   for (std::size_t i = 0; i < word.length; ++i) {
     if (letters[i] == 'G') {
       if (c[slot] == 0.0) {
-        refuse(
+        refuse_export(
             "export: {} has a gradient kick G(b, c) with b = 0, which no displaced kick is like: take "
-            "another "
-            "method",
+            "another method",
             method.method.name());
       }
       letters[i] = 'D';
@@ -115,16 +131,15 @@ exported_method with_displaced_kicks(const exported_method& method) {
 }
 
 self_test self_test_of(const exported_method& method) {
-  const pinned_oscillators system;
-  const stepper<pinned_oscillators, run_time_word> own(system, method.method.letters(),
-                                                       method.method.coefficients(), 0.1);
-  phase_point<double, 2> x;
-  x.q << 0.3, 0.2;
-  x.p << 0.1, -0.25;
-  const auto end = integrate(
-                       own, x, 10, [](auto&&...) {}, 10)
-                       .finish;
-  return {{end.q[0], end.q[1]}, {end.p[0], end.p[1]}};
+  const run_time_word& word = method.method.letters();
+  if (!has_bath(method)) {
+    const pinned_oscillators system;
+    return end_of(
+        stepper<pinned_oscillators, run_time_word>(system, word, method.method.coefficients(), 0.1));
+  }
+  const pinned_oscillators_in_bath system;
+  return end_of(stepper<pinned_oscillators_in_bath, run_time_word, double, sines>(
+      system, word, method.method.coefficients(), 0.1, sines{word.stochastic_letters}));
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
-std::string fill(std::string_view text, const std::vector<std::pair<std::string, std::string>>& values) {
+std::string fill(std::string_view text, const gap_texts& values) {
   std::string result;
   while (true) {
     const auto begin = text.find('@');
@@ -58,10 +58,26 @@ std::string header(const exported_method& method, std::string_view mark) {
   return result;
 }
 
-std::vector<std::pair<std::string, std::string>> values_of(const exported_method& method,
-                                                           std::string_view mark, char exponent) {
-  std::vector<std::pair<std::string, std::string>> result{{"NAME", method.name},
-                                                          {"HEADER", header(method, mark)}};
+gap_texts values_of_header(const exported_method& method, std::string_view mark, char exponent) {
+  const exported_letters kernel = kernel_of(method);
+  std::string explained = fmt::format(
+      "{} Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q)", mark);
+  if (kernel.count('D') > 0)
+    explained += fmt::format(", D(b, c) is B(b) with the\n{} force at q + c h^2 M^-1 f(q)", mark);
+  if (kernel.count('O') > 0) {
+    explained += fmt::format(
+        ",\n{} O(c) is p = e p + sqrt((1 - e^2) kT M) N with e = exp(-friction c h) and standard normal N", mark);
+  }
+  const self_test end = self_test_of(method);
+  return {{"NAME", method.name},
+          {"HEADER", header(method, mark)},
+          {"EXPLAINED", explained + "."},
+          {"Q", digits(end.q, exponent)},
+          {"P", digits(end.p, exponent)}};
+}
+
+gap_texts values_of(const exported_method& method, std::string_view mark, char exponent) {
+  gap_texts result = values_of_header(method, mark, exponent);
   const auto add = [&](const std::string& key, const exported_letters& part) {
     result.emplace_back(key, part.letters);
     // Where there is none, one that nothing reads: a list must not be empty.
@@ -73,10 +89,13 @@ std::vector<std::pair<std::string, std::string>> values_of(const exported_method
   add("KERNEL", kernel_of(method));
   add("START", start_of(method));
   add("FINISH", finish_of(method));
-  const self_test end = self_test_of(method);
-  result.emplace_back("Q", digits(end.q, exponent));
-  result.emplace_back("P", digits(end.p, exponent));
   return result;
 }
 
-}  // namespace nysalt::program
+void add_bath(gap_texts& values, const exported_method& method, const gap_texts& of_bath) {
+  for (const auto& [key, text] : of_bath) {
+    values.emplace_back(key, has_bath(method) ? fill(text, {{"NAME", method.name}}) : "");
+  }
+}
+
+}  // namespace nysalt::detail

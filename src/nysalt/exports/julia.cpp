@@ -3,13 +3,30 @@
 #include "exports.hpp"
 #include "fill.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 std::string export_to_julia(const exported_method& method) {
+  auto values = values_of(method, "#");
+  add_bath(values, method,
+           {{"BATH_NONE", ", bath=nothing"},
+            {"BATH_PARAMETER", ", friction, temperature, normal"},
+            {"BATH_SENTENCE", "# The temperature is kT; normal(size) is an array of standard normal numbers: randn.\n"},
+            {"BATH", ", (friction, temperature, normal)"},
+            {"BATH_BRANCH", R"(        if letter == 'O'
+            friction, temperature, normal = bath
+            damping = friction * c[k] * h
+            p .= exp(-damping) .* p .+ sqrt.(-expm1(-2 * damping) * temperature ./ inverse_mass) .* normal(size(p))
+            k += 1
+            continue
+        end
+)"},
+            {"BATH_PINNED",
+             "    drawn = Ref(0)\n    sines(size) = [sin(drawn[] += 1) for _ in 1:prod(size)]\n"},
+            {"BATH_TEST", ", 1.5, 0.7, sines"}});
   return fill(R"(@HEADER@#
-# Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q), D(b, c) is B(b) with the force
-# at q + c h^2 M^-1 f(q). A run is start! once, steps!, and finish! on a copy of q and p that is looked at; without
-# a processor start! and finish! do nothing. A force that is known is not evaluated again, also from step to step.
+@EXPLAINED@
+# A run is start! once, steps!, and finish! on a copy of q and p that is looked at; without a processor start! and
+# finish! do nothing. A force that is known is not evaluated again, also from step to step.
 # Test: julia -e 'include("FILE"); exit(nysalt_@NAME@.self_test() < 1e-13 ? 0 : 1)'
 module nysalt_@NAME@
 
@@ -18,7 +35,7 @@ const START = ("@START@", [@START_COEFFICIENTS@])
 const FINISH = ("@FINISH@", [@FINISH_COEFFICIENTS@])
 
 # One pass over the letters of a word; whether f is the force at q.
-function apply!(word, known, f, q, p, h, force, inverse_mass)
+function apply!(word, known, f, q, p, h, force, inverse_mass@BATH_NONE@)
     letters, c = word
     k = 1
     for letter in letters
@@ -28,7 +45,7 @@ function apply!(word, known, f, q, p, h, force, inverse_mass)
             k += 1
             continue
         end
-        known || (f .= force(q))
+@BATH_BRANCH@        known || (f .= force(q))
         known = true
         if letter == 'B'
             p .+= c[k] .* h .* f
@@ -43,11 +60,11 @@ end
 
 start!(q, p, h, force, inverse_mass) = (apply!(START, false, similar(p), q, p, h, force, inverse_mass); nothing)
 
-function steps!(q, p, h, count, force, inverse_mass)
+@BATH_SENTENCE@function steps!(q, p, h, count, force, inverse_mass@BATH_PARAMETER@)
     f = similar(p)
     known = false
     for _ in 1:count
-        known = apply!(KERNEL, known, f, q, p, h, force, inverse_mass)
+        known = apply!(KERNEL, known, f, q, p, h, force, inverse_mass@BATH@)
     end
 end
 
@@ -57,15 +74,15 @@ finish!(q, p, h, force, inverse_mass) = (apply!(FINISH, false, similar(p), q, p,
 function self_test()
     force(q) = [-q[1] - 2 * q[1] * q[2], -q[2] - q[1]^2 + q[2]^2]
     q, p, inverse_mass = [0.3, 0.2], [0.1, -0.25], [1.0, 0.5]
-    start!(q, p, 0.1, force, inverse_mass)
-    steps!(q, p, 0.1, 10, force, inverse_mass)
+@BATH_PINNED@    start!(q, p, 0.1, force, inverse_mass)
+    steps!(q, p, 0.1, 10, force, inverse_mass@BATH_TEST@)
     finish!(q, p, 0.1, force, inverse_mass)
     return max(maximum(abs.(q - [@Q@])), maximum(abs.(p - [@P@])))
 end
 
 end
 )",
-              values_of(method, "#"));
+              values);
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

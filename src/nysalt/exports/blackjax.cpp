@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to BlackJAX.
-#include "comparison/refusal.hpp"
+#include "refuse.hpp"
 #include "composition.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 std::string export_to_blackjax(const exported_method& method) {
   const exported_letters word = composition_of(method, "BlackJAX");
   if (!is_palindrome(word) || word.letters.front() != 'B') {
-    refuse(
+    refuse_export(
         "export: blackjax needs a symmetric word that begins with a kick, got {} with the letters {}: learn "
-        "bab2 to "
-        "bab6, or take mclachlan2v, bcss2v, bcss3 or bcss4",
+        "bab2 to bab6, or take mclachlan2v, bcss2v, bcss3 or bcss4",
         method.method.name(), word.letters);
   }
+  auto values = values_of_header(method, "#");
+  values.emplace_back("LIST", digits(word.coefficients));
   return fill(R"(@HEADER@#
 # Coefficients of kicks and drifts in turn; a kick first and last, so that BlackJAX evaluates one gradient a drift.
 #   blackjax.hmc(log_density, step_size, inverse_mass_matrix, integration_steps, integrator=integrator())
@@ -57,7 +58,7 @@ if __name__ == "__main__":
     print(f"@NAME@: off by {off:.1e}")
     raise SystemExit(not off < 1e-13)
 )",
-              values_of_list(method, word.coefficients));
+              values);
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

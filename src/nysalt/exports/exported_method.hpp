@@ -8,9 +8,9 @@
 
 #include "nysalt/methods/tabulated.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
-/// A method for export, and what the header of the exported file says about it.
+/// A method for export, and what the header of the exported text says about the method.
 struct exported_method {
   tabulated method;
   std::string name;                ///< an identifier in all hosts
@@ -19,8 +19,8 @@ struct exported_method {
 
 /// Letters with the coefficients that they take, as a program in which a gradient kick is a displaced one.
 struct exported_letters {
-  std::string letters;               ///< A, B and D
-  std::vector<double> coefficients;  ///< one for A and B; b and c for D
+  std::string letters;               ///< A, B, D and O
+  std::vector<double> coefficients;  ///< one for A, B and O; b and c for D
 
   /// How many of them are `letter`.
   std::size_t count(char letter) const;
@@ -33,15 +33,20 @@ exported_letters start_of(const exported_method& method);
 /// What acts on a copy of the state that is looked at; empty without a processor.
 exported_letters finish_of(const exported_method& method);
 
-/// The same method with D(b, 2 c/b) for each G(b, c), of order 4 at most. Throws refusal for a letter G with
-/// b = 0.
+/// Whether the method has letters O, of a bath.
+bool has_bath(const exported_method& method);
+
+/// The same method with D(b, 2 c/b) for each G(b, c), of order 4 at most. Throws std::invalid_argument for a
+/// letter G with b = 0.
 exported_method with_displaced_kicks(const exported_method& method);
 
 /// The pinned problem of self-tests: two coupled oscillators with the masses 1 and 2,
-/// f = (-q1 - 2 q1 q2, -q2 - q1^2 + q2^2), from q = (0.3, 0.2), p = (0.1, -0.25), 10 steps of 0.1.
+/// f = (-q1 - 2 q1 q2, -q2 - q1^2 + q2^2), from q = (0.3, 0.2), p = (0.1, -0.25), 10 steps of 0.1; letters O
+/// in a bath of friction 1.5 and kT 0.7, where sin(1), sin(2), ... stand for normal numbers, in the order in
+/// which they are drawn.
 struct self_test {
   std::vector<double> q, p;  ///< where nysalt's own stepper ends
 };
 self_test self_test_of(const exported_method& method);
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

@@ -4,12 +4,16 @@
 #include "exports.hpp"
 #include "fill.hpp"
 
-namespace nysalt::program {
+namespace nysalt::detail {
 
 std::string export_to_sundials(const exported_method& method) {
   const exported_letters word = composition_of(method, "SUNDIALS");
   const auto [kicks, drifts] = in_stages(word, 'B');
-  const self_test end = self_test_of(method);
+  auto values = values_of_header(method, "//");
+  values.emplace_back("STAGES", std::to_string(kicks.size()));
+  values.emplace_back("ORDER", std::to_string(method.method.order));
+  values.emplace_back("A", digits(drifts));
+  values.emplace_back("AHAT", digits(kicks));
   return fill(R"(@HEADER@//
 // The table of SPRKStep, since SUNDIALS 6.6: stage i is p += ahat[i] h f1(q), then q += a[i] h f2(p). It evaluates f1 in
 // each of its @STAGES@ stages, also where ahat[i] is zero.
@@ -44,14 +48,7 @@ int main(void) {
 }
 #endif
 )",
-              {{"NAME", method.name},
-               {"HEADER", header(method, "//")},
-               {"STAGES", std::to_string(kicks.size())},
-               {"ORDER", std::to_string(method.method.order)},
-               {"A", digits(drifts)},
-               {"AHAT", digits(kicks)},
-               {"Q", digits(end.q)},
-               {"P", digits(end.p)}});
+              values);
 }
 
-}  // namespace nysalt::program
+}  // namespace nysalt::detail

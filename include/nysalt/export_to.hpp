@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+// Methods as source text for other languages and codes.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nysalt/methods/tabulated.hpp"
+
+namespace nysalt {
+
+/// A language or code that methods are exported to.
+struct export_host {
+  std::string_view name;    ///< as export_to() takes it
+  std::string_view what;    ///< what the text holds
+  std::string_view suffix;  ///< of a file with the text
+};
+
+/// All hosts, in the order of docs/how-to/take_it_with_you.md.
+std::vector<export_host> export_hosts();
+
+/// How a method is exported.
+struct export_options {
+  std::string name = {};                ///< identifier in the text; empty: from the method's name
+  std::vector<std::string> about = {};  ///< lines for the header of the text, such as the origin of the method
+  bool displaced = false;  ///< gradient kicks G become displaced kicks D, of order 4 at most and not symplectic
+};
+
+/// Source text of the method for a host, with a self-test. Throws std::invalid_argument for an unknown host,
+/// and for a method that the host cannot take. Cost: ten steps of two oscillators.
+std::string export_to(std::string_view host, const tabulated& method, const export_options& options = {});
+
+}  // namespace nysalt

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "exported_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "did_you_mean.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "refusal.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// At the step that was asked for, or the only one.
+double step_of(const method_source& source, const export_request& request) {
+  const scheme& learned = *source.learned;
+  const auto steps = learned.curve.steps();
+  if (!request.step && steps.size() > 1) {
+    refuse("export: {} was learned at several steps, {}: give one of them or one between them by --step",
+           source.typed, learned.steps());
+  }
+  const double step = request.step.value_or(steps.front());
+  if (!(step >= steps.front() * (1.0 - 1e-9) && step <= steps.back() * (1.0 + 1e-9))) {
+    refuse("export: --step must be {}, as {} was learned there, got {}", learned.steps(), source.typed, step);
+  }
+  return step;
+}
+
+export_source plain_source(const method_source& source, const export_request& request) {
+  if (source.family) {
+    refuse("export: {} must be learned first: nysalt learn --family {} --step STEP --output scheme.json",
+           source.typed, *source.family);
+  }
+  if (source.adaptive != nullptr) {
+    refuse(
+        "export: {} depends on step and highest frequency, and an exported text has one list of "
+        "coefficients: learn a family at the step, or take a method with fixed coefficients",
+        source.typed);
+  }
+  if (source.fixed) {
+    if (request.step) refuse("export: --step is for schemes, and {} is the same at every step", source.typed);
+    return {*source.fixed, {.name = request.name}};
+  }
+  const scheme& learned = *source.learned;
+  const double step = step_of(source, request);
+  export_source result{learned.at(step), {.name = request.name.empty() ? learned.family : request.name}};
+  auto& about = result.options.about;
+  about.push_back(fmt::format("A member of the family {}, learned by nysalt.", learned.family));
+  about.push_back(
+      fmt::format("For the system {} at the step {}: at another step or system it promises nothing.",
+                  learned.system, step));
+  if (!learned.usable) about.push_back(fmt::format("NOT to be used: {}", learned.reason));
+  return result;
+}
+
+/// Where letters O are to be placed; nowhere if nobody says.
+std::optional<placement> placement_of(const method_source& source, const export_request& request) {
+  if (source.learned && source.learned->where) return source.learned->where;
+  return source.where ? source.where : placement_asked(request.placement);
+}
+
+/// What `nysalt cite` is asked for.
+std::string arguments_of_cite(const method_source& source) {
+  if (source.learned) return " --methods learned:" + source.learned->family;
+  const bool is_known = std::ranges::any_of(
+      classical_methods(), [&](const auto& known) { return known.method.name() == source.typed; });
+  return is_known ? " --methods " + source.typed : "";
+}
+
+}  // namespace
+
+export_source exported_from(const method_source& source, const export_request& request) {
+  export_source result = plain_source(source, request);
+  if (const auto where = placement_of(source, request)) {
+    if (result.method.letters().stochastic_letters > 0) {
+      refuse("export: {} has its letters O already, in {}", source.typed, result.method.letters().letters());
+    }
+    try {
+      result.method = thermostat(result.method, *where);
+    } catch (const std::invalid_argument& problem) {
+      refuse("export: {}: {}", source.typed, problem.what());
+    }
+  }
+  result.options.displaced = request.displaced;
+  result.options.about.push_back("To cite: nysalt cite" + arguments_of_cite(source));
+  return result;
+}
+
+std::string export_text(const std::string& host, const export_source& source) {
+  std::vector<std::string> names;
+  for (const auto& one : export_hosts()) names.emplace_back(one.name);
+  if (std::ranges::find(names, host) == names.end()) {
+    refuse("export: --to must be a host that is known, got '{}': {}", host,
+           did_you_mean(host, names, "nysalt export --help shows all"));
+  }
+  try {
+    return export_to(host, source.method, source.options);
+  } catch (const std::invalid_argument& problem) {
+    throw refusal(problem.what());
+  }
+}
+
+}  // namespace nysalt::program
