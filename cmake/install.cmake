@@ -19,6 +19,7 @@ foreach(component IN LISTS nysalt_components)
   install(EXPORT nysalt_${component} NAMESPACE nysalt:: FILE nysalt-${component}.cmake
     DESTINATION ${package_dir})
 endforeach()
+install(FILES include/nysalt/c_force.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nysalt)
 write_basic_package_version_file(nysaltConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/nysaltConfig.cmake cmake/nysaltNeeds.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/nysaltConfigVersion.cmake DESTINATION ${package_dir})

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "../src/comparison/exported_source.hpp"
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
 #include "../src/comparison/sampling_choice.hpp"
-#include "../src/comparison/exported_source.hpp"
 #include "../src/program/fitted_family.hpp"
 #include "../src/program/listing.hpp"
 #include "../src/program/systems.hpp"

@@ -35,14 +35,23 @@ py::array_t<double> column(std::span<const double> q) {
   return py::array_t<double>(static_cast<py::ssize_t>(q.size()), q.data());
 }
 
-void put(const py::handle& found, const std::string& what, std::span<double> to) {
+/// (trajectories, dimension) states, which the function may keep.
+py::array_t<double> rows(std::span<const double> q, std::int64_t count) {
+  const auto each = static_cast<py::ssize_t>(q.size()) / count;
+  return py::array_t<double>(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), each}, q.data());
+}
+
+void put(const py::handle& found, const std::string& what, const std::vector<std::int64_t>& wanted,
+         std::span<double> to) {
   if (found.is_none()) refuse("{} returned None: does it lack a return?", what);
   const numbers_array numbers = numbers_of(found, what);
-  const std::vector<std::int64_t> wanted{static_cast<std::int64_t>(to.size())};
   if (shape_of(numbers) != wanted) {
     refuse("{} must have the shape {}, it has {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
   }
   std::ranges::copy(numbers_in(numbers), to.begin());
+}
+void put(const py::handle& found, const std::string& what, std::span<double> to) {
+  put(found, what, {static_cast<std::int64_t>(to.size())}, to);
 }
 
 double number_in(const py::object& found) {
@@ -85,6 +94,27 @@ std::vector<double> inverse_masses_in(const argument_reader& arguments, std::int
   return all;
 }
 
+/// Functions of arrays (trajectories, dimension).
+void take_many(own_functions& functions, const std::shared_ptr<functions_of_python>& kept) {
+  functions.potentials = [kept](std::span<const double> q, std::int64_t count, std::span<double> v) {
+    put(answer(kept->potential, py::make_tuple(rows(q, count))), "potential(q)", v);
+    require_no_signal();
+  };
+  functions.forces = [kept](std::span<const double> q, std::int64_t count, std::span<double> f) {
+    put(answer(kept->force, py::make_tuple(rows(q, count))), "force(q)",
+        {count, static_cast<std::int64_t>(f.size()) / count}, f);
+    require_no_signal();
+  };
+  functions.potential = [all = functions.potentials](std::span<const double> q) {
+    double found = 0.0;
+    all(q, 1, {&found, 1});
+    return found;
+  };
+  functions.force = [all = functions.forces](std::span<const double> q, std::span<double> f) {
+    all(q, 1, f);
+  };
+}
+
 }  // namespace
 
 own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept) {
@@ -100,15 +130,21 @@ own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr
   kept->potential = function_in(arguments, "potential", "V");
   kept->force = function_in(arguments, "force", "-grad V");
   kept->starts = function_in(arguments, "starts", "to know where trajectories start");
-  functions.potential = [kept](std::span<const double> q) {
-    const double found = number_in(answer(kept->potential, py::make_tuple(column(q))));
-    require_no_signal();
-    return found;
-  };
-  functions.force = [kept](std::span<const double> q, std::span<double> f) {
-    put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f);
-    require_no_signal();
-  };
+  bool is_batched = false;
+  arguments.take("batched", is_batched);
+  if (is_batched) {
+    take_many(functions, kept);
+  } else {
+    functions.potential = [kept](std::span<const double> q) {
+      const double found = number_in(answer(kept->potential, py::make_tuple(column(q))));
+      require_no_signal();
+      return found;
+    };
+    functions.force = [kept](std::span<const double> q, std::span<double> f) {
+      put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f);
+      require_no_signal();
+    };
+  }
   functions.start = [kept](std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) {
     const py::object found = answer(kept->starts, py::make_tuple(seed, n));
     if (PySequence_Check(found.ptr()) == 0 || py::len(found) != 2) {

@@ -80,6 +80,28 @@ std::unique_ptr<program::prepared_problem> make_own(std::shared_ptr<const own_fu
       std::move(made), std::vector<program::named_value>{{"name", functions->name}}, in);
 }
 
+model side_by_side(const std::shared_ptr<const own_functions>& functions, std::int64_t count,
+                   const bath& heat_bath) {
+  auto all = std::make_shared<own_functions>();
+  all->name = functions->name;
+  all->dimension = count * functions->dimension;
+  for (std::int64_t m = 0; m < count; ++m) {
+    all->inverse_masses.insert(all->inverse_masses.end(), functions->inverse_masses.begin(),
+                               functions->inverse_masses.end());
+  }
+  all->potential = [functions, count](std::span<const double> q) {
+    std::vector<double> each(static_cast<std::size_t>(count));
+    functions->potentials(q, count, each);
+    double sum = 0.0;
+    for (const double one : each) sum += one;
+    return sum;
+  };
+  all->force = [functions, count](std::span<const double> q, std::span<double> f) {
+    functions->forces(q, count, f);
+  };
+  return model(own_hamiltonian(std::move(all))).in(heat_bath);
+}
+
 void examine(own_functions& functions) {
   require_force(functions);
   if (functions.frequency > 0.0) return;

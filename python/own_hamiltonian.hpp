@@ -20,6 +20,9 @@ struct own_functions {
   std::vector<double> inverse_masses;
   std::function<double(std::span<const double> q)> potential;
   std::function<void(std::span<const double> q, std::span<double> f)> force;
+  /// The same of `count` states at a time, one after the other; empty of a system that takes one at a time.
+  std::function<void(std::span<const double> q, std::int64_t count, std::span<double> v)> potentials = {};
+  std::function<void(std::span<const double> q, std::int64_t count, std::span<double> f)> forces = {};
   /// The start of trajectory n: a function of both numbers alone.
   std::function<void(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p)> start;
   double frequency = 0.0;  // the highest of the motion; 0: not known yet
@@ -28,6 +31,10 @@ struct own_functions {
 /// Looks for a force that is not -grad V at four starts, and where the frequency is not known for that of 64
 /// starts. Throws refusal for what is found. Cost: some hundred forces for each degree of freedom.
 void examine(own_functions& functions);
+
+/// `count` copies in a bath as one system, whose force is one call. The functions must take many states.
+model side_by_side(const std::shared_ptr<const own_functions>& functions, std::int64_t count,
+                   const bath& heat_bath);
 
 /// One trajectory at a time. The functions are called by the thread that computes.
 std::unique_ptr<program::prepared_problem> make_own(std::shared_ptr<const own_functions> functions,

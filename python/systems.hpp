@@ -18,6 +18,7 @@ struct held_system {
   // For what Python asks of the system alone; the starts of the model are not prepared.
   std::unique_ptr<program::prepared_problem> model;
   std::shared_ptr<functions_of_python> functions;  // null of a bundled one
+  std::shared_ptr<const own_functions> own;        // that call them; null of a bundled one
 
   bool calls_python() const { return functions != nullptr; }
 };

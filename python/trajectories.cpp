@@ -17,6 +17,7 @@
 #include "commands.hpp"
 #include "computing.hpp"
 #include "systems.hpp"
+#include "together.hpp"
 
 namespace nysalt::python {
 
@@ -153,6 +154,10 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
     if (steps == 0) return;
     const program::trajectories_plan plan{command.step, steps, count,
                                           seed_for(program::role::test, common.seed), common.threads};
+    if (system.own && goes_together(*system.own, method)) {
+      integrate_together(system.own, system.model->heat_bath(), method, plan, all_q, all_p);
+      return;
+    }
     program::progress shown;
     program::integrate(*system.model, method, plan, all_q, all_p, shown.counter(1000));
   });

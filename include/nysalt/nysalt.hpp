@@ -41,6 +41,7 @@
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
 #include "nysalt/ensembles/thermal_positions.hpp"
+#include "nysalt/export_to.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/hmc.hpp"

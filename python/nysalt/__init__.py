@@ -22,7 +22,25 @@ from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Seque
 
 import numpy as np
 
-from . import _nysalt
+
+def _compiled() -> Any:
+    """The compiled module: of a wheel the one for this processor. NYSALT_PROCESSOR=baseline takes that for any."""
+    from importlib import import_module
+    try:
+        with open("/proc/cpuinfo") as file:
+            flags = set(next(line for line in file if line.startswith("flags")).split())
+    except (OSError, StopIteration):
+        flags = set()
+    v3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}  # and what these have beside
+    if v3 <= flags and _os.environ.get("NYSALT_PROCESSOR") != "baseline":
+        try:
+            return import_module("nysalt.x86_64_v3._nysalt")
+        except ModuleNotFoundError:
+            pass
+    return import_module("nysalt._nysalt")
+
+
+_nysalt = _compiled()
 
 __version__: str = _nysalt.version
 __all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "families", "hamiltonian", "integrate", "learn", "load",
@@ -162,8 +180,9 @@ def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
                 force: Callable[[np.ndarray], Any], starts: Callable[[int, int], Tuple[Any, Any]],
-                inverse_mass: Numbers = 1.0, frequency: Optional[float] = None, friction: Optional[float] = None,
-                sigma: Optional[float] = None, temperature: Optional[float] = None) -> System:
+                inverse_mass: Numbers = 1.0, frequency: Optional[float] = None, batched: bool = False,
+                friction: Optional[float] = None, sigma: Optional[float] = None,
+                temperature: Optional[float] = None) -> System:
     """H = sum_i inverse_mass_i p_i^2/2 + V(q) of your own, by functions of Python.
 
     potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
@@ -172,6 +191,11 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
     `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
     is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters.
     The dimension is at most ten million.
+
+    With batched=True, potential and force take arrays (trajectories, dimension) and return (trajectories,) and
+    (trajectories, dimension). Then `integrate` calls the force once a kick for all trajectories, with the bits of one
+    after the other where the force finds the same numbers; with gradient kicks, and elsewhere (run, learn, compare),
+    the functions get one trajectory at a time.
 
     This is the slow path. Every force is a call of Python, some microseconds instead of some nanoseconds;
     one trajectory goes at a time, on one thread, with the interpreter's lock. Derivatives for learning are

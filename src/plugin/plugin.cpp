@@ -11,6 +11,7 @@
 
 #include "build.hpp"
 #include "comparison/refusal.hpp"
+#include "force_library.hpp"
 #include "named_signals.hpp"
 #include "names.hpp"
 #include "nysalt/plugin.hpp"
@@ -35,7 +36,7 @@ std::vector<std::unique_ptr<loaded>>& all_loaded() {
 template <class F>
 F* function_in(void* library, const char* name, const std::string& path) {
   auto* const found = reinterpret_cast<F*>(dlsym(library, name));
-  if (found == nullptr) refuse("{}: the library declares no system: NYSALT_SYSTEM(...) is missing", path);
+  if (found == nullptr) refuse("{}: the library declares no system: NYSALT_SYSTEM(...) is missing, or the functions of nysalt/c_force.h", path);
   return found;
 }
 
@@ -83,6 +84,7 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   if (library == nullptr) {
     throw unloadable(message("{}: this is no library that can be loaded: {}", shown, why_not_loaded(file)));
   }
+  if (has_c_force(library)) return declaration_of_c_force(library, file.string(), shown);
   auto* const stamp_of = function_in<const char*()>(library, "nysalt_plugin_stamp", shown);
   const std::string stamp = stamp_of();
   if (stamp != detail::plugin_stamp()) {

@@ -12,8 +12,10 @@ import tempfile
 
 try:
     import numpy as np
-    from ase import units
+    import nysalt
+    from ase import Atoms, units
     from ase.build import bulk
+    from ase.constraints import FixBondLength
     from ase.calculators.lj import LennardJones
     from ase.md.velocitydistribution import MaxwellBoltzmannDistribution
     from ase.md.verlet import VelocityVerlet
@@ -47,7 +49,78 @@ def run(dynamics, timestep, steps):
     return len(calls), np.std(energies) / len(atoms)
 
 
+# [calculator]
+def system_of(atoms, name, temperature_K=60):
+    """Atoms with a calculator as a system: positions, momenta and energies in the units of ASE."""
+    at_rest, masses = atoms.get_positions().ravel(), np.repeat(atoms.get_masses(), 3)
+
+    def potential(q):
+        atoms.set_positions(q.reshape(-1, 3))
+        return atoms.get_potential_energy()
+
+    def force(q):
+        atoms.set_positions(q.reshape(-1, 3))
+        return atoms.get_forces().ravel()
+
+    def starts(seed, n):
+        normal = np.random.default_rng([seed, n]).normal(size=len(masses))
+        return at_rest, np.sqrt(masses * units.kB * temperature_K) * normal
+
+    return nysalt.hamiltonian(name, dimension=len(masses), potential=potential, force=force, starts=starts,
+                              inverse_mass=1 / masses)
+# [/calculator]
+
+
+def four_atoms():
+    a = 3.4 * 2 ** (1 / 6) / np.sqrt(2)
+    atoms = Atoms("ArArArAr", positions=a * np.array([[0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]]))
+    atoms.calc = LennardJones(sigma=3.4, epsilon=0.0104, rc=20.0)
+    return atoms
+
+
+def test_a_calculator_is_a_system(folder):
+    """ASE's forces under nysalt's stepper, and nysalt's coefficients in ASE: the same trajectory."""
+    system = system_of(four_atoms(), "four_argon_atoms")
+    q, p = (np.array(x) for x in system.starts(1))
+    h = 30 * units.fs
+    there = nysalt.integrate(system, "srkn6b", h, q, p, 20)
+    atoms = four_atoms()
+    atoms.set_momenta(p.reshape(-1, 3))
+    moving = exported("srkn6b", folder).srkn6b_dynamics(atoms, timestep=h)
+    moving.run(20)
+    off = np.abs(atoms.get_positions().ravel() - there[0]).max()
+    print(f"a calculator as a system: off by {off:.1e} A, moved by {np.abs(there[0] - q).max():.1e}")
+    assert off < 1e-11 and np.abs(there[0] - q).max() > 0.1  # some 1000 roundings of numbers below 10
+
+
+def test_a_constraint_and_a_bath(folder):
+    atoms = four_atoms()
+    atoms.set_constraint(FixBondLength(0, 1))
+    MaxwellBoltzmannDistribution(atoms, temperature_K=30, rng=np.random.default_rng(2))
+    apart = atoms.get_distance(0, 1)
+    energy = atoms.get_total_energy()
+    exported("srkn6b", folder).srkn6b_dynamics(atoms, timestep=12 * units.fs).run(100)
+    print(f"constrained: {atoms.get_distance(0, 1) - apart:.1e} A, {atoms.get_total_energy() - energy:.1e} eV")
+    assert abs(atoms.get_distance(0, 1) - apart) < 1e-8  # RATTLE in ASE stops at 1e-13 of squares
+    assert abs(atoms.get_total_energy() - energy) < 1e-6
+    # Free atoms in a bath have its temperature; 600 momenta, looked at 50 times some relaxation times apart.
+    free = Atoms("Ar200", positions=np.random.default_rng(1).uniform(0, 1e4, (200, 3)))
+    free.calc = LennardJones(sigma=3.4, epsilon=0.0104, rc=5.0)
+    moving = exported("baoab", folder).baoab_dynamics(free, timestep=100 * units.fs, temperature_K=90,
+                                                      friction=0.02 / units.fs, rng=np.random.default_rng(7))
+    found = []
+    for _ in range(50):
+        moving.run(1)
+        found.append(free.get_temperature())
+    mean = np.mean(found[10:])
+    print(f"bath: {mean:.2f} K of 90")
+    assert abs(mean - 90) < 5 * 90 * np.sqrt(2 / (600 * 40 * 0.5))
+
+
 def main():
+    with tempfile.TemporaryDirectory() as folder:
+        test_a_calculator_is_a_system(folder)
+        test_a_constraint_and_a_bath(folder)
     with tempfile.TemporaryDirectory() as folder:
         module = exported("srkn6b", folder)
     assert module.self_test() < 1e-13

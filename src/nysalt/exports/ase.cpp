@@ -10,21 +10,22 @@ std::string export_to_ase(const exported_method& method) {
   auto values = values_of_header(method, "#");
   values.emplace_back("LETTERS", word.letters);
   values.emplace_back("LIST", digits(word.coefficients));
-  add_bath(values, method,
-           {{"BATH_ARGUMENTS", ",\n#                                 temperature_K=300, friction=0.01 / units.fs"},
-            {"BATH_IMPORT", "    from ase.units import kB\n"},
-            {"BATH_STANDS_IN", "    kB = 1.0\n"},
-            {"BATH_PARAMETER", ", temperature_K, friction"},
-            {"BATH_RANDOM", ", rng=np.random"},
-            {"BATH_HELD", R"(
+  add_bath(
+      values, method,
+      {{"BATH_ARGUMENTS", ",\n#                                 temperature_K=300, friction=0.01 / units.fs"},
+       {"BATH_IMPORT", "    from ase.units import kB\n"},
+       {"BATH_STANDS_IN", "    kB = 1.0\n"},
+       {"BATH_PARAMETER", ", temperature_K, friction"},
+       {"BATH_RANDOM", ", rng=np.random"},
+       {"BATH_HELD", R"(
         self.temperature, self.friction, self.rng = kB * temperature_K, friction, rng)"},
-            {"BATH_BRANCH", R"(            elif letter == "O":
+       {"BATH_BRANCH", R"(            elif letter == "O":
                 damping = self.friction * c * h
                 noise = np.sqrt(-np.expm1(-2 * damping) * self.temperature * masses)
                 atoms.set_momenta(np.exp(-damping) * atoms.get_momenta()
                                   + noise * self.rng.standard_normal((len(masses), 3)))
 )"},
-            {"BATH_PINNED", R"(
+       {"BATH_PINNED", R"(
 class _Sines:
     """What step() asks of a generator: sin(1), sin(2), ... for the first coordinate of each atom."""
 
@@ -35,7 +36,7 @@ class _Sines:
         return np.sin(np.arange(self.drawn - shape[0] + 1, self.drawn + 1))[:, np.newaxis]
 
 )"},
-            {"BATH_TEST", "    run.temperature, run.friction, run.rng = 0.7, 1.5, _Sines()\n"}});
+       {"BATH_TEST", "    run.temperature, run.friction, run.rng = 0.7, 1.5, _Sines()\n"}});
   return fill(R"(@HEADER@#
 @EXPLAINED@
 # A dynamics of ASE, in the units of ASE. Forces that the calculator has are not calculated again, also from step to step.

@@ -81,7 +81,8 @@ std::pair<std::vector<double>, std::vector<double>> in_stages(const exported_let
 double two_stage_lambda(const exported_method& method, const std::string& host) {
   const exported_letters word = composition_of(method, host);
   const auto& c = word.coefficients;
-  if (word.letters != "BABAB" || !is_palindrome(word) || !is_equal(c[1], 0.5) || !is_equal(2.0 * c[0] + c[2], 1.0)) {
+  if (word.letters != "BABAB" || !is_palindrome(word) || !is_equal(c[1], 0.5) ||
+      !is_equal(2.0 * c[0] + c[2], 1.0)) {
     refuse_export(
         "export: {} takes one number, lambda of B(lambda) A(1/2) B(1 - 2 lambda) A(1/2) B(lambda), got {} "
         "with the letters {}: learn bab2, or take mclachlan2v or bcss2v",

@@ -11,7 +11,8 @@
 namespace nysalt::detail {
 
 /// The letters A and B with their coefficients; neighbours of one kind are joined, and letters of coefficient
-/// zero left out. Throws std::invalid_argument, naming the host, for a word with a processor or other letters.
+/// zero left out. Throws std::invalid_argument, naming the host, for a word with a processor or other
+/// letters.
 exported_letters composition_of(const exported_method& method, const std::string& host);
 /// The same with letters O, for hosts that have a bath.
 exported_letters composition_in_bath_of(const exported_method& method, const std::string& host);

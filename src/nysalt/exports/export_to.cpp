@@ -88,9 +88,11 @@ std::string export_to(std::string_view host, const tabulated& method, const expo
   if (options.displaced) exported = detail::with_displaced_kicks(exported);
   const run_time_word& word = exported.method.letters();
   auto& about = exported.about;
-  about.insert(about.begin(), fmt::format("{}: letters {}, order {}{}.", exported.method.name(), word.letters(),
-                                          exported.method.order, has_bath(exported) ? " without noise" : ""));
-  about.push_back(fmt::format("Force evaluations a step, the first and last joined: {}.", word.evaluations_per_step));
+  about.insert(about.begin(),
+               fmt::format("{}: letters {}, order {}{}.", exported.method.name(), word.letters(),
+                           exported.method.order, has_bath(exported) ? " without noise" : ""));
+  about.push_back(
+      fmt::format("Force evaluations a step, the first and last joined: {}.", word.evaluations_per_step));
   about.push_back(fmt::format("Written by nysalt {}.", version));
   return found->text(exported);
 }

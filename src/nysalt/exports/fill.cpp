@@ -60,13 +60,14 @@ std::string header(const exported_method& method, std::string_view mark) {
 
 gap_texts values_of_header(const exported_method& method, std::string_view mark, char exponent) {
   const exported_letters kernel = kernel_of(method);
-  std::string explained = fmt::format(
-      "{} Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q)", mark);
+  std::string explained =
+      fmt::format("{} Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q)", mark);
   if (kernel.count('D') > 0)
     explained += fmt::format(", D(b, c) is B(b) with the\n{} force at q + c h^2 M^-1 f(q)", mark);
   if (kernel.count('O') > 0) {
     explained += fmt::format(
-        ",\n{} O(c) is p = e p + sqrt((1 - e^2) kT M) N with e = exp(-friction c h) and standard normal N", mark);
+        ",\n{} O(c) is p = e p + sqrt((1 - e^2) kT M) N with e = exp(-friction c h) and standard normal N",
+        mark);
   }
   const self_test end = self_test_of(method);
   return {{"NAME", method.name},

@@ -23,17 +23,18 @@ std::string export_to_fortran(const exported_method& method) {
   values.emplace_back("KERNEL_LINES", on_lines(kernel_of(method)));
   values.emplace_back("START_LINES", on_lines(start_of(method)));
   values.emplace_back("FINISH_LINES", on_lines(finish_of(method)));
-  add_bath(values, method, {{"BATH_INTERFACE", R"(    subroutine normal_numbers(xi)
+  add_bath(values, method,
+           {{"BATH_INTERFACE", R"(    subroutine normal_numbers(xi)
       import :: real64
       real(real64), intent(out) :: xi(:)
     end subroutine
 )"},
-                            {"BATH", ", friction, temperature, normal"},
-                            {"BATH_OPTIONAL", R"(    real(real64), intent(in), optional :: friction, temperature
+            {"BATH", ", friction, temperature, normal"},
+            {"BATH_OPTIONAL", R"(    real(real64), intent(in), optional :: friction, temperature
     procedure(normal_numbers), optional :: normal
     real(real64) :: xi(size(q)), decay
 )"},
-                            {"BATH_BRANCH", R"(      if (letters(i:i) == 'O') then
+            {"BATH_BRANCH", R"(      if (letters(i:i) == 'O') then
         call normal(xi)
         decay = exp(-friction * c(k) * h)
         p = decay * p + sqrt((1 - decay**2) * temperature / inverse_mass) * xi
@@ -41,10 +42,10 @@ std::string export_to_fortran(const exported_method& method) {
         cycle
       end if
 )"},
-                            {"BATH_GIVEN", R"(    real(real64), intent(in) :: friction, temperature  ! the temperature is kT
+            {"BATH_GIVEN", R"(    real(real64), intent(in) :: friction, temperature  ! the temperature is kT
     procedure(normal_numbers) :: normal
 )"},
-                            {"BATH_PINNED", R"(  subroutine sines(xi)
+            {"BATH_PINNED", R"(  subroutine sines(xi)
     real(real64), intent(out) :: xi(:)
     integer :: i
     do i = 1, size(xi)
@@ -54,9 +55,9 @@ std::string export_to_fortran(const exported_method& method) {
   end subroutine
 
 )"},
-                            {"BATH_COUNTER", "  integer :: drawn = 0  ! by the self-test\n"},
-                            {"BATH_MADE", "    drawn = 0\n"},
-                            {"BATH_TEST", ", 1.5d0, 0.7d0, sines"}});
+            {"BATH_COUNTER", "  integer :: drawn = 0  ! by the self-test\n"},
+            {"BATH_MADE", "    drawn = 0\n"},
+            {"BATH_TEST", ", 1.5d0, 0.7d0, sines"}});
   return fill(R"(@HEADER@!
 @EXPLAINED@
 ! A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish do

@@ -16,7 +16,8 @@ std::string export_to_gpt(const exported_method& method) {
   }
   // Half of the list, in pairs; the central letter is halved, as the list is taken there and back.
   const std::size_t half = word.letters.size() / 2;
-  std::vector<double> r(word.coefficients.begin(), word.coefficients.begin() + static_cast<std::ptrdiff_t>(half + 1));
+  std::vector<double> r(word.coefficients.begin(),
+                        word.coefficients.begin() + static_cast<std::ptrdiff_t>(half + 1));
   r.back() *= 0.5;
   if (r.size() % 2 == 1) r.push_back(0.0);
   auto values = values_of_header(method, "#");
@@ -25,14 +26,14 @@ std::string export_to_gpt(const exported_method& method) {
   return fill(R"(@HEADER@#
 @EXPLAINED@
 # A scheme of GPT beside OMF2 and OMF4: the list is taken there and back, updates of momenta and fields in turn.
-#   integrator = @NAME@(N, update_momenta, update_fields)
+#   integrator = @NAME@_scheme(N, update_momenta, update_fields)
 #   integrator(tau)
 # Test, of a stand-in with the loop of gpt.algorithms.integrator.symplectic.schemes.generic: python3 FILE
 COEFFICIENTS = [@LIST@]
 FIRST = @FIRST@  # 0: an update of momenta is first, 1: one of fields
 
 
-def @NAME@(N, i0, i1):
+def @NAME@_scheme(N, i0, i1):
     from gpt.algorithms.integrator.symplectic.schemes import generic
     return generic(N, [i0, i1], COEFFICIENTS, [(FIRST + k) % 2 for k in range(len(COEFFICIENTS))], "@NAME@")
 

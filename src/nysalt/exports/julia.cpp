@@ -7,12 +7,14 @@ namespace nysalt::detail {
 
 std::string export_to_julia(const exported_method& method) {
   auto values = values_of(method, "#");
-  add_bath(values, method,
-           {{"BATH_NONE", ", bath=nothing"},
-            {"BATH_PARAMETER", ", friction, temperature, normal"},
-            {"BATH_SENTENCE", "# The temperature is kT; normal(size) is an array of standard normal numbers: randn.\n"},
-            {"BATH", ", (friction, temperature, normal)"},
-            {"BATH_BRANCH", R"(        if letter == 'O'
+  add_bath(
+      values, method,
+      {{"BATH_NONE", ", bath=nothing"},
+       {"BATH_PARAMETER", ", friction, temperature, normal"},
+       {"BATH_SENTENCE",
+        "# The temperature is kT; normal(size) is an array of standard normal numbers: randn.\n"},
+       {"BATH", ", (friction, temperature, normal)"},
+       {"BATH_BRANCH", R"(        if letter == 'O'
             friction, temperature, normal = bath
             damping = friction * c[k] * h
             p .= exp(-damping) .* p .+ sqrt.(-expm1(-2 * damping) * temperature ./ inverse_mass) .* normal(size(p))
@@ -20,9 +22,8 @@ std::string export_to_julia(const exported_method& method) {
             continue
         end
 )"},
-            {"BATH_PINNED",
-             "    drawn = Ref(0)\n    sines(size) = [sin(drawn[] += 1) for _ in 1:prod(size)]\n"},
-            {"BATH_TEST", ", 1.5, 0.7, sines"}});
+       {"BATH_PINNED", "    drawn = Ref(0)\n    sines(size) = [sin(drawn[] += 1) for _ in 1:prod(size)]\n"},
+       {"BATH_TEST", ", 1.5, 0.7, sines"}});
   return fill(R"(@HEADER@#
 @EXPLAINED@
 # A run is start! once, steps!, and finish! on a copy of q and p that is looked at; without a processor start! and

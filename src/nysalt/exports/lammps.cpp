@@ -51,13 +51,14 @@ std::string export_to_lammps(const exported_method& method) {
   const bool in_bath = has_bath(method);
   values.emplace_back("ARGUMENTS", in_bath ? " TEMPERATURE FRICTION SEED" : "");
   values.emplace_back("COUNT", in_bath ? "6" : "3");
-  add_bath(values, method, {{"BATH_SENTENCE", R"(
+  add_bath(values, method,
+           {{"BATH_SENTENCE", R"(
 // FRICTION is one over a time. Noise is a function of SEED, step and tag, the same for any number of processes.)"},
-                            {"DECAY", "\n    const double decay = std::exp(-atoms.friction() * c * h);"},
-                            {"BATH_BRANCH", R"(        if (name == 'O')
+            {"DECAY", "\n    const double decay = std::exp(-atoms.friction() * c * h);"},
+            {"BATH_BRANCH", R"(        if (name == 'O')
           v[d] = decay * v[d] + std::sqrt((1 - decay * decay) * atoms.temperature() / m) * atoms.normal(i, k, d);
 )"},
-                            {"BATH_NORMAL", R"(
+            {"BATH_NORMAL", R"(
 // A standard normal number for each place: splitmix64 [Steele, Lea and Flood, OOPSLA 2014, figure 2], Box and Muller.
 inline double normal_at(std::uint64_t seed, std::uint64_t tag, std::uint64_t step, std::uint64_t place) {
   const auto mixed = [](std::uint64_t z) {
@@ -72,34 +73,34 @@ inline double normal_at(std::uint64_t seed, std::uint64_t tag, std::uint64_t ste
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::acos(-1.0) * w);
 }
 )"},
-                            {"BATH_ATOMS", R"(  double friction() const { return held.friction; }
+            {"BATH_ATOMS", R"(  double friction() const { return held.friction; }
   double temperature() const { return held.temperature * force->boltz / force->mvv2e; }
   double normal(int i, int letter, int d) const {
     return normal_at(held.seed, atom->tag[i], update->ntimestep, 3 * letter + d);
   }
 )"},
-                            {"BATH_STANDS_IN", R"(  int drawn;
+            {"BATH_STANDS_IN", R"(  int drawn;
   double friction() const { return 1.5; }
   double temperature() const { return 0.7; }
   double normal(int, int, int d) { return d == 0 ? std::sin(static_cast<double>(++drawn)) : 0.0; }
 )"},
-                            {"BATH_DRAWN", ", 0"},
-                            {"BATH_MEMBERS", "    bath_@NAME@ held = {0, 0, 0};\n"},
-                            {"BATH_TYPE", R"(struct bath_@NAME@ {
+            {"BATH_DRAWN", ", 0"},
+            {"BATH_MEMBERS", "    bath_@NAME@ held = {0, 0, 0};\n"},
+            {"BATH_TYPE", R"(struct bath_@NAME@ {
   double temperature, friction;
   std::uint64_t seed;
 };
 )"},
-                            {"BATH_READ", R"(
+            {"BATH_READ", R"(
     held.temperature = utils::numeric(FLERR, arg[3], false, lmp);
     held.friction = utils::numeric(FLERR, arg[4], false, lmp);
     held.seed = utils::bnumeric(FLERR, arg[5], false, lmp);
-    if (held.temperature < 0 || held.friction < 0) error->all(FLERR, "nysalt/@NAME@: needs a temperature and friction >= 0");
-    if (!atom->tag_enable) error->all(FLERR, "nysalt/@NAME@: needs atom IDs");)"},
-                            {"BATH_HELD", ", held"},
-                            {"BATH_CONSTRUCTED", ", const bath_@NAME@& held"},
-                            {"BATH_INITIALISED", ", held(held)"},
-                            {"BATH_FIELD", "  const bath_@NAME@& held;\n"}});
+    if (held.temperature < 0 || held.friction < 0) error->all(FLERR, std::string("nysalt/@NAME@: needs a temperature and friction >= 0"));
+    if (!atom->tag_enable) error->all(FLERR, std::string("nysalt/@NAME@: needs atom IDs"));)"},
+            {"BATH_HELD", ", held"},
+            {"BATH_CONSTRUCTED", ", const bath_@NAME@& held"},
+            {"BATH_INITIALISED", ", held(held)"},
+            {"BATH_FIELD", "  const bath_@NAME@& held;\n"}});
   return fill(R"(@HEADER@//
 @EXPLAINED@
 // A fix of LAMMPS for a plug-in. LAMMPS computes one force a step, so that a step of the method is @STAGES@ steps of LAMMPS:
@@ -112,6 +113,7 @@ inline double normal_at(std::uint64_t seed, std::uint64_t tag, std::uint64_t ste
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 #ifndef NYSALT_SELF_TEST
 #include "atom.h"
 #include "error.h"
@@ -184,14 +186,14 @@ struct group_@NAME@ : protected Pointers {
 class fix_@NAME@ : public Fix {
  public:
   fix_@NAME@(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-    if (narg != @COUNT@) error->all(FLERR, "nysalt/@NAME@: expected fix ID GROUP nysalt/@NAME@@ARGUMENTS@");@BATH_READ@
+    if (narg != @COUNT@) error->all(FLERR, std::string("nysalt/@NAME@: expected fix ID GROUP nysalt/@NAME@@ARGUMENTS@"));@BATH_READ@
     time_integrate = 1;
     dynamic_group_allow = 1;
   }
   int setmask() override { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
   void init() override {
     if ((update->laststep - update->firststep) % nysalt_@NAME@::stages != 0)
-      error->all(FLERR, "nysalt/@NAME@: the steps of a run must be a multiple of @STAGES@");
+      error->all(FLERR, std::string("nysalt/@NAME@: the steps of a run must be a multiple of @STAGES@"));
     stage = 0;
   }
   void initial_integrate(int) override {

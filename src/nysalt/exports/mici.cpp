@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to Mici.
-#include "refuse.hpp"
 #include "composition.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
+#include "refuse.hpp"
 
 namespace nysalt::detail {
 

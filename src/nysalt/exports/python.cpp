@@ -7,24 +7,25 @@ namespace nysalt::detail {
 
 std::string export_to_python(const exported_method& method) {
   auto values = values_of(method, "#");
-  add_bath(values, method,
-           {{"BATH_NONE", ", bath=None"},
-            {"BATH_PARAMETER", ", *, friction, temperature, normal"},
-            {"BATH_SENTENCE",
-             "\n\n    The temperature is kT; normal(shape) is an array of standard normal numbers: "
-             "rng.standard_normal."},
-            {"BATH", ", (friction, temperature, normal)"},
-            {"BATH_BRANCH", R"(        if letter == "O":
+  add_bath(
+      values, method,
+      {{"BATH_NONE", ", bath=None"},
+       {"BATH_PARAMETER", ", *, friction, temperature, normal"},
+       {"BATH_SENTENCE",
+        "\n\n    The temperature is kT; normal(shape) is an array of standard normal numbers: "
+        "rng.standard_normal."},
+       {"BATH", ", (friction, temperature, normal)"},
+       {"BATH_BRANCH", R"(        if letter == "O":
             friction, temperature, normal = bath
             damping = friction * next(c) * h
             p *= np.exp(-damping)
             p += np.sqrt(-np.expm1(-2 * damping) * temperature / inverse_mass) * normal(p.shape)
             continue
 )"},
-            {"BATH_PINNED", "    sines = iter(np.sin(np.arange(1, 1000)))\n"},
-            {"BATH_TEST",
-             ",\n          friction=1.5, temperature=0.7, normal=lambda shape: np.array([next(sines) for _ in "
-             "range(*shape)])"}});
+       {"BATH_PINNED", "    sines = iter(np.sin(np.arange(1, 1000)))\n"},
+       {"BATH_TEST",
+        ",\n          friction=1.5, temperature=0.7, normal=lambda shape: np.array([next(sines) for _ in "
+        "range(*shape)])"}});
   return fill(R"(@HEADER@#
 @EXPLAINED@
 # A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish do

@@ -4,8 +4,8 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
-#include "comparison/json.hpp"
 #include "comparison/exported_source.hpp"
+#include "comparison/json.hpp"
 #include "nysalt/detail/together.hpp"
 #include "report/manifest.hpp"
 
@@ -23,13 +23,14 @@ int export_method(const export_command& command, const common_settings& common) 
     }
     if (!command.output.empty()) write_result(command.output, text, common);
     if (common.json) {
-      print(text_of(json{{"host", command.host},
-                         {"name", exported.options.name.empty() ? exported.method.name() : exported.options.name},
-                         {"letters", word.letters()},
-                         {"coefficients", exported.method.coefficients()},
-                         {"evaluations_per_step", word.evaluations_per_step},
-                         {"output", command.output.empty() ? json() : json(command.output)},
-                         {"text", text}}));
+      print(text_of(
+          json{{"host", command.host},
+               {"name", exported.options.name.empty() ? exported.method.name() : exported.options.name},
+               {"letters", word.letters()},
+               {"coefficients", exported.method.coefficients()},
+               {"evaluations_per_step", word.evaluations_per_step},
+               {"output", command.output.empty() ? json() : json(command.output)},
+               {"text", text}}));
     } else if (command.output.empty()) {
       print(text);
     } else {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "../commands.hpp"
-#include "nysalt/export_to.hpp"
 #include "number_option.hpp"
+#include "nysalt/export_to.hpp"
 #include "shared_options.hpp"
 
 namespace nysalt::program {
@@ -20,7 +20,8 @@ subcommand offer_export(CLI::App& app, common_settings& common) {
   command.add_option("--to", asked->host, "the language or code, one of those below")->required();
   command.add_option("--output", asked->output, "the file [standard output]");
   command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
-  add_number(command, "--step", asked->how.step, "of a scheme over several steps: one of them, or between them");
+  add_number(command, "--step", asked->how.step,
+             "of a scheme over several steps: one of them, or between them");
   command.add_option("--placement", asked->how.placement,
                      "of letters O in a method without them: end, symmetric or middle [none: no bath]");
   command.add_flag("--displaced", asked->how.displaced,

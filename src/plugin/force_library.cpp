@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "force_library.hpp"
+
+#include <dlfcn.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "comparison/refusal.hpp"
+#include "nysalt/c_force.h"
+#include "nysalt/detail/fingerprint.hpp"
+#include "nysalt/noises/counter_based.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+using column = vector<double, Eigen::Dynamic>;
+
+/// The functions of a library; null where one that may be missing is.
+struct c_functions {
+  decltype(nysalt_force)* force;
+  decltype(nysalt_potential)* potential;
+  decltype(nysalt_start)* start;
+  decltype(nysalt_open)* open;
+  decltype(nysalt_close)* close;
+  std::int64_t dimension;
+  std::vector<double> inverse_masses;
+  std::string description;
+  std::string file;
+};
+
+/// Data of the library for one thread; a copy has its own.
+class c_data {
+ public:
+  explicit c_data(const c_functions& of) : of_(&of), data_(opened(of)) {}
+  c_data(const c_data& other) : c_data(*other.of_) {}
+  c_data& operator=(const c_data&) = delete;
+  ~c_data() {
+    if (of_->close != nullptr && data_ != nullptr) of_->close(data_);
+  }
+  void* get() const { return data_; }
+
+ private:
+  static void* opened(const c_functions& of) {
+    if (of.open == nullptr) return nullptr;
+    void* const data = of.open();
+    if (data == nullptr) refuse("{}: nysalt_open returned a null pointer", of.file);
+    return data;
+  }
+  const c_functions* of_;
+  void* data_;
+};
+
+class c_hamiltonian {
+ public:
+  static constexpr int dimension = Eigen::Dynamic;
+  static constexpr int lanes = 1;
+
+  explicit c_hamiltonian(std::shared_ptr<const c_functions> functions)
+      : functions_(std::move(functions)), data_(*functions_) {}
+
+  Eigen::Index size() const { return functions_->dimension; }
+  double potential(const column& q) const {
+    return functions_->potential(functions_->dimension, q.data(), data_.get());
+  }
+  void force(const column& q, column& f) const {
+    functions_->force(functions_->dimension, q.data(), f.data(), data_.get());
+  }
+  double inverse_mass(Eigen::Index i) const {
+    return functions_->inverse_masses[static_cast<std::size_t>(i)];
+  }
+  std::string description() const { return functions_->description; }
+
+  phase_point<double, Eigen::Dynamic> start(const column& normals) const {
+    phase_point<double, Eigen::Dynamic> x{column(size()), column(size())};
+    functions_->start(functions_->dimension, normals.data(), x.q.data(), x.p.data(), data_.get());
+    return x;
+  }
+
+ private:
+  std::shared_ptr<const c_functions> functions_;
+  c_data data_;
+};
+static_assert(BlackBoxForce<c_hamiltonian> && NystromSystem<c_hamiltonian> && HasEnergy<c_hamiltonian>);
+
+class c_starts {
+ public:
+  c_starts(c_hamiltonian system, double spread) : system_(std::move(system)), spread_(spread) {}
+
+  phase_point<double, Eigen::Dynamic> operator()(std::uint64_t seed, std::uint64_t n) const {
+    column normals(2 * system_.size());
+    standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normals);
+    normals *= spread_;
+    const c_hamiltonian own = system_;  // starts are asked for by several threads
+    return own.start(normals);
+  }
+  std::string description() const { return sentence("nysalt_start of spread {}", spread_); }
+
+ private:
+  c_hamiltonian system_;
+  double spread_;
+};
+
+template <class F>
+F* optional_function(void* library, const char* name) {
+  return reinterpret_cast<F*>(dlsym(library, name));
+}
+template <class F>
+F* required_function(void* library, const char* name, const std::string& shown) {
+  auto* const found = optional_function<F>(library, name);
+  if (found == nullptr) {
+    refuse("{}: {} is missing: define the functions of nysalt/c_force.h", shown, name);
+  }
+  return found;
+}
+
+/// Files of other content are other systems.
+std::string fingerprint_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  nysalt::detail::fingerprint all;
+  for (std::istreambuf_iterator<char> at(file), end; at != end; ++at) all.add(static_cast<double>(*at));
+  return all.text();
+}
+
+std::shared_ptr<const c_functions> functions_of(void* library, const std::string& path,
+                                                const std::string& shown) {
+  auto all = std::make_shared<c_functions>();
+  all->file = shown;
+  all->force = required_function<decltype(nysalt_force)>(library, "nysalt_force", shown);
+  all->potential = required_function<decltype(nysalt_potential)>(library, "nysalt_potential", shown);
+  all->start = required_function<decltype(nysalt_start)>(library, "nysalt_start", shown);
+  all->open = optional_function<decltype(nysalt_open)>(library, "nysalt_open");
+  all->close = optional_function<decltype(nysalt_close)>(library, "nysalt_close");
+  all->dimension = required_function<decltype(nysalt_dimension)>(library, "nysalt_dimension", shown)();
+  constexpr std::int64_t most = 100'000'000;  // numbers: ten such arrays take eight gigabytes
+  if (all->dimension < 1 || all->dimension > most) {
+    refuse("{}: nysalt_dimension must be 1 to {}, got {}", shown, most, all->dimension);
+  }
+  all->inverse_masses.assign(static_cast<std::size_t>(all->dimension), 1.0);
+  if (auto* const mass = optional_function<decltype(nysalt_inverse_mass)>(library, "nysalt_inverse_mass")) {
+    for (std::int64_t i = 0; i < all->dimension; ++i) {
+      const double found = mass(i);
+      if (!(found > 0.0) || !std::isfinite(found)) {
+        refuse("{}: nysalt_inverse_mass({}) must be positive and finite, got {}", shown, i, found);
+      }
+      all->inverse_masses[static_cast<std::size_t>(i)] = found;
+    }
+  }
+  auto* const described = optional_function<decltype(nysalt_description)>(library, "nysalt_description");
+  all->description = described != nullptr ? described() : std::filesystem::path(path).stem().string();
+  return all;
+}
+
+}  // namespace
+
+bool has_c_force(void* library) { return dlsym(library, "nysalt_force") != nullptr; }
+
+system_declaration declaration_of_c_force(void* library, const std::string& path, const std::string& shown) {
+  const auto functions = functions_of(library, path, shown);
+  double frequency = 0.0;
+  if (auto* const found = optional_function<decltype(nysalt_frequency)>(library, "nysalt_frequency")) {
+    frequency = found();
+    if (!(frequency > 0.0) || !std::isfinite(frequency)) {
+      refuse("{}: nysalt_frequency must be positive and finite, got {}", shown, frequency);
+    }
+  }
+  system_declaration declared;
+  declared.name = std::filesystem::path(path).stem().string();
+  declared.title = "functions of C, by nysalt/c_force.h";
+  declared.described = functions->description;
+  declared.identity = fingerprint_of(path);
+  declared.make = [functions, frequency](const parameter_values&, const bath& in, double spread) {
+    const c_hamiltonian system(functions);
+    return nysalt::detail::made_of(system, in, c_starts(system, spread), frequency);
+  };
+  return declared;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Stand-ins for hosts whose exported text cannot run by itself here: the documented loop of the host, with the
+numbers of the text, from the pinned start to the end that the text names.
+
+usage: stand_in.py HOST FILE, for the hosts chroma, tmlqcd, openqcd and ordinarydiffeq
+"""
+import re
+import sys
+
+
+def numbers_after(text, mark):
+    found = re.search(re.escape(mark) + r"\s*=?\s*\(([^)]*)\)", text)
+    return [float(one) for one in found.group(1).split(",") if one.strip()]
+
+
+def force(q):
+    return [-q[0] - 2 * q[0] * q[1], -q[1] - q[0] ** 2 + q[1] ** 2]
+
+
+class state:
+    def __init__(self):
+        self.q, self.p = [0.3, 0.2], [0.1, -0.25]
+
+    def kick(self, c):
+        self.p = [p + c * f for p, f in zip(self.p, force(self.q))]
+
+    def drift(self, c):
+        self.q = [self.q[0] + c * self.p[0], self.q[1] + c * 0.5 * self.p[1]]
+
+
+def chroma(x, lam, n, length):
+    """LatColMatSTSMinNorm2RecursiveIntegrator: the first and last kicks of neighbouring steps are one."""
+    dtau = length / n
+    x.kick(lam * dtau)
+    for i in range(n):
+        x.drift(dtau / 2)
+        x.kick((1 - 2 * lam) * dtau)
+        x.drift(dtau / 2)
+        x.kick(lam * dtau * (2 if i < n - 1 else 1))
+
+
+def tmlqcd(x, lam, n, length):
+    """2MN, step by step: the kick at the end of a step is double but in the last."""
+    eps = length / n
+    x.kick(lam * eps)
+    for i in range(1, n):
+        x.drift(0.5 * eps)
+        x.kick((1 - 2 * lam) * eps)
+        x.drift(0.5 * eps)
+        x.kick(2 * lam * eps)
+    x.drift(0.5 * eps)
+    x.kick((1 - 2 * lam) * eps)
+    x.drift(0.5 * eps)
+    x.kick(lam * eps)
+
+
+def openqcd(x, lam, n, length):
+    """OMF2 as a list of operations, whose neighbouring kicks are joined."""
+    tau = length / n
+    operations = []
+    for _ in range(n):
+        operations += [("p", lam * tau), ("u", tau / 2), ("p", (1 - 2 * lam) * tau), ("u", tau / 2), ("p", lam * tau)]
+    joined = []
+    for kind, c in operations:
+        if joined and joined[-1][0] == kind:
+            joined[-1] = (kind, joined[-1][1] + c)
+        else:
+            joined.append((kind, c))
+    for kind, c in joined:
+        (x.kick if kind == "p" else x.drift)(c)
+
+
+def ordinarydiffeq(x, a, b, n, length):
+    """The stages of perform_step! for a SymplecticTableau."""
+    dt = length / n
+    for _ in range(n):
+        for i in range(len(a)):
+            x.drift(b[i] * dt)
+            x.kick(a[i] * dt)
+
+
+def main():
+    host, file = sys.argv[1:]
+    text = open(file).read()
+    x = state()
+    if host == "ordinarydiffeq":
+        ordinarydiffeq(x, numbers_after(text, "const a"), numbers_after(text, "const b"), 10, 1.0)
+        end_q, end_p = (
+            [float(one) for one in re.search(re.escape(f"{name} - [") + "([^]]*)", text).group(1).split(",")]
+            for name in ("q", "p"))
+    else:
+        patterns = {"chroma": r"<lambda>(.*)</lambda>", "tmlqcd": r"Lambda0 = (.*)", "openqcd": r"lambda +(.*)"}
+        lam = float(re.search("(?m)^ *" + patterns[host], text).group(1))
+        {"chroma": chroma, "tmlqcd": tmlqcd, "openqcd": openqcd}[host](x, lam, 10, 1.0)
+        end_q, end_p = numbers_after(text, "to q"), numbers_after(text[text.index("to q"):], "p")
+    off = max(abs(u - v) for u, v in zip(x.q + x.p, end_q + end_p))
+    print(f"{host}: off by {off:.1e}")
+    return not off < 1e-13  # some hundred roundings of numbers below 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

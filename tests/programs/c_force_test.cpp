@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+// Shared objects with the functions of nysalt/c_force.h are systems, and what a user may get wrong in them.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "../support/program.hpp"
+#include "../support/without_times.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+/// Two oscillators with a cubic term, as tests/laws has Henon and Heiles' system.
+constexpr const char* henon_heiles = R"(
+int64_t nysalt_dimension(void) { return 2; }
+void nysalt_force(int64_t n, const double* q, double* f, void* data) {
+  (void)n, (void)data;
+  f[0] = -q[0] - 2.0 * q[0] * q[1];
+  f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
+}
+double nysalt_potential(int64_t n, const double* q, void* data) {
+  (void)n, (void)data;
+  return 0.5 * (q[0] * q[0] + q[1] * q[1]) + q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / 3.0;
+}
+void nysalt_start(int64_t n, const double* normals, double* q, double* p, void* data) {
+  (void)data;
+  for (int64_t i = 0; i < n; ++i) q[i] = 0.1 * normals[i], p[i] = 0.1 * normals[n + i];
+}
+)";
+
+/// `./NAME.so` of the source; the text of the compiler where it fails.
+std::string built(const scratch& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder / (name + ".c")) << "#include \"nysalt/c_force.h\"\n#include <stdlib.h>\n" << text;
+  const auto include = std::filesystem::path(__FILE__).parent_path() / "../../include";
+  return shell(folder, "gcc -O2 -Wall -Wextra -Werror -shared -fPIC -I '" + include.string() + "' " + name +
+                           ".c -o " + name + ".so")
+      .err;
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  const auto at = text.find(old);
+  BOOST_REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), by);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_force_in_c_steps_as_the_bundled_system) {
+  const scratch folder("c_force");
+  BOOST_REQUIRE_EQUAL(built(folder, "mine", henon_heiles), "");
+  // The same starts by a file of positions, and momenta of temperature 0.
+  std::ofstream(folder / "at.csv") << "q1,q2\n0.1,0.2\n-0.3,0.1\n0.2,-0.25\n";
+  std::string ends[2];
+  const std::string systems[] = {"./mine.so", "henon_heiles"};
+  for (int i = 0; i < 2; ++i) {
+    const auto done =
+        run(folder, "run --system " + systems[i] +
+                        " --start at.csv --temperature 0 --method srkn6b --step 0.1 --horizon 20 "
+                        "--trajectories 3 --sample-every 50 --observables q1,q2,p1,p2 --output o.csv");
+    BOOST_TEST(done.code == 0, done.err);
+    ends[i] = shell(folder, "cat o.csv").out;
+  }
+  BOOST_TEST(ends[0] == ends[1]);
+  BOOST_TEST(ends[0].size() > 500);
+}
+
+BOOST_AUTO_TEST_CASE(it_is_learned_for_and_its_schemes_are_of_its_file) {
+  const scratch folder("c_force_learn");
+  BOOST_REQUIRE_EQUAL(built(folder, "mine", henon_heiles), "");
+  const std::string learn =
+      "learn --system ./mine.so --family bab2 --step 0.5 --trajectories 10 --effort quick --threads ";
+  BOOST_TEST(run(folder, learn + "1 --output one.json").code == 0);
+  BOOST_TEST(run(folder, learn + "2 --output two.json").code == 0);
+  BOOST_TEST(shell(folder, "cmp one.json two.json").code == 0);
+  const std::string go = "run --system ./mine.so --method one.json --step 0.5 --horizon 10 --output o.csv";
+  BOOST_TEST(run(folder, go).code == 0);
+  BOOST_REQUIRE_EQUAL(built(folder, "mine", replaced(henon_heiles, "0.1 * normals[i]", "0.2 * normals[i]")),
+                      "");
+  const auto other = run(folder, go);
+  BOOST_TEST(other.code == 2);
+  BOOST_TEST(other.err.find("another source") != std::string::npos, other.err);
+}
+
+BOOST_AUTO_TEST_CASE(each_thread_has_data_of_its_own) {
+  const scratch folder("c_force_data");
+  // Room of each data for one force at a time: another thread in it is seen.
+  std::string text = replaced(henon_heiles, "(void)n, (void)data;\n  f[0]",
+                              "(void)n;\n  int* in = data;\n  if (++*in != 1) abort();\n  f[0]");
+  text = replaced(text, "+ q[1] * q[1];\n}", "+ q[1] * q[1];\n  --*in;\n}");
+  text +=
+      "void* nysalt_open(void) { return calloc(1, sizeof(int)); }\nvoid nysalt_close(void* data) { "
+      "free(data); }\n";
+  BOOST_REQUIRE_EQUAL(built(folder, "mine", text), "");
+  const auto done = run(folder,
+                        "run --system ./mine.so --method verlet --step 0.05 --horizon 500 --trajectories 40 "
+                        "--threads 4 --observables energy --output o.csv");
+  BOOST_TEST(done.code == 0, done.err);
+}
+
+BOOST_AUTO_TEST_CASE(masses_spread_and_a_bath) {
+  const scratch folder("c_force_more");
+  BOOST_REQUIRE_EQUAL(built(folder, "heavy",
+                            std::string(henon_heiles) +
+                                "double nysalt_inverse_mass(int64_t i) { return i == 0 ? 1.0 : 0.25; }\n"
+                                "double nysalt_frequency(void) { return 2.0; }\n"
+                                "const char* nysalt_description(void) { return \"heavy(4)\"; }\n"),
+                      "");
+  const auto report = json_of(run(folder,
+                                  "compare --system ./heavy.so --spread 0.5 --methods verlet --steps 0.1 "
+                                  "--trajectories 8 --metric energy --json"));
+  BOOST_TEST(report.dump().find("heavy(4)") != std::string::npos);
+  const auto bath =
+      run(folder,
+          "run --system ./heavy.so --friction 1 --temperature 0.01 --start law --method baoab --step 0.1 "
+          "--horizon 10 --observables kinetic_temperature --output o.csv");
+  BOOST_TEST(bath.code == 0, bath.err);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
+  const scratch folder("c_force_wrong");
+  const auto must_be_told = [&](const std::string& text, const std::string& words) {
+    BOOST_REQUIRE_EQUAL(built(folder, "bad", text), "");
+    const auto done =
+        run(folder, "run --system ./bad.so --method verlet --step 0.1 --horizon 1 --output o.csv");
+    BOOST_TEST(done.code == 2, words);
+    BOOST_TEST(done.err.find(words) != std::string::npos, done.err);
+    BOOST_TEST(done.err.find("bad.so") != std::string::npos || done.err.find("bad") != std::string::npos,
+               done.err);
+    BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
+  };
+  const std::string whole = henon_heiles;
+  must_be_told(replaced(whole, "nysalt_potential", "my_potential"), "nysalt_potential is missing");
+  must_be_told(replaced(whole, "nysalt_start", "my_start"), "nysalt_start is missing");
+  must_be_told(replaced(whole, "nysalt_dimension", "my_dimension"), "nysalt_dimension is missing");
+  must_be_told(replaced(whole, "return 2;", "return 0;"), "nysalt_dimension must be 1 to");
+  must_be_told(replaced(whole, "-q[0] - 2.0", "-q[0] + 2.0"), "force");
+  must_be_told(replaced(whole, "0.1 * normals[i]", "0.0 / 0.0"), "not finite");
+  must_be_told(whole + "double nysalt_inverse_mass(int64_t i) { return i - 1.0; }\n",
+               "nysalt_inverse_mass(0) must be");
+  must_be_told(whole + "double nysalt_frequency(void) { return -1.0; }\n", "nysalt_frequency must be");
+  must_be_told(whole + "void* nysalt_open(void) { return NULL; }\n", "nysalt_open returned a null pointer");
+  must_be_told("int nothing;\n", "c_force.h");
+}
