@@ -6,9 +6,10 @@ here=$(dirname "$0")
 # [build]
 cc -O3 -shared -fPIC -I "$here/../include" "$here/c_force/morse_system.c" "$here/c_force/morse_chain.c" -lm -o morse.so
 nysalt learn --system ./morse.so --family aba4 --step 0.2 --horizon 4 --trajectories 20 --output scheme.json >learned.txt
-nysalt compare --system ./morse.so --methods verlet,mclachlan4,scheme.json --steps 0.05,0.2 --equal-cost --horizon 4 \
+nysalt compare --system ./morse.so --methods verlet,srkn6b,scheme.json --steps 0.05 --equal-cost --horizon 4 \
   --trajectories 32 >compared.txt
 # [/build]
 grep usable learned.txt
-grep '0.05' compared.txt | awk '{print $1, $2}' | head -3
-# usable                yes
+
+# Expected output:
+#   usable                yes

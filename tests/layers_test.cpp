@@ -124,7 +124,7 @@ texts files_below(const std::filesystem::path& folder) {
   const fs::path root = fs::path(NYSALT_SOURCE_DIR) / folder;
   texts files;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
-    if (!entry.is_regular_file()) continue;
+    if (!entry.is_regular_file() || entry.path().extension() == ".h") continue;  // c_force.h is for C
     std::ostringstream text;
     text << std::ifstream(entry.path()).rdbuf();
     files[fs::relative(entry.path(), root).generic_string()] = text.str();

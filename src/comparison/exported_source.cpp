@@ -55,9 +55,8 @@ export_source plain_source(const method_source& source, const export_request& re
   return result;
 }
 
-/// Where letters O are to be placed; nowhere if nobody says.
+/// Where letters O are to be placed; nowhere if nobody says. A scheme of a bath has them already.
 std::optional<placement> placement_of(const method_source& source, const export_request& request) {
-  if (source.learned && source.learned->where) return source.learned->where;
   return source.where ? source.where : placement_asked(request.placement);
 }
 
@@ -73,7 +72,9 @@ std::string arguments_of_cite(const method_source& source) {
 
 export_source exported_from(const method_source& source, const export_request& request) {
   export_source result = plain_source(source, request);
-  if (const auto where = placement_of(source, request)) {
+  const bool is_of_bath = source.learned && source.learned->where && request.placement.empty();
+  const auto where = placement_of(source, request);
+  if (where && !is_of_bath) {
     if (result.method.letters().stochastic_letters > 0) {
       refuse("export: {} has its letters O already, in {}", source.typed, result.method.letters().letters());
     }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -39,21 +40,26 @@ class c_data {
  public:
   explicit c_data(const c_functions& of) : of_(&of), data_(opened(of)) {}
   c_data(const c_data& other) : c_data(*other.of_) {}
-  c_data& operator=(const c_data&) = delete;
-  ~c_data() {
-    if (of_->close != nullptr && data_ != nullptr) of_->close(data_);
+  c_data(c_data&& other) noexcept = default;
+  c_data& operator=(c_data other) noexcept {
+    of_ = other.of_;
+    data_ = std::move(other.data_);
+    return *this;
   }
-  void* get() const { return data_; }
+  ~c_data() = default;
+  void* get() const { return data_.get(); }
 
  private:
-  static void* opened(const c_functions& of) {
+  static std::shared_ptr<void> opened(const c_functions& of) {
     if (of.open == nullptr) return nullptr;
     void* const data = of.open();
     if (data == nullptr) refuse("{}: nysalt_open returned a null pointer", of.file);
-    return data;
+    return {data, [close = of.close](void* held) {
+              if (close != nullptr) close(held);
+            }};
   }
   const c_functions* of_;
-  void* data_;
+  std::shared_ptr<void> data_;
 };
 
 class c_hamiltonian {

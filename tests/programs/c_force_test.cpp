@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(a_force_in_c_steps_as_the_bundled_system) {
   for (int i = 0; i < 2; ++i) {
     const auto done =
         run(folder, "run --system " + systems[i] +
-                        " --start at.csv --temperature 0 --method srkn6b --step 0.1 --horizon 20 "
+                        " --start at.csv --temperature 0.001 --method srkn6b --step 0.1 --horizon 20 "
                         "--trajectories 3 --sample-every 50 --observables q1,q2,p1,p2 --output o.csv");
     BOOST_TEST(done.code == 0, done.err);
     ends[i] = shell(folder, "cat o.csv").out;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(each_thread_has_data_of_its_own) {
       "free(data); }\n";
   BOOST_REQUIRE_EQUAL(built(folder, "mine", text), "");
   const auto done = run(folder,
-                        "run --system ./mine.so --method verlet --step 0.05 --horizon 500 --trajectories 40 "
+                        "run --system ./mine.so --spread 0.3 --method verlet --step 0.05 --horizon 500 --trajectories 40 "
                         "--threads 4 --observables energy --output o.csv");
   BOOST_TEST(done.code == 0, done.err);
 }
@@ -129,8 +129,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
         run(folder, "run --system ./bad.so --method verlet --step 0.1 --horizon 1 --output o.csv");
     BOOST_TEST(done.code == 2, words);
     BOOST_TEST(done.err.find(words) != std::string::npos, done.err);
-    BOOST_TEST(done.err.find("bad.so") != std::string::npos || done.err.find("bad") != std::string::npos,
-               done.err);
+    BOOST_TEST(done.err.find("bad") != std::string::npos, done.err);
     BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
   };
   const std::string whole = henon_heiles;

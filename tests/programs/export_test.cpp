@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(a_scheme_of_a_bath_has_its_letters) {
   const scratch folder("export_bath");
   const auto learned =
       run(folder,
-          "learn --system henon_heiles --friction 1 --temperature 0.02 --placement middle --family "
+          "learn --system linear_chain --friction 1 --temperature 0.5 --placement middle --family "
           "bab3 --step 0.6 --effort quick --output s.json");
   BOOST_TEST(learned.code == 0, learned.err);
   for (const std::string host : {"c", "python", "openmm", "lammps"}) {

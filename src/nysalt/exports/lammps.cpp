@@ -60,7 +60,7 @@ std::string export_to_lammps(const exported_method& method) {
 )"},
             {"BATH_NORMAL", R"(
 // A standard normal number for each place: splitmix64 [Steele, Lea and Flood, OOPSLA 2014, figure 2], Box and Muller.
-inline double normal_at(std::uint64_t seed, std::uint64_t tag, std::uint64_t step, std::uint64_t place) {
+inline double normal_of_@NAME@(std::uint64_t seed, std::uint64_t tag, std::uint64_t step, std::uint64_t place) {
   const auto mixed = [](std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -76,7 +76,7 @@ inline double normal_at(std::uint64_t seed, std::uint64_t tag, std::uint64_t ste
             {"BATH_ATOMS", R"(  double friction() const { return held.friction; }
   double temperature() const { return held.temperature * force->boltz / force->mvv2e; }
   double normal(int i, int letter, int d) const {
-    return normal_at(held.seed, atom->tag[i], update->ntimestep, 3 * letter + d);
+    return normal_of_@NAME@(held.seed, atom->tag[i], update->ntimestep, 3 * letter + d);
   }
 )"},
             {"BATH_STANDS_IN", R"(  int drawn;
@@ -166,7 +166,6 @@ void after_force(int stage, double h, Atoms& atoms) {
 #ifndef NYSALT_SELF_TEST
 namespace LAMMPS_NS {
 
-namespace {
 @BATH_TYPE@@BATH_NORMAL@
 // The atoms of a group on this process.
 struct group_@NAME@ : protected Pointers {
@@ -180,8 +179,6 @@ struct group_@NAME@ : protected Pointers {
   double force_unit() const { return force->ftm2v; }
 @BATH_ATOMS@  int bit, count;
 @BATH_FIELD@};
-
-}  // namespace
 
 class fix_@NAME@ : public Fix {
  public:
