@@ -2,23 +2,36 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
+
+#include "nysalt/detail/unfinished_names.hpp"
 
 namespace nysalt {
 
 /// So that a file which has just got its name keeps it when the power fails; as far as the system can.
 void put_folder_on_disk(const std::filesystem::path& file);
 
-/// A file that is there whole or not at all: what is written goes into NAME.WRITER.part, and commit()
-/// renames it. Without a commit nothing of it is left, and programs that write the same file at once do not
-/// mix, as the writer is the process.
+namespace detail {
+
+/// A new, empty and locked file for writing; what a process that was stopped left there is removed. Returns
+/// the descriptor. Throws std::runtime_error, about `target`, if another process writes the file, if the name
+/// is that of a link, a folder or a device, or if the file cannot be made.
+int make_part(const std::filesystem::path& part, const std::filesystem::path& target);
+
+/// The file that a link leads to, or the path itself.
+std::filesystem::path behind_links(const std::filesystem::path& file);
+
+}  // namespace detail
+
+/// A file that is there whole or not at all: what is written goes into NAME.new.part, and commit() renames
+/// it. Without a commit nothing of it is left, and of two processes that write the same file at once the
+/// second is refused. A link is followed: the file behind it is replaced.
 class atomic_file {
  public:
-  /// Makes NAME.WRITER.part. Throws std::runtime_error if it cannot be made.
+  /// Makes NAME.new.part. Throws std::runtime_error if it cannot be made, or another process writes it.
   explicit atomic_file(std::filesystem::path path);
-  /// The same under another name of the writer.
+  /// NAME.WRITER.part.
   atomic_file(std::filesystem::path path, const std::string& writer);
   ~atomic_file();
   atomic_file(const atomic_file&) = delete;
@@ -33,13 +46,14 @@ class atomic_file {
   void commit(bool durable = false);
 
  private:
-  void put_on_disk() const;
-
+  void write_gathered();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   std::filesystem::path part_;
-  std::ofstream stream_;
+  int file_;
+  detail::unfinished_name name_;
+  std::string gathered_;
   bool committed_ = false;
 };
 

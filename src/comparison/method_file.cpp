@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "catalogue.hpp"
 #include "did_you_mean.hpp"
 #include "document_reader.hpp"
+#include "inputs.hpp"
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/langevin.hpp"
@@ -236,6 +238,7 @@ std::string source_of_system(const json& parameters) {
 }
 
 method_file read_method_file(const std::filesystem::path& path) {
+  note_input(path);
   return method_file_in(contents_of(path), path.string());
 }
 
@@ -243,8 +246,14 @@ method_file method_file_in(const std::string& text, const std::string& file) {
   json document;
   try {
     constexpr int deepest = 8;
-    document = json::parse(text, [&](int depth, json::parse_event_t, json&) {
+    std::vector<std::set<std::string>> names;  // of the objects that are open
+    document = json::parse(text, [&](int depth, json::parse_event_t event, json& value) {
       if (depth > deepest) refuse("{}: it is nested too deeply to be a scheme or a table", file);
+      if (event == json::parse_event_t::object_start) names.emplace_back();
+      if (event == json::parse_event_t::object_end) names.pop_back();
+      if (event == json::parse_event_t::key && !names.back().insert(value.get<std::string>()).second) {
+        refuse("{}: \"{}\" is there twice", file, value.get<std::string>());
+      }
       return true;
     });
   } catch (const json::parse_error& problem) {

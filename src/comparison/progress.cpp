@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "all_ranks.hpp"
+#include "standard_error.hpp"
 
 namespace nysalt::program {
 
@@ -63,7 +63,7 @@ std::string progress::time_left(double share_of_part) const {
 }
 
 void progress::clear() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) to_standard_error("\r\033[K");
   shown_ = false;
 }
 
@@ -71,8 +71,7 @@ void progress::show(const std::string& text) {
   if (!visible_) return;
   const std::lock_guard lock(showing_);
   shown_ = true;
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
+  to_standard_error(fmt::format("\r\033[K{}", text));
 }
 
 }  // namespace nysalt::program

@@ -3,8 +3,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -22,47 +25,111 @@ void put_folder_on_disk(const std::filesystem::path& file) {
   close(descriptor);
 }
 
-atomic_file::atomic_file(std::filesystem::path path)
-    : atomic_file(std::move(path), std::to_string(getpid())) {}
+namespace detail {
 
-atomic_file::atomic_file(std::filesystem::path path, const std::string& writer)
-    : path_(std::move(path)), part_(path_) {
-  part_ += fmt::format(".{}.part", writer);
-  stream_.open(part_, std::ios::binary | std::ios::trunc);
-  if (!stream_) fail();
+namespace {
+
+[[noreturn]] void cannot_write(const std::filesystem::path& file, std::string_view why) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
 }
 
+/// Whether the name is still that of the open file.
+bool has_name(int file, const std::filesystem::path& name) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(file, &opened) == 0 && lstat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+/// Removes what a process that was stopped left at the name; that of a living one is locked.
+void remove_left(const std::filesystem::path& part, const std::filesystem::path& target) {
+  const int left = open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (left < 0 && errno == ENOENT) return;  // gone meanwhile
+  struct stat found {};
+  const bool is_file = left >= 0 && fstat(left, &found) == 0 && S_ISREG(found.st_mode);
+  const bool is_free = is_file && flock(left, LOCK_EX | LOCK_NB) == 0;
+  if (is_free && has_name(left, part)) unlink(part.c_str());
+  if (left >= 0) close(left);
+  if (!is_file)
+    cannot_write(target, fmt::format("{} is in the way, and no ordinary file; remove it", part.string()));
+  if (!is_free) cannot_write(target, "another process writes it; wait for that, or name another file");
+}
+
+}  // namespace
+
+int make_part(const std::filesystem::path& part, const std::filesystem::path& target) {
+  constexpr int attempts = 8;  // others may make and remove theirs meanwhile
+  for (int i = 0; i < attempts; ++i) {
+    const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      if (flock(file, LOCK_EX | LOCK_NB) == 0 && has_name(file, part)) return file;
+      close(file);
+      continue;
+    }
+    if (errno != EEXIST) cannot_write(target, "is the folder there, writable, and not full?");
+    remove_left(part, target);
+  }
+  cannot_write(target, "another process writes it; wait for that, or name another file");
+}
+
+std::filesystem::path behind_links(const std::filesystem::path& file) {
+  constexpr int longest = 40;  // as many as Linux follows
+  std::error_code failure;
+  std::filesystem::path found = file;
+  for (int i = 0; i < longest && std::filesystem::is_symlink(found, failure); ++i) {
+    const auto next = std::filesystem::read_symlink(found, failure);
+    if (failure) return found;
+    found = found.parent_path() / next;  // an absolute one replaces all before it
+  }
+  return found;
+}
+
+}  // namespace detail
+
+atomic_file::atomic_file(std::filesystem::path path) : atomic_file(std::move(path), "new") {}
+
+atomic_file::atomic_file(std::filesystem::path path, const std::string& writer)
+    : path_(detail::behind_links(path)),
+      part_(path_.string() + fmt::format(".{}.part", writer)),
+      file_(detail::make_part(part_, path_)),
+      name_(part_) {}
+
 atomic_file::~atomic_file() {
-  if (committed_) return;
-  stream_.close();
   std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
+  if (!committed_) std::filesystem::remove(part_, ignored);
+  if (file_ >= 0) close(file_);
 }
 
 void atomic_file::write(std::string_view text) {
-  if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
+  constexpr std::size_t enough = std::size_t{1} << 16U;
+  gathered_ += text;
+  if (gathered_.size() > enough) write_gathered();
+}
+
+void atomic_file::write_gathered() {
+  std::string_view left = gathered_;
+  while (!left.empty()) {
+    const ssize_t done = ::write(file_, left.data(), left.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail();
+    left.remove_prefix(static_cast<std::size_t>(done));
+  }
+  gathered_.clear();
 }
 
 void atomic_file::commit(bool durable) {
-  stream_.close();
+  write_gathered();
+  if (durable && fsync(file_) != 0) fail();
   std::error_code failure;
-  if (durable && stream_) put_on_disk();
-  if (stream_) std::filesystem::rename(part_, path_, failure);
-  if (!stream_ || failure) fail();
-  if (durable) put_folder_on_disk(path_);
+  std::filesystem::rename(part_, path_, failure);
+  if (failure) fail();
   committed_ = true;
-}
-
-void atomic_file::put_on_disk() const {
-  const int file = open(part_.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool arrived = file >= 0 && fsync(file) == 0;
-  if (file >= 0) close(file);
-  if (!arrived) fail();
+  name_.release();
+  if (durable) put_folder_on_disk(path_);
 }
 
 void atomic_file::fail() const {
-  throw std::runtime_error(
-      fmt::format("cannot write {}: is the folder there, writable, and not full?", path_.string()));
+  detail::cannot_write(path_, "is the folder there, writable, and not full?");
 }
 
 }  // namespace nysalt

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "comparison/refusal.hpp"
+#include "comparison/standard_error.hpp"
 #include "nysalt/plugin.hpp"
 #include "plugin.hpp"
 #include "report/write_file.hpp"
@@ -194,7 +195,7 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   }
   command.push_back(made.path.string());
   command.insert(command.end(), how.libraries.begin(), how.libraries.end());
-  if (::isatty(STDERR_FILENO) != 0) fmt::print(stderr, "compiling {} ...\n", source.string());
+  if (::isatty(STDERR_FILENO) != 0) to_standard_error(fmt::format("compiling {} ...\n", source.string()));
   const auto code = exit_code_of(command, messages.path);
   if (!code || *code == 127)
     refuse("{}: the compiler {} cannot be started", source.string(), command.front());

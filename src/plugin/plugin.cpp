@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "build.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "force_library.hpp"
 #include "named_signals.hpp"
@@ -36,7 +37,11 @@ std::vector<std::unique_ptr<loaded>>& all_loaded() {
 template <class F>
 F* function_in(void* library, const char* name, const std::string& path) {
   auto* const found = reinterpret_cast<F*>(dlsym(library, name));
-  if (found == nullptr) refuse("{}: the library declares no system: NYSALT_SYSTEM(...) is missing, or the functions of nysalt/c_force.h", path);
+  if (found == nullptr)
+    refuse(
+        "{}: the library declares no system: NYSALT_SYSTEM(...) is missing, or the functions of "
+        "nysalt/c_force.h",
+        path);
   return found;
 }
 
@@ -122,6 +127,7 @@ void require_plugin(const std::string& path, const std::string& shown) { declare
 
 const system_declaration& plugin_at(const std::string& path, const std::string& shown) {
   auto& all = all_loaded();
+  note_input(path);
   const auto known = std::ranges::find_if(all, [&](const auto& one) { return one->path == path; });
   if (known != all.end()) return (*known)->declared;
   return all.emplace_back(std::make_unique<loaded>(loaded{path, load(path, shown.empty() ? path : shown)}))

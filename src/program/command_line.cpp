@@ -13,6 +13,7 @@
 #include "command_text.hpp"
 #include "commands.hpp"
 #include "comparison/checks.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "mpi_session.hpp"
@@ -49,6 +50,7 @@ std::string typed_after(const std::string& name, int argc, char** argv) {
 void load_named_system(int argc, char** argv) {
   std::string name = typed_after("--system", argc, argv);
   const std::string file = typed_after("--config", argc, argv);
+  if (!file.empty()) note_input(file);
   if (name.empty() && !file.empty()) {
     const auto is_word = [](const char* word) { return word[0] != '-'; };
     const auto command = std::find_if(argv + 1, argv + argc, is_word);

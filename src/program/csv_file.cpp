@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 
 namespace nysalt::program {
@@ -26,6 +27,7 @@ void read_csv(const std::string& option, const std::string& file,
               const std::function<void(const std::vector<std::string>&)>& header,
               const std::function<void(std::size_t, const std::vector<std::string>&)>& row) {
   std::error_code ignored;
+  note_input(file);
   std::ifstream input(file);
   std::string line;
   if (std::filesystem::is_directory(file, ignored) || !input || !std::getline(input, line)) {

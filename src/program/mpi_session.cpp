@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "comparison/refusal.hpp"
+#include "comparison/standard_error.hpp"
 #include "nysalt/detail/together.hpp"
 
 #if defined NYSALT_HAS_MPI
@@ -98,8 +99,7 @@ int mpi_session::leave(int code) const {
     MPI_Test(&others, &all_there, MPI_STATUS_IGNORE);
     if (all_there != 0) return code;
     if (code == 0 || clock::now() - began < patience) continue;
-    if (!unsaid.empty()) fmt::print(stderr, "nysalt: rank {}: {}\n", all_ranks().rank(), unsaid);
-    std::fflush(stderr);
+    if (!unsaid.empty()) to_standard_error(fmt::format("nysalt: rank {}: {}\n", all_ranks().rank(), unsaid));
     MPI_Abort(MPI_COMM_WORLD, code);
   }
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "comparison/did_you_mean.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 
 namespace nysalt::program {
@@ -52,6 +53,15 @@ std::string without_comment(const std::string& line, int number) {
   return line;
 }
 
+std::string bounded(std::istream& input) {
+  constexpr std::streamsize most = 1 << 20;  // bytes: files of options are far shorter
+  std::string text(static_cast<std::size_t>(most), '\0');
+  input.read(text.data(), most);
+  if (input) refuse("--config: the file must be shorter than a megabyte");
+  text.resize(static_cast<std::size_t>(input.gcount()));
+  return text;
+}
+
 /// CLI11 reads a part of TOML, and the rest wrongly without a word. So each line must be empty, a comment, a
 /// [section], or name = value with the value whole on that line, and nothing may be said twice. What is
 /// handed on has no comments.
@@ -60,7 +70,8 @@ std::string plain_toml(std::istream& input) {
   std::set<std::string> sections;
   std::set<std::string> names;
   int number = 0;
-  for (std::string raw; std::getline(input, raw);) {
+  std::istringstream lines(bounded(input));
+  for (std::string raw; std::getline(lines, raw);) {
     const std::string line = without_comment(trimmed(raw), ++number);
     const auto wrong = [&](const char* what) { refuse("--config, line {}: {}: {}", number, what, line); };
     plain += line + "\n";
@@ -90,6 +101,7 @@ std::string plain_toml(std::istream& input) {
 
 std::string system_in_options_file(const std::string& file, const std::string& command) {
   std::ifstream input(file);
+  note_input(file);
   if (!input) return {};  // told where options are read
   std::istringstream text(plain_toml(input));
   std::string of_all;
@@ -131,7 +143,12 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
     }
     command = found.front();
   }
-  if (command->get_option_no_throw("--" + item.name) != nullptr) return;
+  if (const CLI::Option* known = command->get_option_no_throw("--" + item.name)) {
+    const bool is_flag = known->get_expected_max() == 0 || known->get_type_size_max() == 0;
+    const bool is_switch = item.inputs.size() == 1 && (item.inputs[0] == "true" || item.inputs[0] == "false");
+    if (!is_flag || is_switch) return;
+    refuse("--config: {} must be true or false, got {}", item.name, listed(item.inputs));
+  }
   refuse("--config: unknown option '{}': {}", item.name,
          did_you_mean(item.name, option_names(*command), help_of(*command)));
 }

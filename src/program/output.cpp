@@ -10,8 +10,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
+#include "comparison/standard_error.hpp"
 #include "mpi_session.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {
@@ -29,10 +32,16 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-void require_writable(const std::filesystem::path& file) {
+void require_writable(const std::filesystem::path& named) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  for (const fs::path& path : {file, manifest_of(file)}) {
+  const std::string whole = fs::absolute(named, ignored).lexically_normal().string();
+  if (whole.starts_with("/dev/") || whole.starts_with("/proc/")) {
+    refuse("cannot write {}: it is no ordinary file; name another, or leave --output away", named.string());
+  }
+  const fs::path file = nysalt::detail::behind_links(named);
+  for (const fs::path& path : {file, manifest_of(named)}) {
+    require_no_input(path);
     if (fs::is_directory(path, ignored)) {
       refuse("cannot write {}: it is a folder; name another file", path.string());
     }
@@ -101,14 +110,44 @@ std::vector<std::filesystem::path> make_folder(const std::filesystem::path& fold
   return made;
 }
 
+namespace {
+
+/// The length of the UTF-8 letter at a place; 0 where there is none.
+std::size_t length_of_letter(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(at) < 0x80        ? 1
+                             : byte(at) >> 5U == 6  ? 2
+                             : byte(at) >> 4U == 14 ? 3
+                             : byte(at) >> 3U == 30 ? 4
+                                                    : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (byte(at + i) >> 6U != 2) return 0;
+  }
+  return length;
+}
+
+/// Without controls, and with ? for bytes that are no letter of UTF-8.
+std::string of_letters(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = length_of_letter(text, at);
+    const bool is_control = length == 1 && std::iscntrl(static_cast<unsigned char>(text[at])) != 0;
+    result += length == 0 ? "?" : is_control ? " " : text.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
+}  // namespace
+
 void complain(std::string text) {
-  const auto is_control = [](unsigned char c) { return std::iscntrl(c) != 0; };
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  text = of_letters(text);
   if (!speaks_for_all()) {
     keep_unsaid(text);
     return;
   }
-  fmt::print(stderr, "nysalt: {}\n", text);
+  to_standard_error("nysalt: " + text + "\n");
 }
 
 void warn(std::string_view text) { complain(fmt::format("warning: {}", text)); }

@@ -5,8 +5,11 @@
 #include <new>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "comparison/interruption.hpp"
 #include "output.hpp"
 
 namespace nysalt::program {
@@ -23,6 +26,10 @@ int refused(const std::string& text) {
 int exit_code_of(const std::function<int()>& work) {
   try {
     return work();
+  } catch (const interrupted&) {
+    complain(
+        fmt::format("ended by signal {}: the checkpoint is there, and --resume goes on", noted_signal()));
+    return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
     return refused(
         "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");

@@ -9,7 +9,8 @@ namespace nysalt::program {
 /// What the work returns, or bad_input once it is told what it threw. Throws nothing.
 int exit_code_of(const std::function<int()>& work);
 
-/// The exit code: done, bad_input or no_result of commands.hpp. Throws nothing.
+/// The exit code: done, bad_input or no_result of commands.hpp, or 128 and the number of the signal that ended
+/// the work. Throws nothing.
 int run_program(int argc, char** argv);
 
 }  // namespace nysalt::program

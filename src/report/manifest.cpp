@@ -10,6 +10,8 @@
 #include <ctime>
 
 #include "build_info.hpp"
+#include "comparison/inputs.hpp"
+#include "comparison/refusal.hpp"
 #include "write_file.hpp"
 
 namespace nysalt::program {
@@ -40,10 +42,16 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
                 {"flags", compiler_flags},
                 {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
   if (!more.is_null()) manifest.update(more);
-  write_file(manifest_of(file), text_of(manifest));
+  require_no_input(manifest_of(file));
+  try {
+    write_file(manifest_of(file), text_of(manifest));
+  } catch (const std::runtime_error& problem) {
+    refuse("{} is whole, but not its manifest: {}", file.string(), problem.what());
+  }
 }
 
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
+  require_no_input(file);
   write_file(file, text);
   write_manifest(file, common);
 }

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
+#include "nysalt/detail/unfinished_names.hpp"
 #include "plot_script.hpp"
 #include "quoted.hpp"
 
@@ -25,6 +29,18 @@ void detail::require_plain(const std::string& name) {
   }
 }
 
+namespace {
+
+/// gnuplot ends well where its disk was full.
+bool is_whole_picture(const std::filesystem::path& file, const std::string& kind) {
+  const std::string_view end = kind == "png" ? std::string_view("IEND\xae\x42\x60\x82", 8) : "</svg>";
+  std::ifstream input(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(input), {}};
+  return text.find(end, text.size() - std::min<std::size_t>(text.size(), 64)) != std::string::npos;
+}
+
+}  // namespace
+
 bool draw(const figure& f, const std::filesystem::path& folder) {
   detail::require_plain(f.name);
   bool drawn = true;
@@ -32,17 +48,20 @@ bool draw(const figure& f, const std::filesystem::path& folder) {
   write_file(folder / (f.name + ".gp"), detail::plot_script(f));
   for (const std::string kind : {"svg", "png"}) {
     const std::string picture = f.name + "." + kind;
-    const std::string command =
-        fmt::format("cd {} && gnuplot -e \"kind='{}'; target='{}.tmp'\" ./{}.gp 2>/dev/null",
-                    detail::quoted_for_shell(folder.string()), kind, picture, f.name);
-    if (std::system(command.c_str()) == 0) {
-      std::filesystem::rename(folder / (picture + ".tmp"), folder / picture);
-      continue;
+    const std::string command = fmt::format(
+        "CDPATH= cd -- {} >/dev/null && gnuplot -e \"kind='{}'; target='{}.tmp'\" ./{}.gp 2>/dev/null",
+        detail::quoted_for_shell(folder.string()), kind, picture, f.name);
+    const std::filesystem::path made = folder / (picture + ".tmp");
+    const detail::unfinished_name unfinished(made);
+    std::error_code failure;
+    if (std::system(command.c_str()) == 0 && is_whole_picture(made, kind)) {
+      std::filesystem::rename(made, folder / picture, failure);
+      if (!failure) continue;
     }
     drawn = false;
-    std::error_code ignored;
-    std::filesystem::remove(folder / (picture + ".tmp"), ignored);
-    std::filesystem::remove(folder / picture, ignored);  // that of older data
+    std::filesystem::remove(made, failure);
+    if (std::filesystem::is_regular_file(folder / picture, failure))
+      std::filesystem::remove(folder / picture, failure);  // that of older data
   }
   return drawn;
 }

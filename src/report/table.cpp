@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,6 +68,12 @@ std::string table::csv() const {
 }
 
 std::string table::quoted(const std::string& cell) {
+  // A spreadsheet takes a text that begins so for a formula; numbers begin with + or - too.
+  const bool is_formula = cell.size() > 1 &&
+                          std::string_view("=+-@").find(cell.front()) != std::string_view::npos &&
+                          std::isdigit(static_cast<unsigned char>(cell[1])) == 0 && cell[1] != '.' &&
+                          cell.substr(1) != "inf" && cell.substr(1) != "nan";
+  if (is_formula) return quoted("'" + cell);
   if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
   std::string result = "\"";
   for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);

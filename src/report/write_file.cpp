@@ -11,7 +11,7 @@ namespace nysalt {
 void write_file(const std::filesystem::path& path, std::string_view text) {
   atomic_file file(path);
   file.write(text);
-  file.commit();
+  file.commit(true);
 }
 
 }  // namespace nysalt

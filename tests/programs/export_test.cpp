@@ -55,6 +55,11 @@ std::string self_test_in(const scratch& folder, const std::string& host) {
   return "";
 }
 
+/// What takes a second and more to compile; it is compiled for some methods.
+bool is_dear(const std::string& host) {
+  return host == "odeint" || host == "cpp" || host == "lammps" || host == "grid";
+}
+
 /// Exports a method to `method.HOST`, as `exported`.
 finished exported(const scratch& folder, const std::string& method, const std::string& host) {
   return run(folder,
@@ -84,6 +89,7 @@ BOOST_AUTO_TEST_CASE(each_host_ends_where_nysalt_does) {
       BOOST_TEST(done.code == (taken_by[i] == 'y' ? 0 : 2), method << " to " << hosts[i] << ": " << done.err);
       const std::string test = self_test_in(folder, hosts[i]);
       if (done.code != 0 || test.empty()) continue;
+      if (is_dear(hosts[i]) && method != "srkn6b" && method != "baoab") continue;
       const auto tried = shell(folder, test);
       BOOST_TEST(tried.code == 0, method << " in " << hosts[i] << ": " << tried.out << tried.err);
     }
@@ -153,7 +159,7 @@ BOOST_AUTO_TEST_CASE(a_scheme_tells_what_it_was_learned_for) {
     const std::string text = shell(folder, "cat method." + host).out;
     BOOST_TEST(text.find("henon_heiles() at the step 0.6") != std::string::npos, text);
     const std::string test = self_test_in(folder, host);
-    if (!test.empty()) BOOST_TEST(shell(folder, test).code == 0, host);
+    if (!test.empty() && !is_dear(host)) BOOST_TEST(shell(folder, test).code == 0, host);
   }
   const auto elsewhere = run(folder, "export s.json --to c --step 0.7");
   BOOST_TEST(elsewhere.code == 2);
@@ -186,7 +192,8 @@ BOOST_AUTO_TEST_CASE(any_name_becomes_an_identifier) {
       BOOST_TEST(done.code == 0, done.err);
       const bool calls_by_name = host == "fortran" || host == "julia";  // self_test_in() knows another name
       const std::string test = calls_by_name ? "" : self_test_in(folder, host);
-      if (!test.empty()) BOOST_TEST(shell(folder, test).code == 0, host << ": " << name);
+      if (test.empty() || (is_dear(host) && name == "for")) continue;
+      BOOST_TEST(shell(folder, test).code == 0, host << ": " << name);
     }
   }
 }

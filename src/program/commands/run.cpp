@@ -11,6 +11,7 @@
 #include "../mpi_session.hpp"
 #include "../output.hpp"
 #include "comparison/checks.hpp"
+#include "comparison/interruption.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
@@ -72,7 +73,7 @@ void require_files(const run_command& command) {
   if (command.output.empty()) refuse("--checkpoint needs --output: what was printed cannot be gone on with");
   require_writable(command.checkpoint);
   std::vector<std::string> others{command.method, command.output};
-  for (const char* beside : {".part", ".sorted.part", ".manifest.json"})
+  for (const char* beside : {".part", ".new.part", ".sorted.part", ".manifest.json"})
     others.push_back(command.output + beside);
   for (const char* kind : {".svg", ".png", ".dat", ".gp"}) {
     if (!command.plot) continue;
@@ -86,6 +87,12 @@ void require_files(const run_command& command) {
                other);
     }
   }
+}
+
+/// Steps between two looks for a signal, some seconds, where there is a checkpoint to make then.
+std::optional<std::int64_t> stretch_of(const run_command& command, std::int64_t dimension) {
+  if (!command.every) return std::nullopt;
+  return std::min(*command.every, 10 * short_stretch(dimension));
 }
 
 /// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
@@ -163,10 +170,13 @@ int run(const run_command& asked, const common_settings& common) {
     if (!common.json) {  // only now: a refusal is one line
       for (const auto& text : warnings) warn(text);
     }
-    sampled_plan sampled{plan, command.observables, command.sample_every, command.every};
+    sampled_plan sampled{plan, command.observables, command.sample_every,
+                         stretch_of(command, system.dimension())};
     on_first(all_ranks(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
+    std::optional<signals_are_noted> noted;
+    if (!command.checkpoint.empty()) noted.emplace();
     run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
   }

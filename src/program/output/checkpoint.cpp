@@ -26,6 +26,7 @@ json head_of(const checkpoint& state) {
           {"length", state.written.length},
           {"sum", state.written.crc},
           {"in_order", state.in_order},
+          {"laid_out", state.laid_out},
           {"finished", state.finished}};
 }
 
@@ -44,6 +45,7 @@ checkpoint state_of(const json& head) {
   state.written.length = static_cast<std::uint64_t>(count_in(head.at("length")));
   state.written.crc = static_cast<std::uint32_t>(count_in(head.at("sum")));
   state.in_order = head.at("in_order").get<bool>();
+  state.laid_out = head.value("laid_out", true);  // older ones do not say
   state.finished = head.at("finished").get<bool>();
   state.version = head.at("nysalt").get<std::string>();
   return state;

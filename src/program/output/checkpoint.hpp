@@ -22,6 +22,7 @@ struct checkpoint {
   std::vector<diverged_trajectory> lost;  // so far, as they were found
   file_sum written;                       // of the unfinished output; in the end of the finished one
   bool in_order = true;                   // the unfinished output is what the finished one will be
+  bool laid_out = true;                   // the unfinished output has its beginning, or its arrays
   bool finished = false;                  // the output is there
   std::string version;                    // of the program that wrote it; empty: of this one
 };

@@ -29,7 +29,11 @@ class handle {
   handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) { require_done(id); }
   handle(const handle&) = delete;
   handle& operator=(const handle&) = delete;
-  ~handle() { close_(id_); }
+  ~handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  /// For who closes it.
+  hid_t release() { return std::exchange(id_, H5I_INVALID_HID); }
   operator hid_t() const { return id_; }
 
  private:
@@ -109,10 +113,11 @@ void make_hdf5(const std::filesystem::path& file, const std::vector<dataset>& da
   set_up_library();
   const handle how(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   require_done(H5Pset_obj_track_times(how, false));
-  const handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, file_access()), H5Fclose);
+  handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, how, file_access()), H5Fclose);
   for (const auto& [name, value] : attributes.items()) add_attribute(made, name, value);
   for (const auto& one : datasets) add_dataset(made, one);
-  require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));  // to close the file may fail unheard
+  require_done(H5Fflush(made, H5F_SCOPE_GLOBAL));
+  require_done(H5Fclose(made.release()));
 }
 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,

@@ -6,6 +6,7 @@
 
 #include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
+#include "comparison/refusal.hpp"
 #include "comparison/stability_margin.hpp"
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/together.hpp"
@@ -28,6 +29,9 @@ void require_observables(const run_command& command, const prepared_problem& sys
 trajectories_plan plan_of(const run_command& command, const common_settings& common) {
   require_positive("--step", command.step);
   require_at_least_one("--trajectories", command.trajectories);
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  if (command.trajectories > most)
+    refuse("--trajectories must be at most 2^48 = {}, got {}", most, command.trajectories);
   require_at_least_one("--sample-every", command.sample_every);
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
   return {command.step, steps, command.trajectories, seed_for(role::test, common.seed), common.threads};

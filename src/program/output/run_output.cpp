@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "checkpoint_file.hpp"
+#include "comparison/interruption.hpp"
 #include "comparison/refusal.hpp"
 #include "program/output.hpp"
 
@@ -22,6 +23,7 @@ bool is_there(const std::filesystem::path& file) {
 run_output::run_output(const planned_run& planned, bool as_json)
     : output_(planned.command.output),
       checkpoint_(planned.command.checkpoint),
+      every_(planned.command.every.value_or(0)),
       is_of_arrays_(is_of_arrays(output_)) {
   const run_command& command = planned.command;
   const sampled_shape shape{command.trajectories, planned.plan.steps / command.sample_every + 1,
@@ -56,15 +58,27 @@ void run_output::make_part(const json& question) {
     refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
            checkpoint_.string());
   }
+  if (checkpoint_.empty()) {
+    part_.emplace(output_, unfinished_file::origin::disposable);
+    samples_->lay_out(*part_);
+    return;
+  }
   part_.emplace(output_, unfinished_file::origin::made);
-  samples_->lay_out(*part_);
-  if (checkpoint_.empty()) return;
   state_.question = question;
   state_.output = std::filesystem::path(output_).filename();
-  if (is_of_arrays_) state_.written = samples_->sum_in(part_->part()).value_or(file_sum());
-  part_->put_on_disk();
+  state_.laid_out = false;  // which may take minutes: a run that is stopped meanwhile begins anew
   save({});
   is_fresh_ = true;
+  fresh_name_.emplace(checkpoint_);
+  lay_out();
+}
+
+void run_output::lay_out() {
+  samples_->lay_out(*part_);
+  if (is_of_arrays_) state_.written = samples_->sum_in(part_->part()).value_or(file_sum());
+  part_->put_on_disk();
+  state_.laid_out = true;
+  save({});
 }
 
 void run_output::go_on(const json& question) {
@@ -82,6 +96,10 @@ void run_output::go_on(const json& question) {
     // The run was stopped right before it took away what it had sorted.
     if (!state_.in_order && is_there(part)) std::filesystem::remove(part);
     return;
+  }
+  if (!state_.laid_out) {
+    part_.emplace(output_, unfinished_file::origin::begun_anew);
+    return lay_out();
   }
   const bool is_whole = state_.at.first == question.at("trajectories");
   const bool may_have_name = is_whole && state_.in_order && !is_there(part);
@@ -103,6 +121,7 @@ void run_output::save(const run_progress& at) {
 void run_output::begin(sampled_plan& plan) {
   if (state_.at.is_new()) samples_->begin();
   plan.from = state_.at;
+  saved_at_ = {state_.at.first, state_.at.batch.step};
   plan.reached = [this](const run_progress& at) { reached(at); };
 }
 
@@ -113,19 +132,25 @@ void run_output::take(std::int64_t trajectory, const record& segment) {
 
 void run_output::reached(const run_progress& at) {
   if (checkpoint_.empty()) return;
-  samples_->flush();
   // Of one trajectory alone what is written is in order, wherever it is cut.
   if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
+  const std::int64_t step = at.batch.step;
+  const bool is_due = at.first != saved_at_.first || step / every_ != saved_at_.step / every_;
+  if (!is_due && noted_signal() == 0) return;
+  saved_at_ = {at.first, step};
+  samples_->flush();
   part_->put_on_disk();
   warn_of_version(state_.version, checkpoint_);  // only now: the run has taken what it was given
   state_.version.clear();
   part_->keep();
   is_fresh_ = false;
+  fresh_name_.reset();
   save(at);
+  if (noted_signal() != 0) throw interrupted();
 }
 
 void run_output::commit() {
-  if (table_) table_->commit();
+  if (table_) table_->commit(true);
   if (!part_) return;
   samples_->flush();
   if (state_.in_order) {

@@ -52,15 +52,22 @@ class run_output {
 
  private:
   void make_part(const json& question);
+  void lay_out();
   void go_on(const json& question);
   void reached(const run_progress& at);
   void save(const run_progress& at);
 
   std::string output_;
   std::filesystem::path checkpoint_;  // empty if there are none
+  std::int64_t every_;                // steps between checkpoints
   bool is_of_arrays_;
   checkpoint state_;
-  bool is_fresh_ = false;                // begun here, and no checkpoint but the first
+  struct {
+    std::int64_t first = 0;
+    std::int64_t step = 0;
+  } saved_at_;                                                 // of the last checkpoint
+  bool is_fresh_ = false;                                      // begun here, and no checkpoint but the first
+  std::optional<nysalt::detail::unfinished_name> fresh_name_;  // the checkpoint then goes, if a signal comes
   std::optional<unfinished_file> part_;  // of arrays, or with a checkpoint; none once it has its name
   std::optional<atomic_file> table_;     // without a checkpoint
   std::unique_ptr<sample_writer> samples_;

@@ -55,18 +55,41 @@ unfinished_file::descriptor::~descriptor() {
   if (number >= 0) close(number);
 }
 
+namespace {
+
+int made_part(const std::filesystem::path& part, const std::filesystem::path& file) {
+  try {
+    return nysalt::detail::make_part(part, file);
+  } catch (const std::runtime_error& problem) {
+    throw refusal(problem.what());
+  }
+}
+
+}  // namespace
+
 unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
-    : path_(file), part_(part_of(file)), is_kept_(from == origin::left_by_another) {
+    : path_(nysalt::detail::behind_links(file)),
+      part_(from == origin::disposable ? path_.string() + ".new.part" : part_of(path_).string()),
+      is_kept_(from == origin::left_by_another || from == origin::begun_anew) {
   std::error_code ignored;
+  if (from == origin::disposable ||
+      (from == origin::begun_anew && !std::filesystem::exists(part_, ignored))) {
+    file_.number = made_part(part_, path_);
+    if (!is_kept_) name_.emplace(part_);
+    return;
+  }
   if (std::filesystem::exists(part_, ignored) && !std::filesystem::is_regular_file(part_, ignored)) {
     refuse("cannot write {}: it is no ordinary file; name another --output", part_.string());
   }
   const int create = from == origin::made ? O_CREAT : 0;
-  file_.number = open(part_.c_str(), O_RDWR | O_CLOEXEC | create, 0666);
+  file_.number = open(part_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | create, 0666);
   if (file_.number < 0 && from == origin::left_by_another && errno == ENOENT) {
     refuse(
         "there is no {}, in which the run to resume left its output: is it this --output, and this folder?",
         part_.string());
+  }
+  if (file_.number < 0 && errno == ELOOP) {
+    refuse("cannot write {}: it is a link; remove it, or name another --output", part_.string());
   }
   if (file_.number < 0) fail();
   if (flock(file_.number, LOCK_EX | LOCK_NB) != 0) {
@@ -79,9 +102,12 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     refuse("{} was just finished by another run", path_.string());
   }
   if (from == origin::made && opened.st_size > 0) {
+    is_kept_ = true;  // it is not ours
     refuse("{} was left by a run that was stopped: go on with its checkpoint, or remove the file",
            part_.string());
   }
+  if (from == origin::begun_anew && ftruncate(file_.number, 0) != 0) fail();
+  if (!is_kept_) name_.emplace(part_);
 }
 
 unfinished_file::~unfinished_file() {
@@ -122,6 +148,11 @@ void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
 void unfinished_file::put_on_disk() {
   write_gathered();
   if (fsync(file_.number) != 0) fail();
+}
+
+void unfinished_file::keep() {
+  is_kept_ = true;
+  name_.reset();
 }
 
 void unfinished_file::finish() {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/detail/unfinished_names.hpp"
+
 namespace nysalt::program {
 
 /// What a file is known by: its length and CRC-32.
@@ -30,11 +32,17 @@ struct byte_range {
 std::optional<file_sum> sum_of(const std::filesystem::path& file,
                                const std::vector<byte_range>& left_out = {});
 
-/// FILE.part, which becomes FILE when it is finished. One process alone can hold the file. One that was made
-/// here goes with its writer, until it is kept.
+/// FILE.part, which becomes FILE when it is finished; FILE.new.part, if no run will go on with it. One
+/// process alone can hold the file. One that was made here goes with its writer, until it is kept, also if a
+/// signal ends the process. A link is followed: the file behind it is replaced.
 class unfinished_file {
  public:
-  enum class origin { made, left_by_another };
+  enum class origin {
+    made,             ///< for a run with a checkpoint
+    disposable,       ///< for a run without: what such a run left is removed
+    left_by_another,  ///< by the run to resume
+    begun_anew        ///< the same, of which nothing is taken
+  };
   static std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
   /// Throws refusal if another process writes the file, or it cannot be opened; to make one, if there is one,
@@ -58,7 +66,7 @@ class unfinished_file {
   /// From the beginning to the end, so far.
   file_sum written() const { return {length_, sum_.checksum()}; }
 
-  void keep() { is_kept_ = true; }
+  void keep();
   /// FILE.part becomes FILE. Throws refusal if that cannot be.
   void finish();
   /// FILE was made of FILE.part in another way.
@@ -76,7 +84,8 @@ class unfinished_file {
   std::filesystem::path part_;
   bool is_kept_;
   descriptor file_;
-  std::string gathered_;  // of the end, not written yet
+  std::optional<nysalt::detail::unfinished_name> name_;  // until it is kept
+  std::string gathered_;                                 // of the end, not written yet
   std::uint64_t length_ = 0;
   boost::crc_32_type sum_;
 };

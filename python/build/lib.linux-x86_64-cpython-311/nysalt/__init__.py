@@ -1,0 +1,489 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Learned symplectic integrators.
+
+    import nysalt
+
+    chain = nysalt.system("fpu", omega=50)
+    scheme = nysalt.learn(chain, "nystrom", step=0.02)
+    run = nysalt.run(chain, scheme, step=0.02, horizon=100, trajectories=8)
+    run["stiff_energy"]          # trajectories x samples
+
+The functions are those of the program `nysalt`, with its defaults and its numbers to the last bit; an argument
+that is None is left to its default. Bad input is a ValueError of one sentence. Long calls release the
+interpreter's lock, except for a Hamiltonian of your own. Ctrl-C ends them when the block of trajectories, the
+stretch of steps or the pass over the data at hand is done; this may take as long as that does.
+"""
+
+import json as _json
+import os as _os
+import warnings as _warnings
+from dataclasses import dataclass as _dataclass
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+
+def _compiled() -> Any:
+    """The compiled module: of a wheel the one for this processor. NYSALT_PROCESSOR=baseline takes that for any."""
+    from importlib import import_module
+    try:
+        with open("/proc/cpuinfo") as file:
+            flags = set(next(line for line in file if line.startswith("flags")).split())
+    except (OSError, StopIteration):
+        flags = set()
+    v3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}  # and what these have beside
+    if v3 <= flags and _os.environ.get("NYSALT_PROCESSOR") != "baseline":
+        try:
+            return import_module("nysalt.x86_64_v3._nysalt")
+        except ModuleNotFoundError:
+            pass
+    return import_module("nysalt._nysalt")
+
+
+_nysalt = _compiled()
+
+__version__: str = _nysalt.version
+__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "families", "hamiltonian", "integrate", "learn", "load",
+           "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
+
+Texts = Union[str, Sequence[str]]
+Numbers = Union[float, Sequence[float]]
+
+
+# ---- What there is by name.
+
+def _listed(kind: str) -> Dict[str, Dict[str, Any]]:
+    return {one.pop("name"): one for one in _json.loads(_nysalt.listing())[kind]}
+
+
+def systems() -> Dict[str, Dict[str, Any]]:
+    """The bundled systems: by name their options with defaults, Hamiltonian, starts and observables."""
+    return _listed("systems")
+
+
+def methods() -> Dict[str, Dict[str, Any]]:
+    """The classical methods: by name letters, order, evaluations a step, stability limit, and source."""
+    return _listed("methods")
+
+
+def families() -> Dict[str, Dict[str, Any]]:
+    """What can be learned: by name letters, parameters with their ranges, order, evaluations a step."""
+    return _listed("families")
+
+
+def metrics() -> Dict[str, Dict[str, Any]]:
+    """What `compare` judges by: by name its meaning."""
+    return _listed("metrics")
+
+
+# ---- Systems.
+
+class System:
+    """A Hamiltonian H(q, p) = K(p) + V(q), perhaps in a bath, and the law of its starts.
+
+    Made by `system` or `hamiltonian`. q and p are arrays of shape (dimension,), or (trajectories, dimension).
+    """
+
+    def __init__(self, held: Any) -> None:
+        self._held = held
+        facts = held.facts()
+        #: By which a scheme knows it.
+        self.description: str = facts["description"]
+        #: Degrees of freedom.
+        self.dimension: int = facts["dimension"]
+        #: What `run` can sample; "q1..q6" stands for q1, q2, ... q6.
+        self.observables: List[str] = facts["observables"]
+        self.default_observable: str = facts["default_observable"]
+        #: Angular frequencies (low, high) that motion has; empty where they have no bound.
+        self.frequency_bands: List[Tuple[float, float]] = facts["frequency_bands"]
+        #: The highest that a motion from its law of starts meets, rare starts included.
+        self.highest_frequency: float = facts["highest_frequency"]
+        #: As scheme files hold them.
+        self.parameters: Dict[str, Any] = _json.loads(facts["parameters"])
+        #: Whether its functions are yours: one thread then, and the slow path.
+        self.calls_python: bool = facts["calls_python"]
+
+    def __repr__(self) -> str:
+        return f"<nysalt system {self.description}>"
+
+    def energy(self, q: Any, p: Any) -> Union[float, np.ndarray]:
+        """H(q, p): a number, or one for each trajectory."""
+        return self._held.energy(q, p)
+
+    def force(self, q: Any) -> np.ndarray:
+        """-grad V(q), in the shape of q."""
+        return self._held.force(q)
+
+    def starts(self, trajectories: int = 1, *, seed: int = 1, role: str = "test") -> Tuple[np.ndarray, np.ndarray]:
+        """q and p where trajectories start, of shape (trajectories, dimension).
+
+        With a seed `run` and `compare` begin at those of the role "test"; `learn` learns from "training" and
+        judges on "held_out".
+        """
+        return self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
+
+
+def _held_by(system: Any) -> Any:
+    held = getattr(system, "_held", None)
+    if held is None:
+        raise ValueError(f"system must be one that nysalt.system or nysalt.hamiltonian made, got {system!r}")
+    return held
+
+
+def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
+           sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
+           **parameters: Union[float, str, None]) -> System:
+    """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
+
+    The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
+    runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
+    bath; `start` says where trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the
+    deviations of the law of starts.
+    """
+    return System(_nysalt.bundled({**locals(), "name": _path(name)}))
+
+
+def _path(text: Any) -> Any:
+    return _os.fspath(text) if isinstance(text, _os.PathLike) else text
+
+
+def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, None] = None) -> str:
+    """Compiles the source (.hpp) of a system of your own, by the compiler that nysalt was built with.
+
+    It is made of a struct and a line NYSALT_SYSTEM; `nysalt new NAME` on the command line writes one to begin
+    with. Returns the path of the library, output or else ./SOURCE.so, for `system`. Cost: some five seconds,
+    nothing where nothing has changed.
+    """
+    return _nysalt.build(dict(source=_path(source), output=_path(output)))
+
+
+def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
+              around: Optional[Mapping[str, float]] = None, spread: Optional[float] = None,
+              friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
+              start: Optional[str] = None, **parameters: float) -> System:
+    """H = sum_i p_i^2/(2 m_i) + V(q) of a potential as text, compiled: at full speed.
+
+        nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400)
+
+    The text has numbers, the variables, the parameters, + - * / ^, parentheses, sqrt, exp, log and their like,
+    pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
+    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1].
+    """
+    if not isinstance(text, str):
+        raise ValueError(f"text must be a text, got {text!r}")
+    if around is not None and not isinstance(around, dict):
+        raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
+    return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
+                                       parameters=parameters, spread=spread, friction=friction, sigma=sigma,
+                                       temperature=temperature, start=start)))
+
+
+def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
+                force: Callable[[np.ndarray], Any], starts: Callable[[int, int], Tuple[Any, Any]],
+                inverse_mass: Numbers = 1.0, frequency: Optional[float] = None, batched: bool = False,
+                friction: Optional[float] = None, sigma: Optional[float] = None,
+                temperature: Optional[float] = None) -> System:
+    """H = sum_i inverse_mass_i p_i^2/2 + V(q) of your own, by functions of Python.
+
+    potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
+    checked against differences of the potential at four starts. starts(seed, n) is the start (q, p) of
+    trajectory n: a function of these two numbers alone, such as one of np.random.default_rng([seed, n]).
+    `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
+    is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters.
+    The dimension is at most ten million.
+
+    With batched=True, potential and force take arrays (trajectories, dimension) and return (trajectories,) and
+    (trajectories, dimension). Then `integrate` calls the force once a kick for all trajectories, with the bits of one
+    after the other where the force finds the same numbers; with gradient kicks, and elsewhere (run, learn, compare),
+    the functions get one trajectory at a time.
+
+    This is the slow path. Every force is a call of Python, some microseconds instead of some nanoseconds;
+    one trajectory goes at a time, on one thread, with the interpreter's lock. Derivatives for learning are
+    central differences of the force along what a step does, good to 1e-7 in any units: two more calls for each
+    parameter, and in each gradient kick one more than the two evaluations that it counts otherwise. What the
+    functions raise comes through. There are no modes and no bands of frequencies, hence no coordinates but qp, no
+    rotations, no s_aia2 or phase_fitted_..., and starts in a bath are those of the function.
+    """
+    return System(_nysalt.own(dict(locals())))
+
+
+# ---- Methods that are learned, or come from files.
+
+class _FromFile:
+    def __init__(self, text: str, name: str) -> None:
+        facts = _nysalt.method(text, name, None)
+        self._text = text
+        #: Under which rows of `compare` have it; change it where two would have the same.
+        self.name: str = name
+        #: What the file holds.
+        self.document: Dict[str, Any] = _json.loads(text)
+        #: A for drifts, B for kicks, ...
+        self.letters: str = facts["letters"]
+        self.order: int = facts["order"]
+        self.symmetric: bool = facts["symmetric"]
+        self.evaluations_per_step: int = facts["evaluations_per_step"]
+
+    def __repr__(self) -> str:
+        return f"<nysalt {type(self).__name__.lower()} {self.name}: {self.letters}>"
+
+    def coefficients(self, step: Optional[float] = None) -> np.ndarray:
+        """Of the letters, in their order; of a curve of schemes at a step."""
+        return np.array(_nysalt.method(self._text, self.name, step)["coefficients"])
+
+
+class Table(_FromFile):
+    """Coefficients of one's own, from a file; checked for consistency, order and stability."""
+
+
+class Scheme(_FromFile):
+    """A family's parameters that were learned for a system and a step (or a curve of steps).
+
+    It holds there, and is refused elsewhere unless force=True is given.
+    """
+
+    def __init__(self, text: str, name: str, fit: Optional[Dict[str, Any]] = None) -> None:
+        super().__init__(text, name)
+        self.family: str = self.document["family"]
+        #: theta by name: a number, or of a curve a list with one for each step; to the last bit.
+        self.parameters: Dict[str, Any] = self.document["parameters"]
+        self.standard_errors: Dict[str, Any] = self.document["standard_errors"]
+        #: theta as an array: (parameters,), or (parameters, steps).
+        self.theta: np.ndarray = np.array(list(self.parameters.values()), dtype=float)
+        #: A number, or of a curve a list.
+        self.step: Any = self.document.get("steps", self.document.get("step"))
+        #: The loss on what was learned from, and on trajectories that were not.
+        self.loss: Any = self.document["loss"]
+        self.held_out_loss: Any = self.document["held_out_loss"]
+        self.usable: bool = self.document["usable"]
+        #: Why it is not; None if it is.
+        self.reason: Optional[str] = self.document["reason"] or None
+        #: What `nysalt learn --json` prints; None of a scheme that comes from a file.
+        self.fit: Optional[Dict[str, Any]] = fit
+
+    def save(self, path: Union[str, "_os.PathLike[str]"], *, force: bool = False) -> None:
+        """Writes the scheme file, whole or not at all; one that is not usable with force=True alone."""
+        if not self.usable and not force:
+            raise ValueError(f"the fit is not usable: {self.reason}; force=True saves it all the same")
+        _nysalt.save(_os.fspath(path), self._text)
+
+
+Method = Union[str, Scheme, Table]
+
+
+def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
+    """As the program reads it, with values to the last bit."""
+    if fix is None:
+        return None
+    if not isinstance(fix, Mapping):
+        raise ValueError(f"fix must be a dict of values by name, got {fix!r}")
+    return [f"{name}={float(value)!r}" for name, value in fix.items()]
+
+
+def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
+          steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
+          horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
+          coordinates: Optional[str] = None, placement: Optional[str] = None,
+          fix: Optional[Mapping[str, float]] = None, fine_step: Optional[float] = None,
+          effort: Optional[str] = None, random_starts: Optional[int] = None, enough: Optional[float] = None,
+          threads: Optional[int] = None) -> Scheme:
+    """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
+
+    It learns from trajectories [100] of a length `horizon` [200 steps], and is judged on as many others. loss:
+    "trajectory" [it], the state's error at 16 times; "state:K", "energy:K" after K steps; or "covariance";
+    effort: "quick", "normal" [it] or "thorough"; coordinates: "qp", "modes" or "energy" [the last for
+    "trajectory" where there are modes, else the first]; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
+    parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
+    A fit that cannot be trusted is returned with usable = False and the reason.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    asked["fix"] = _fixed(fix)
+    fit, text = _nysalt.learn(_held_by(system), asked)
+    return Scheme(text, f"scheme:{family}", _json.loads(fit))
+
+
+def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
+    """A scheme or a table from a file, of this package or of the program."""
+    name = _os.fspath(path)
+    with open(name, encoding="utf-8") as file:
+        text = file.read()
+    return (Scheme if _nysalt.method(text, name, None)["is_learned"] else Table)(text, name)
+
+
+def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
+    """The names under which methods go, and the files of those that have one."""
+    held: Dict[str, str] = {}
+    given = list(given)
+    for one in given:
+        if not isinstance(one, _FromFile):
+            continue
+        if held.get(one.name, one._text) != one._text:
+            raise ValueError(f"two methods are named {one.name}: give one another name, scheme.name = ...")
+        held[one.name] = one._text
+    return [one.name if isinstance(one, _FromFile) else one for one in given], held
+
+
+def _warn(texts: Sequence[str]) -> None:
+    for text in texts:
+        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=3)
+
+
+# ---- What is done with them.
+
+@_dataclass(frozen=True, eq=False)
+class Run:
+    """Samples of trajectories: values[trajectory, sample, observable] at times t[sample].
+
+    From where a trajectory diverged on its values are NaN; `diverged` is that step, or -1. run["energy"] is a
+    view of one observable. `evaluations` are of a trajectory, `seconds` of all.
+    """
+
+    t: np.ndarray
+    values: np.ndarray
+    diverged: np.ndarray
+    observables: List[str]
+    system: str
+    starts: str
+    steps: int
+    evaluations: int
+    seconds: float
+    warnings: List[str]
+
+    def __getitem__(self, observable: str) -> np.ndarray:
+        if observable not in self.observables:
+            raise KeyError(f"{observable} was not sampled: {', '.join(self.observables)} were")
+        return self.values[:, :, self.observables.index(observable)]
+
+    def __repr__(self) -> str:
+        trajectories, samples, _ = self.values.shape
+        return (f"<nysalt run of {self.system}: {trajectories} trajectories, {self.steps} steps, "
+                f"{samples} samples to t = {self.t[-1]:g}: {', '.join(self.observables)}>")
+
+
+def run(system: System, method: Method, step: float, horizon: float, *, trajectories: Optional[int] = None,
+        observables: Optional[Texts] = None, sample_every: Optional[int] = None, seed: int = 1,
+        placement: Optional[str] = None, force: bool = False, out: Optional[np.ndarray] = None,
+        threads: Optional[int] = None) -> Run:
+    """Trajectories of a method from the starts of a system, sampled every so many steps.
+
+    The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
+    shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
+    force=True runs a scheme where it was not learned.
+    """
+    asked = dict(locals())
+    for name in ("system", "out"):
+        asked.pop(name)
+    (asked["method"],), asked["held"] = _held_by_name([method])
+    found = Run(**_nysalt.run(_held_by(system), asked, out))
+    _warn(found.warnings)
+    return found
+
+
+def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps: int, *,
+              out: Optional[Tuple[np.ndarray, np.ndarray]] = None, seed: int = 1,
+              placement: Optional[str] = None, force: bool = False,
+              threads: Optional[int] = None) -> Tuple[np.ndarray, np.ndarray]:
+    """Takes states so many steps on: q and p of shape (dimension,), or (trajectories, dimension).
+
+    Returns new arrays, or those of `out`, filled; out=(q, p) goes on in place, without a copy. They must be
+    writable arrays of float64 in the shape of q. A call that is refused leaves them as they are; one that is
+    interrupted, or in which a function of yours raises, leaves in them what is not defined. A trajectory that
+    diverges ends as NaN. Each call is a run of its own: the numbers are those of `run` from the same states, and
+    in a bath the noise begins anew, so that each call needs another seed.
+    """
+    (name,), held = _held_by_name([method])
+    asked = dict(method=name, held=held, step=step, steps=steps, seed=seed, placement=placement, force=force,
+                 threads=threads)
+    to_q, to_p, warnings = _nysalt.integrate(_held_by(system), asked, q, p, out)
+    _warn(warnings)
+    return to_q, to_p
+
+
+def export(method: Method, to: str, *, name: Optional[str] = None, step: Optional[float] = None,
+           placement: Optional[str] = None, displaced: Optional[bool] = None) -> str:
+    """The method as source for another language or code: the text that `nysalt export` writes.
+
+    `to` is a language or code: "c", "cpp", "fortran", "python", "julia", "jax", "odeint", "sundials", "ordinarydiffeq",
+    "ase", "openmm", "lammps", "rebound", "blackjax", "mici", "gpt", "grid", "chroma", "tmlqcd" or "openqcd"; `name` is
+    the identifier in the text. `step` is of a scheme over several steps, `placement` ("end", "symmetric", "middle") of
+    letters O in a method without them. displaced=True makes displaced kicks of gradient kicks, which
+    are not symplectic. The text has a self-test.
+    """
+    (label,), held = _held_by_name([method])
+    return _nysalt.export(dict(method=label, to=to, held=held, name=name, step=step, placement=placement,
+                               displaced=displaced))
+
+
+def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Numbers, *,
+            equal_cost: bool = False, horizon: Optional[float] = None, trajectories: Optional[int] = None,
+            metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
+            range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
+            longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
+            placement: Optional[str] = None, fine_step: Optional[float] = None,
+            learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+            learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+            learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
+            threads: Optional[int] = None) -> Dict[str, Any]:
+    """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
+
+    Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
+    against, `rankings`, `fits` of "learned:FAMILY". metrics() tells what there is to judge by [path].
+    equal_cost=True: steps are per force evaluation.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    asked["fix"] = _fixed(fix)
+    is_one = isinstance(methods, (str, _FromFile))
+    if not is_one and not isinstance(methods, Iterable):
+        raise ValueError(f"methods must be names, schemes or tables, got {methods!r}")
+    asked["methods"], asked["held"] = _held_by_name([methods] if is_one else methods)
+    found = _json.loads(_nysalt.compare(_held_by(system), asked))
+    _warn(found["warnings"])
+    return found
+
+
+def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
+              budget_seconds: Optional[float] = None, error: Optional[float] = None,
+              trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
+              hmc_temperature: Optional[float] = None, looks: Optional[int] = None, reversible: bool = False,
+              families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
+              learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+              learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+              learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
+              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+    """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
+    trajectory, or the cheapest that errs less than `error`.
+
+    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned: two
+    results, `document, scheme = nysalt.recommend(...)`.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    asked["fix"] = _fixed(fix)
+    document, text = _nysalt.recommend(_held_by(system), asked)
+    found = _json.loads(document)
+    _warn(found["warnings"])
+    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+
+
+def recommend_for_sampling(system: System, length: float, *, acceptance: Optional[float] = None,
+                           times_larger: Optional[float] = None, hmc_temperature: Optional[float] = None,
+                           trajectories: Optional[int] = None, families: Optional[Texts] = None, seed: int = 1,
+                           learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
+                           learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
+                           learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None,
+                           fix: Optional[Mapping[str, float]] = None,
+                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+    """The word with which Hybrid Monte Carlo takes the largest step per evaluation at an acceptance, with
+    trajectories of mean duration `length`, on a system `times_larger` than this one.
+
+    Returns the document that `nysalt recommend --for sampling --json` prints, and the winner where it was
+    learned.
+    """
+    asked = dict(locals())
+    asked.pop("system")
+    asked["fix"] = _fixed(fix)
+    document, text = _nysalt.recommend_for_sampling(_held_by(system), asked)
+    found = _json.loads(document)
+    _warn(found["warnings"])
+    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")

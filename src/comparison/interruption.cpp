@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+
+#include "nysalt/detail/unfinished_names.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+std::atomic<int> noted = 0;
+std::atomic<bool> is_noting = false;
+
+extern "C" void end_by_signal(int number) {
+  int none = 0;
+  if (is_noting && noted.compare_exchange_strong(none, number)) return;
+  nysalt::detail::remove_unfinished_files();
+  ::_exit(128 + number);
+}
+
+}  // namespace
+
+void handle_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;  // nohup
+    struct sigaction handled {};
+    handled.sa_handler = &end_by_signal;
+    handled.sa_flags = SA_RESTART;
+    sigaction(number, &handled, nullptr);
+  }
+}
+
+signals_are_noted::signals_are_noted() noexcept { is_noting = true; }
+signals_are_noted::~signals_are_noted() { is_noting = false; }
+
+int noted_signal() noexcept { return noted; }
+
+}  // namespace nysalt::program

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+// Signals that end the program: SIGINT, SIGTERM, SIGHUP.
+#pragma once
+
+#include <exception>
+
+namespace nysalt::program {
+
+/// Thrown where work ends because of a signal that was noted.
+class interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "ended by a signal"; }
+};
+
+/// Has the signals handled: of a process that is ended by one, files that are not finished go, and the exit
+/// code is 128 and the signal's number. For a program, once.
+void handle_signals();
+
+/// While one lives, the first signal is noted and the work goes on, to where it can be gone on with later;
+/// the second ends the process.
+class signals_are_noted {
+ public:
+  signals_are_noted() noexcept;
+  ~signals_are_noted();
+  signals_are_noted(const signals_are_noted&) = delete;
+  signals_are_noted& operator=(const signals_are_noted&) = delete;
+};
+
+/// The number of the signal that was noted; 0 if there was none.
+int noted_signal() noexcept;
+
+}  // namespace nysalt::program
