@@ -147,7 +147,7 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
     const bool is_flag = known->get_expected_max() == 0 || known->get_type_size_max() == 0;
     const bool is_switch = item.inputs.size() == 1 && (item.inputs[0] == "true" || item.inputs[0] == "false");
     if (!is_flag || is_switch) return;
-    refuse("--config: {} must be true or false, got {}", item.name, listed(item.inputs));
+    refuse("--config: --{} must be true or false, got {}", item.name, listed(item.inputs));
   }
   refuse("--config: unknown option '{}': {}", item.name,
          did_you_mean(item.name, option_names(*command), help_of(*command)));

@@ -137,12 +137,12 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_told_and_nothing_is_left_half) {
       BOOST_TEST(has(done.err, "standard output"));
     }
   }
-  // The shell keeps its number when the program takes its place, so it knows the temporary file's name.
+  // A file may not grow beyond 512 bytes, but for the line on standard error.
   const auto on_full_disk = [&](const std::string& arguments) {
-    return shell(folder, "sh -c 'ln -s /dev/full out.$$.part; exec \"$nysalt\" " + arguments + "'");
+    return shell(folder, "sh -c 'ulimit -f 1; exec \"$nysalt\" " + arguments + "'");
   };
-  for (const auto& arguments : {run_it + "--output out", learn + "--output out",
-                                std::string("run --method verlet --step 1e-4 --horizon 10 --output out")}) {
+  for (const auto& arguments :
+       {learn + "--output out", std::string("run --method verlet --step 1e-4 --horizon 10 --output out")}) {
     std::ofstream(folder / "out") << "old";
     const finished done = on_full_disk(arguments);
     BOOST_TEST(has(done.err, "full"));

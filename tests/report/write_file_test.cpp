@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 // A file is written whole or not at all.
-#include <fmt/format.h>
-#include <unistd.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
 #include <boost/test/unit_test.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 
 #include "../../src/report/write_file.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
+#include "nysalt/atomic_file.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -40,14 +46,57 @@ BOOST_AUTO_TEST_CASE(where_it_cannot_be_written_nothing_is_left) {
   BOOST_TEST(contents(folder / "occupied" / "inside") == "kept");
 }
 
-// A device that is always full, where the system has one.
 BOOST_AUTO_TEST_CASE(a_full_disk_is_told) {
-  if (!std::filesystem::is_character_file("/dev/full")) return;
   const scratch folder("write_file");
   write_file(folder / "a.txt", "before");
-  std::filesystem::create_symlink("/dev/full", folder / fmt::format("a.txt.{}.part", getpid()));
-  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", std::string(100'000, 'x')); },
-                                         {"cannot write", "full"}));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit little{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &little);  // a file that may not grow is told as a full disk is
+  const bool is_told = refuses<std::runtime_error>(
+      [&] { write_file(folder / "a.txt", std::string(100'000, 'x')); }, {"cannot write", "full"});
+  setrlimit(RLIMIT_FSIZE, &before);
+  BOOST_TEST(is_told);
   BOOST_TEST(contents(folder / "a.txt") == "before");
   BOOST_TEST((folder.files() == names{"a.txt"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {
+  const scratch folder("write_file_way");
+  write_file(folder / "precious", "kept");
+  std::filesystem::create_symlink("precious", folder / "a.txt.new.part");
+  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"in the way"}));
+  BOOST_TEST(contents(folder / "precious") == "kept");
+  std::filesystem::remove(folder / "a.txt.new.part");
+  BOOST_TEST(mkfifo((folder / "a.txt.new.part").c_str(), 0600) == 0);
+  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"in the way"}));
+  std::filesystem::remove(folder / "a.txt.new.part");
+  std::ofstream(folder / "a.txt.new.part") << "left by a process that was stopped";
+  write_file(folder / "a.txt", "text");
+  BOOST_TEST(contents(folder / "a.txt") == "text");
+  BOOST_TEST((folder.files() == names{"a.txt", "precious"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_link_is_followed) {
+  const scratch folder("write_file_link");
+  std::filesystem::create_directory(folder / "inner");
+  std::filesystem::create_symlink("inner/b.txt", folder / "a.txt");
+  write_file(folder / "a.txt", "new");
+  BOOST_TEST(std::filesystem::is_symlink(folder / "a.txt"));
+  BOOST_TEST(contents(folder / "inner" / "b.txt") == "new");
+  write_file(folder / "a.txt", "newer");
+  BOOST_TEST(contents(folder / "inner" / "b.txt") == "newer");
+}
+
+BOOST_AUTO_TEST_CASE(of_two_writers_the_second_is_refused) {
+  const scratch folder("write_file_two");
+  atomic_file first(folder / "a.txt");
+  first.write("first");
+  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "second"); },
+                                         {"another process writes it"}));
+  first.commit();
+  BOOST_TEST(contents(folder / "a.txt") == "first");
+  write_file(folder / "a.txt", "second");
+  BOOST_TEST(contents(folder / "a.txt") == "second");
 }

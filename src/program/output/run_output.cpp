@@ -70,7 +70,13 @@ void run_output::make_part(const json& question) {
   save({});
   is_fresh_ = true;
   fresh_name_.emplace(checkpoint_);
-  lay_out();
+  try {
+    lay_out();
+  } catch (...) {  // a constructor that throws has no destructor
+    std::error_code ignored;
+    std::filesystem::remove(checkpoint_, ignored);
+    throw;
+  }
 }
 
 void run_output::lay_out() {

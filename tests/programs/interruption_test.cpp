@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSL-1.0
+// What ends a run from outside: signals, a standard error that cannot be written, kills while files are made.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "../support/program.hpp"
+
+using namespace nysalt::test;
+
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+const std::string long_run =
+    "run --method verlet --step 0.001 --horizon 1e5 --trajectories 3 --sample-every 100000 ";
+const std::string short_run =
+    "run --method verlet --step 0.001 --horizon 2000 --trajectories 3 --sample-every 1000 ";
+
+/// The exit code of a command that gets a signal once a file is there.
+int code_after(const scratch& folder, const std::string& arguments, const std::string& file,
+               const std::string& signal) {
+  // A shell that is not interactive has its background jobs ignore SIGINT; env puts that right.
+  const auto done = shell(folder, "env --default-signal=INT \"$nysalt\" " + arguments +
+                                      " >/dev/null 2>err & p=$!; for i in $(seq 500); do [ -e " + file +
+                                      " ] && break; sleep 0.01; done; sleep 0.1; kill -" + signal +
+                                      " $p; wait $p; echo $?");
+  return std::stoi(done.out);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_signal_leaves_nothing_without_a_checkpoint) {
+  for (const auto& [signal, number] : {std::pair{"INT", 2}, {"TERM", 15}, {"HUP", 1}}) {
+    for (const std::string kind : {".csv", ".npy", ".h5"}) {
+      const scratch folder("signal");
+      BOOST_TEST(code_after(folder, long_run + "--output a" + kind, "a" + kind + ".new.part", signal) ==
+                 128 + number);
+      std::filesystem::remove(folder / "err");
+      BOOST_TEST(folder.files().empty(), signal << " " << kind);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
+  const scratch folder("signal_checkpoint");
+  const std::string whole =
+      "run --method verlet --step 0.001 --horizon 20000 --trajectories 3 --sample-every 1000 ";
+  BOOST_TEST(run(folder, whole + "--output whole.csv").code == 0);
+  const std::string command = whole + "--output a.csv --checkpoint c --every 1000000000";
+  BOOST_TEST(code_after(folder, command, "c", "TERM") == 128 + 15);
+  BOOST_TEST(contents(folder / "err").find("--resume goes on") != std::string::npos,
+             contents(folder / "err"));
+  BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") == std::string::npos);  // not the first one
+  BOOST_TEST(run(folder, command + " --resume").code == 0);
+  BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_that_is_ignored_stays_so) {
+  const scratch folder("signal_ignored");
+  const auto done =
+      shell(folder, "trap '' HUP; \"$nysalt\" " + short_run +
+                        "--output a.csv >/dev/null & p=$!; sleep 0.05; kill -HUP $p; wait $p; echo $?");
+  BOOST_TEST(done.out == "0\n");
+}
+
+BOOST_AUTO_TEST_CASE(standard_error_that_cannot_be_written_changes_nothing) {
+  const std::string unstable = "run --method verlet --step 0.03 --horizon 1 --output a.csv";  // which warns
+  for (const std::string to : {"2>&-", "2>/dev/full", "2>&1 >/dev/null | true"}) {
+    const scratch folder("no_error");
+    const bool is_pipe = to.find('|') != std::string::npos;
+    const auto code_of = [&](const std::string& arguments) {
+      const std::string command =
+          is_pipe ? "{ \"$nysalt\" " + arguments + " >/dev/null; echo $? >code; } 2>&1 | true; cat code"
+                  : "\"$nysalt\" " + arguments + " >/dev/null " + to + "; echo $?";
+      return std::stoi(shell(folder, command).out);
+    };
+    BOOST_TEST(code_of("run --method nosuch --step 1 --horizon 1") == 2);
+    BOOST_TEST(code_of(unstable) == 0);
+    BOOST_TEST(std::filesystem::exists(folder / "a.csv"));
+    BOOST_TEST(code_of("learn --step 0.3 --trajectories 4 --effort quick --output s.json") != 134);
+    BOOST_TEST(code_of("compare --methods verlet --steps 0.03 --trajectories 16 --output r") == 0);
+    BOOST_TEST(std::filesystem::exists(folder / "r/rows.csv"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(killed_while_a_file_is_laid_out_it_begins_again) {
+  for (const std::string kind : {".npy", ".h5"}) {
+    const scratch folder("killed_early");
+    const std::string command =
+        "run --method verlet --step 0.01 --horizon 20 --trajectories 50 --sample-every 10 "
+        "--output a" +
+        kind + " --checkpoint c --every 100000";
+    BOOST_TEST(run(folder, command).code == 0);
+    const std::string whole = contents(folder / ("a" + kind));
+    // A file as large as a second takes to write, and a kill meanwhile.
+    const std::string large =
+        "run --method verlet --step 0.01 --horizon 1e4 --trajectories 100 --sample-every 5 "
+        "--output b" +
+        kind + " --checkpoint d --every 1000000";
+    shell(folder, "\"$nysalt\" " + large +
+                      " >/dev/null 2>&1 & p=$!; for i in $(seq 500); do [ -e d ] && break; "
+                      "sleep 0.01; done; kill -KILL $p; wait $p");
+    BOOST_TEST(std::filesystem::exists(folder / "d"));
+    const auto again = run(folder, large);
+    BOOST_TEST(again.code == 2);
+    BOOST_TEST(again.err.find("--resume goes on") != std::string::npos, again.err);
+    // Of the same state for the small run: its first checkpoint, with nothing laid out.
+    const std::string small =
+        "run --method verlet --step 0.01 --horizon 20 --trajectories 50 --sample-every 10 "
+        "--output e" +
+        kind + " --checkpoint f --every 100000";
+    shell(folder, "ulimit -f 8; \"$nysalt\" " + small + " 2>/dev/null");  // too large: refused
+    BOOST_TEST(!std::filesystem::exists(folder / "f"));
+    BOOST_TEST(run(folder, small).code == 0);
+    BOOST_TEST((contents(folder / ("e" + kind)) == whole));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_a_dead_run_left_does_not_block_the_next) {
+  for (const std::string kind : {".csv", ".npy", ".h5"}) {
+    const scratch folder("left");
+    shell(folder, "\"$nysalt\" " + long_run + "--output a" + kind +
+                      " >/dev/null 2>&1 & p=$!; for i in $(seq 500); do [ -e a" + kind +
+                      ".new.part ] && break; sleep 0.01; done; kill -KILL $p; wait $p");
+    BOOST_TEST(std::filesystem::exists(folder / ("a" + kind + ".new.part")));
+    BOOST_TEST(run(folder, short_run + "--output a" + kind).code == 0);
+    BOOST_TEST(!std::filesystem::exists(folder / ("a" + kind + ".new.part")));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_two_runs_into_one_file_the_second_is_refused) {
+  for (const std::string kind : {".csv", ".npy", ".h5"}) {
+    const scratch folder("two");
+    const auto done = shell(folder, "\"$nysalt\" " + long_run + "--output a" + kind +
+                                        " >/dev/null 2>&1 & p=$!; for i in $(seq 500); do [ -e a" + kind +
+                                        ".new.part ] && break; sleep 0.01; done; \"$nysalt\" " + short_run +
+                                        "--output a" + kind + "; echo $?; kill $p; wait $p");
+    BOOST_TEST(done.out == "2\n");
+    BOOST_TEST(done.err.find("another process writes it") != std::string::npos, done.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_result_takes_the_place_of_an_input) {
+  const scratch folder("inputs");
+  std::ofstream(folder / "o.toml") << "method = \"verlet\"\nstep = 0.01\nhorizon = 1\n";
+  const std::string before = contents(folder / "o.toml");
+  const auto refused = [&](const std::string& arguments) {
+    const auto done = run(folder, arguments);
+    BOOST_TEST(done.code == 2, arguments);
+    BOOST_TEST((done.err.find("was read as input") != std::string::npos ||
+                done.err.find("the file of the method") != std::string::npos),
+               done.err);
+  };
+  refused("run --config o.toml --output o.toml");
+  refused("run --config ./o.toml --output ../" + (folder / "x").parent_path().filename().string() +
+          "/o.toml");
+  BOOST_TEST(contents(folder / "o.toml") == before);
+  BOOST_TEST(
+      run(folder, "learn --system henon_heiles --family bab2 --step 0.3 --effort quick --output s.json")
+          .code == 0);
+  const std::string scheme = contents(folder / "s.json");
+  refused("run --system henon_heiles --method s.json --step 0.3 --horizon 3 --output s.json");
+  std::filesystem::copy_file(folder / "s.json", folder / "o.csv.manifest.json");
+  refused("run --system henon_heiles --method o.csv.manifest.json --step 0.3 --horizon 3 --output o.csv");
+  BOOST_TEST(contents(folder / "s.json") == scheme);
+  BOOST_TEST(contents(folder / "o.csv.manifest.json") == scheme);
+}
+
+BOOST_AUTO_TEST_CASE(links_and_devices) {
+  const scratch folder("links");
+  std::filesystem::create_symlink("real.csv", folder / "link.csv");
+  BOOST_TEST(run(folder, short_run + "--output link.csv").code == 0);
+  BOOST_TEST(std::filesystem::is_symlink(folder / "link.csv"));
+  BOOST_TEST(contents(folder / "real.csv").starts_with("trajectory,"));
+  for (const std::string device : {"/dev/stdout", "/dev/null", "/proc/self/fd/1", "/dev/../dev/stdout"}) {
+    const auto done = run(folder, short_run + "--output " + device);
+    BOOST_TEST(done.code == 2, device);
+    BOOST_TEST(done.err.find("no ordinary file") != std::string::npos, done.err);
+  }
+  const auto done = shell(
+      folder, "mkfifo c.next.part; \"$nysalt\" " + short_run + "--output a.csv --checkpoint c --every 64");
+  BOOST_TEST(done.code == 2);
+  BOOST_TEST(done.err.find("in the way") != std::string::npos, done.err);
+  BOOST_TEST(!std::filesystem::exists(folder / "a.csv.part"));
+}
+
+BOOST_AUTO_TEST_CASE(files_of_options_that_cannot_be) {
+  const scratch folder("options");
+  const auto told = [&](const std::string& text, const std::string& words) {
+    std::ofstream(folder / "o.toml") << text;
+    const auto done = run(folder, "run --method verlet --step 0.01 --horizon 1 --config o.toml");
+    BOOST_TEST(done.code == 2, text);
+    BOOST_TEST(done.err.find(words) != std::string::npos, done.err);
+  };
+  for (const std::string value : {"7", "-3", "1e400", "\"yes\"", "[true, false]"})
+    told("json = " + value + "\n", "--json must be true or false");
+  BOOST_TEST(run(folder, "run --config /dev/zero").err.find("shorter than a megabyte") != std::string::npos);
+  BOOST_TEST(run(folder, "run --method verlet --step 0.1 --horizon 1 --trajectories 281474976710657")
+                 .err.find("2^48") != std::string::npos);
+  const auto cut = run(folder, "run --method '\xd0\xb6\xd0' --step 0.1 --horizon 1");
+  BOOST_TEST(cut.err.find("\xd0\xb6?") != std::string::npos, cut.err);
+}
+
+BOOST_AUTO_TEST_CASE(names_that_a_shell_or_a_spreadsheet_would_take) {
+  const scratch folder("names");
+  std::filesystem::create_directory(folder / "-d");
+  for (const std::string before : {"", "CDPATH=/tmp "}) {
+    const auto done =
+        shell(folder,
+              before + "\"$nysalt\" run --method verlet --step 0.01 --horizon 1 --output ./-d/a.csv --plot");
+    BOOST_TEST(done.code == 0);
+    BOOST_TEST(done.err.empty(), done.err);
+    BOOST_TEST(contents(folder / "-d/a.svg").find("</svg>") != std::string::npos);
+    shell(folder, "rm ./-d/*");
+  }
+  BOOST_TEST(
+      run(folder, "learn --system henon_heiles --family bab2 --step 0.3 --effort quick --output s.json")
+          .code == 0);
+  std::filesystem::copy_file(folder / "s.json", folder / "=cmd.json");
+  const auto done =
+      run(folder,
+          "compare --system henon_heiles --methods verlet,=cmd.json --steps 0.3 --trajectories 8 --output r");
+  BOOST_TEST(done.code == 0, done.err);
+  const std::string rows = contents(folder / "r/rows.csv");
+  BOOST_TEST(rows.find(",'=cmd.json,") != std::string::npos, rows);
+  BOOST_TEST(rows.find(",=cmd") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_twice_in_a_table_is_refused) {
+  const scratch folder("twice");
+  std::ofstream(folder / "t.json")
+      << R"({"format": "nysalt table", "version": 1, "letters": "BAB", "coefficients": [0.5, 1, 0.5], "coefficients": [0.4, 1, 0.6]})";
+  const auto done = run(folder, "run --method t.json --step 0.01 --horizon 1");
+  BOOST_TEST(done.code == 2);
+  BOOST_TEST(done.err.find("\"coefficients\" is there twice") != std::string::npos, done.err);
+}
