@@ -134,7 +134,7 @@ def main():
     page.append(f"| 0.002 | baoab exported | {truth:.5f} ± {truth_off:.0e} itself |")
     print(page[-1], flush=True)
     for timestep in (0.01, 0.02, 0.03, 0.04):
-        word = learned(host.PROGRAM, folder, f"bab3_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
+        word = learned(host.PROGRAM, folder, f"bath_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
                        "--friction", "1", "--temperature", str(TEMPERATURE), "--placement", "middle", "--family", "bab3",
                        "--step", repr(3 * timestep), "--loss", "covariance")
         langevin = f"fix 2 all langevin {TEMPERATURE} {TEMPERATURE} 1.0 {{seed}}"

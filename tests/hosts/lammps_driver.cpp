@@ -17,8 +17,8 @@ auto make_args_checked(const S&, Args&... args) {
 #include "modify.h"
 
 int main(int, char** argv) {
-  char name[] = "lmp", log[] = "-log", screen[] = "-screen", none[] = "none";
-  char* args[] = {name, log, none, screen, none};
+  char name[] = "lmp", log[] = "-log", screen[] = "-screen", none[] = "none", file[] = "log";
+  char* args[] = {name, log, file, screen, none};
   void* const handle = lammps_open_no_mpi(5, args, nullptr);
   auto* const lammps = static_cast<LAMMPS_NS::LAMMPS*>(handle);
   (*lammps->modify->fix_map)["nysalt/exported"] = LAMMPS_NS::make_fix_exported;
