@@ -20,7 +20,7 @@ FOLDER = os.environ.get("NYSALT_WHEEL_FOLDER", os.path.join(ROOT, "build", "whee
 # What every Linux with Python has: the runtime of C and C++.
 EVERYWHERE = re.compile(r"^(ld-linux.*|lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s))\.so\b")
 # Folders of the package by the processor; nysalt/__init__.py chooses.
-PROCESSORS = {"": [], "x86_64_v3": ["-march=x86-64-v3"]}
+PROCESSORS = {"": [], "avx2": ["-mavx2"]}
 
 
 def version():

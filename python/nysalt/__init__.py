@@ -31,10 +31,9 @@ def _compiled() -> Any:
             flags = set(next(line for line in file if line.startswith("flags")).split())
     except (OSError, StopIteration):
         flags = set()
-    v3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}  # and what these have beside
-    if v3 <= flags and _os.environ.get("NYSALT_PROCESSOR") != "baseline":
+    if "avx2" in flags and _os.environ.get("NYSALT_PROCESSOR") != "baseline":
         try:
-            return import_module("nysalt.x86_64_v3._nysalt")
+            return import_module("nysalt.avx2._nysalt")
         except ModuleNotFoundError:
             pass
     return import_module("nysalt._nysalt")
