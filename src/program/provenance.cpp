@@ -49,6 +49,7 @@ void add_candidates(const recorded_options& given, cited_setup& to) {
 cited_setup setup_of(const recorded_options& given) {
   cited_setup setup;
   setup.in_bath = given.is_positive("friction") || given.is_positive("sigma");
+  if (given.command() == "export") return setup;  // of no system
   if (given.command() == "stability") {
     setup.system = given.one_of("system", "");
     setup.families = given.of("family");
@@ -78,12 +79,12 @@ void add_manifest(const fs::path& path, const fs::path& result, std::vector<cite
     refuse("this is not a manifest of nysalt");
   }
   const recorded_options given(manifest["options"].get<std::string>());
-  const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability"};
+  const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability", "export"};
   if (std::ranges::find(known, given.command()) == known.end()) {
     refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));
   }
   std::vector<cited_setup> setups{setup_of(given)};
-  for (const char* option : {"method", "methods"}) {
+  for (const char* option : {"method", "methods", "METHOD"}) {
     for (const auto& method : given.of(option)) add_method(found_beside(path, method), setups);
   }
   const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";

@@ -3,8 +3,9 @@
 """Stand-ins for hosts whose exported text cannot run by itself here: the documented loop of the host, with the
 numbers of the text, from the pinned start to the end that the text names.
 
-usage: stand_in.py HOST FILE, for the hosts chroma, tmlqcd, openqcd and ordinarydiffeq
+usage: stand_in.py HOST FILE, for the hosts chroma, tmlqcd, openqcd, ordinarydiffeq and julia
 """
+import math
 import re
 import sys
 
@@ -80,12 +81,50 @@ def ordinarydiffeq(x, a, b, n, length):
             x.kick(a[i] * dt)
 
 
+def julia(x, text):
+    """apply! over the words of the module, in place of Julia: the numbers are tried, and the language is not."""
+    drawn = 0
+
+    def word(name):
+        letters, numbers = re.search(rf'const {name} = \("([A-Z]*)", \[([^]]*)\]\)', text).groups()
+        return letters, [float(one) for one in numbers.split(",")]
+
+    def apply(name):
+        nonlocal drawn
+        letters, c = word(name)
+        c = iter(c)
+        for letter in letters:
+            if letter == "A":
+                x.drift(next(c) * 0.1)
+            elif letter == "B":
+                x.kick(next(c) * 0.1)
+            elif letter == "D":
+                b, f = next(c), force(x.q)
+                shift = next(c) * 0.01
+                there = [x.q[0] + shift * f[0], x.q[1] + shift * 0.5 * f[1]]
+                x.p = [p + b * 0.1 * g for p, g in zip(x.p, force(there))]
+            else:
+                decay = math.exp(-1.5 * next(c) * 0.1)
+                spread = math.sqrt((1 - decay**2) * 0.7)
+                x.p = [decay * x.p[0] + spread * math.sin(drawn + 1),
+                       decay * x.p[1] + spread * math.sqrt(2) * math.sin(drawn + 2)]
+                drawn += 2
+
+    apply("START")
+    for _ in range(10):
+        apply("KERNEL")
+    apply("FINISH")
+
+
 def main():
     host, file = sys.argv[1:]
     text = open(file).read()
     x = state()
-    if host == "ordinarydiffeq":
-        ordinarydiffeq(x, numbers_after(text, "const a"), numbers_after(text, "const b"), 10, 1.0)
+    if host in ("ordinarydiffeq", "julia"):
+        if host == "julia":
+            julia(x, text)
+        else:
+            ordinarydiffeq(x, numbers_after(text, "const a"), numbers_after(text, "const b"), 10, 1.0)
         end_q, end_p = (
             [float(one) for one in re.search(re.escape(f"{name} - [") + "([^]]*)", text).group(1).split(",")]
             for name in ("q", "p"))

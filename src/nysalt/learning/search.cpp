@@ -55,7 +55,9 @@ bool has_run_away(const candidate& one, const std::vector<Eigen::Index>& free) {
 std::vector<candidate> by_judgement(std::vector<candidate> all, const std::vector<Eigen::Index>& free) {
   std::erase_if(all, [](const candidate& one) { return !std::isfinite(one.judged); });
   std::ranges::stable_sort(all, {}, &candidate::judged);
-  std::ranges::stable_partition(all, [&](const candidate& one) { return !has_run_away(one, free); });
+  // Not std::ranges::stable_partition: clang++ 14 does not compile what it returns.
+  std::stable_partition(all.begin(), all.end(),
+                        [&](const candidate& one) { return !has_run_away(one, free); });
   return all;
 }
 
@@ -130,7 +132,8 @@ std::pair<std::vector<named_parameters>, double> most_promising(const search_tas
   std::ranges::stable_sort(all, {}, &found::loss);
   std::vector<named_parameters> admitted;
   std::vector<named_parameters> others;
-  for (const auto& [at, value] : all) {
+  for (const auto& one : all) {
+    const named_parameters& at = one.at;
     if (admitted.size() == most) break;
     const auto is_near = [&](const named_parameters& known) {
       return (known.theta - at.theta).norm() <= far_apart;
