@@ -99,7 +99,9 @@ class phi4_lattice {
         take(row + k, neighbours * 2.0 - x * (x * x * cubic + linear));
       };
       one(0, here[last], here[1 < side_ ? 1 : 0]);
+#if defined __GNUC__ && !defined __clang__
 #pragma GCC ivdep
+#endif
       for (Eigen::Index k = 1; k < last; ++k) one(k, here[k - 1], here[k + 1]);
       one(last, here[last - 1], here[0]);
     });
