@@ -48,6 +48,8 @@ std::string export_to_lammps(const exported_method& method) {
   values.emplace_back("LIST", list);
   values.emplace_back("ENDS", ends);
   values.emplace_back("STAGES", std::to_string(found.ends.size()));
+  values.emplace_back("STEPS",
+                      fmt::format("{} step{}", found.ends.size(), found.ends.size() == 1 ? "" : "s"));
   const bool in_bath = has_bath(method);
   values.emplace_back("ARGUMENTS", in_bath ? " TEMPERATURE FRICTION SEED" : "");
   values.emplace_back("COUNT", in_bath ? "6" : "3");
@@ -103,11 +105,11 @@ inline double normal_of_@NAME@(std::uint64_t seed, std::uint64_t tag, std::uint6
             {"BATH_FIELD", "  const bath_@NAME@& held;\n"}});
   return fill(R"(@HEADER@//
 @EXPLAINED@
-// A fix of LAMMPS for a plug-in. LAMMPS computes one force a step, so that a step of the method is @STAGES@ steps of LAMMPS:
+// A fix of LAMMPS for a plug-in. LAMMPS computes one force a step, so that a step of the method is @STEPS@ of LAMMPS:
 //   timestep T                      # h = @STAGES@ T
 //   fix ID GROUP nysalt/@NAME@@ARGUMENTS@
-// Positions and velocities are those of the method every @STAGES@ steps, from the start of a run; a run must have a
-// multiple of them. Neither rigid bodies nor constraints nor rRESPA.@BATH_SENTENCE@
+// Positions and velocities are those of the method every @STEPS@ from the start of a run, and a run must have a multiple
+// of @STEPS@. Neither rigid bodies nor constraints nor rRESPA.@BATH_SENTENCE@
 // Test, of a stand-in with the loop of LAMMPS: c++ -DNYSALT_SELF_TEST -x c++ FILE && ./a.out
 #include <algorithm>
 #include <cmath>
