@@ -9,6 +9,14 @@ inline std::size_t allocations = 0;
 inline std::size_t allocated_bytes = 0;  // whether given back or not
 }  // namespace nysalt::test
 
+// ThreadSanitizer wraps malloc itself, and crashes where others do: under it nothing is counted.
+#if defined __has_feature
+#if __has_feature(thread_sanitizer)
+#define NYSALT_COUNTS_NO_ALLOCATIONS
+#endif
+#endif
+
+#if !defined NYSALT_COUNTS_NO_ALLOCATIONS
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
@@ -16,3 +24,4 @@ extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
   nysalt::test::allocated_bytes += size;
   return __libc_malloc(size);
 }
+#endif
