@@ -22,11 +22,12 @@ std::vector<export_host> export_hosts();
 
 /// How a method is exported.
 struct export_options {
-  std::string name = {};  ///< identifier in the text; empty: from the method's name
-  std::vector<std::string> about =
-      {};  ///< lines for the header of the text, such as the origin of the method
-  bool displaced =
-      false;  ///< gradient kicks G become displaced kicks D, of order 4 at most and not symplectic
+  /// Identifier in the text; empty: from the method's name.
+  std::string name = {};
+  /// Lines for the header of the text, such as the origin of the method.
+  std::vector<std::string> about = {};
+  /// Gradient kicks G become displaced kicks D, of order 4 at most and not symplectic.
+  bool displaced = false;
 };
 
 /// Source text of the method for a host, with a self-test. Throws std::invalid_argument for an unknown host,

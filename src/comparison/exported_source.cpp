@@ -55,7 +55,7 @@ export_source plain_source(const method_source& source, const export_request& re
   return result;
 }
 
-/// Where letters O are to be placed; nowhere if nobody says. A scheme of a bath has them already.
+/// The placement of letters O that the name of the method or --placement asks for.
 std::optional<placement> placement_of(const method_source& source, const export_request& request) {
   return source.where ? source.where : placement_asked(request.placement);
 }

@@ -18,7 +18,7 @@ struct export_request {
   bool displaced = false;      ///< gradient kicks become displaced kicks
 };
 
-/// A method with what export_to() is told about it.
+/// A method and the options of its export.
 struct export_source {
   tabulated method;
   export_options options;

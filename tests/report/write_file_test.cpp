@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_told) {
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit little{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &little);  // a file that may not grow is told as a full disk is
+  setrlimit(RLIMIT_FSIZE, &little);  // write() then fails with EFBIG
   const bool is_told = refuses<std::runtime_error>(
       [&] { write_file(folder / "a.txt", std::string(100'000, 'x')); }, {"cannot write", "full"});
   setrlimit(RLIMIT_FSIZE, &before);

@@ -58,6 +58,17 @@ std::string header(const exported_method& method, std::string_view mark) {
   return result;
 }
 
+namespace {
+
+/// The end of each text in Python.
+constexpr const char* main_in_python = R"(if __name__ == "__main__":
+    off = self_test()
+    print(f"@NAME@: off by {off:.1e}")
+    raise SystemExit(not off < 1e-13)
+)";
+
+}  // namespace
+
 gap_texts values_of_header(const exported_method& method, std::string_view mark, char exponent) {
   const exported_letters kernel = kernel_of(method);
   std::string explained =
@@ -70,11 +81,9 @@ gap_texts values_of_header(const exported_method& method, std::string_view mark,
         mark);
   }
   const self_test end = self_test_of(method);
-  return {{"NAME", method.name},
-          {"HEADER", header(method, mark)},
-          {"EXPLAINED", explained + "."},
-          {"Q", digits(end.q, exponent)},
-          {"P", digits(end.p, exponent)}};
+  return {{"NAME", method.name},          {"HEADER", header(method, mark)},
+          {"EXPLAINED", explained + "."}, {"MAIN", fill(main_in_python, {{"NAME", method.name}})},
+          {"Q", digits(end.q, exponent)}, {"P", digits(end.p, exponent)}};
 }
 
 gap_texts values_of(const exported_method& method, std::string_view mark, char exponent) {

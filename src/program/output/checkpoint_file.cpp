@@ -56,7 +56,7 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
     refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
   }
   const json file_version = head.value("version", json());
-  if (!file_version.is_number_integer() && !file_version.is_number()) refuse_edited_checkpoint(file);
+  if (!file_version.is_number()) refuse_edited_checkpoint(file);
   if (file_version > version_of_checkpoint) {
     refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
            file.string(), file_version.dump(), version_of_checkpoint);

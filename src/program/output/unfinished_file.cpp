@@ -102,7 +102,6 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     refuse("{} was just finished by another run", path_.string());
   }
   if (from == origin::made && opened.st_size > 0) {
-    is_kept_ = true;  // it is not ours
     refuse("{} was left by a run that was stopped: go on with its checkpoint, or remove the file",
            part_.string());
   }
