@@ -1,0 +1,136 @@
+# The checks of `./dev check`, each in a build of its own, as sanitizers do not mix. Sourced by dev.
+# Each check leaves its outcome in build/check/outcomes; build/check/table.md is all of them, with what was not run.
+
+check() {
+  local what=${1:-all} argument=${2-}
+  (($# <= 2)) || refuse "check takes a name and at most one argument, got $# arguments"
+  packages+=(clang)
+  case $what in
+    gcc | clang | address | threads)
+      local piece=${argument:-1/1}
+      [[ $piece =~ ^([1-9][0-9]{0,2})/([1-9][0-9]{0,2})$ ]] && ((BASH_REMATCH[1] <= BASH_REMATCH[2])) ||
+        refuse "check $what takes a piece such as 3/8, got '$piece'"
+      recorded "$what" "$piece" check_tests "$what" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
+      ;;
+    fuzz)
+      local runs=${argument:-20000} target
+      [[ $runs =~ ^[1-9][0-9]{0,8}$ ]] || refuse "check fuzz takes a number of inputs, got '$runs'"
+      build_fuzz_targets
+      for target in tests/fuzz/corpus/*; do
+        recorded fuzz "${target##*/}" check_fuzz_target "${target##*/}" "$runs"
+      done
+      ;;
+    tidy | faults | coverage)
+      [[ -z $argument ]] || refuse "check $what takes no argument, got '$argument'"
+      recorded "$what" 1/1 "check_$what"
+      ;;
+    all)
+      [[ -z $argument ]] || refuse "check all takes no argument, got '$argument'"
+      local one
+      for one in gcc clang tidy threads address fuzz faults coverage; do check "$one"; done
+      ;;
+    table) tests/checks/outcomes.py table build/check ;;
+    *) refuse "unknown check '$what': it is gcc, clang, address, threads, tidy, fuzz, faults, coverage, table or all" ;;
+  esac
+}
+
+# recorded WHAT PIECE COMMAND...: runs the command and records exit status, seconds and the counts it wrote.
+recorded() {
+  local what=$1 piece=$2 began=$SECONDS status=0
+  counts=$PWD/build/check/outcomes/counts.$$
+  mkdir -p build/check/outcomes
+  : >"$counts"
+  set +e
+  (set -e; "${@:3}")
+  status=$?
+  set -e
+  tests/checks/outcomes.py add build/check --check "$what" --piece "$piece" --status "$status" \
+    --seconds "$((SECONDS - began))" --counts "$(cat "$counts")"
+  rm -f "$counts"
+  ((status == 0)) || exit "$status"
+}
+
+# check_tests PRESET K N: the K-th of N equal slices of the preset's tests, and only what these need is built.
+check_tests() {
+  preset=$1
+  [[ $preset != gcc ]] || preset=release
+  local k=$2 n=$3 number name
+  configure -D NYSALT_TEST_PICTURES=OFF
+  local -A targets=()
+  while IFS=: read -r name _; do targets[$name]=1; done < <(cmake --build --preset "$preset" --target help)
+  local numbers=() names=() needed=(nysalt_program)
+  while read -r number name; do
+    numbers+=("$number")
+    names+=("$name")
+  done < <(ctest --preset "$preset" -N | sed -n 's/^ *Test *#\([0-9]*\): \(.*\)/\1 \2/p')
+  local first=$(((k - 1) * ${#names[@]} / n)) last=$((k * ${#names[@]} / n - 1))
+  ((first <= last)) || refuse "there are ${#names[@]} tests of $preset: they cannot be cut into $n pieces"
+  for name in "${names[@]:first:last - first + 1}"; do
+    if [[ -v targets[$name] ]]; then
+      needed+=("$name")
+    elif [[ $preset == release || $preset == clang ]]; then
+      needed=(all headers_alone)  # of the tests without a target some take what is installed
+      break
+    fi
+  done
+  ((n > 1)) || [[ $preset == threads ]] || needed=(all)
+  build "${needed[@]}"
+  local report=$PWD/build/check/outcomes/tests.$$.xml status=0 jobs=2
+  [[ $preset != threads ]] || jobs=1
+  ctest --preset "$preset" -j "$jobs" -I "${numbers[first]},${numbers[last]}" --output-junit "$report" || status=$?
+  tests/checks/outcomes.py count "$report" >"$counts"
+  rm -f "$report"
+  return "$status"
+}
+
+check_tidy() {
+  packages+=(clang-tidy)
+  preset=tidy
+  configure
+  say "reading src/ and all headers"
+  local log=build/check/tidy.log status=0
+  run-clang-tidy -quiet -p build/check/tidy -j "$(nproc)" "^$PWD/src/|/every_header.cpp\$" >"$log" 2>/dev/null || status=$?
+  grep -E '(warning|error): ' "$log" | sort -u || true
+  printf '%d files, %d findings' "$(grep -c '^clang-tidy' "$log" || true)" \
+    "$(grep -E '(warning|error): ' "$log" | sort -u | wc -l)" >"$counts"
+  return "$status"
+}
+
+build_fuzz_targets() {
+  preset=fuzz
+  configure
+  build fuzz_targets
+}
+
+# check_fuzz_target TARGET INPUTS: what libFuzzer finds of interest is kept, the least that reaches as much.
+check_fuzz_target() {
+  say "$1, $2 inputs"
+  mkdir -p build/check/fuzz/corpus
+  tests/fuzz/fuzz.sh "$PWD/build/check/fuzz/tests/fuzz/fuzz_$1" "$2" "$PWD/tests/fuzz/corpus/$1" \
+    "$PWD/build/check/fuzz/corpus/$1" | tee "$counts"
+}
+
+check_faults() {
+  preset=release
+  configure
+  build nysalt_program
+  tests/faults/faults.py build/release/nysalt build/check/faults | tee build/check/faults.log
+  tail -n 1 build/check/faults.log >"$counts"
+}
+
+check_coverage() {
+  packages+=(llvm)
+  preset=coverage
+  configure
+  build all
+  local folder=build/check/coverage objects=() program
+  rm -rf "$folder/profiles"
+  ctest --preset coverage -j2
+  for program in "$folder"/tests/*_test "$folder"/tests/*tests_O?_?; do objects+=(-object "$program"); done
+  llvm-profdata merge -sparse -o "$folder/all.profdata" "$folder"/profiles/*.profraw
+  llvm-cov export -format=lcov -instr-profile="$folder/all.profdata" "$folder/nysalt" "${objects[@]}" \
+    "$PWD/include" "$PWD/src" >"$folder/all.lcov"
+  awk -v root="$PWD/" -v target=90 -f tests/coverage.awk "$folder/all.lcov" | tee build/check/coverage.log
+  awk '/whole$|together$/ { printf "%s%s %% of %s lines of %s", comma, $3, $1, $4; comma = ", " }' \
+    build/check/coverage.log >"$counts"
+}
