@@ -30,7 +30,7 @@ const std::vector<std::vector<std::string>> layers{
     {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
     {"detail/kernels", "detail/typed_system", "model", "detail/over_scalars"},
     {"detail/divergence", "integrate", "detail/lockstep"},
-    {"detail/unfinished_names", "atomic_file", "communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
+    {"detail/unfinished_names", "detail/write_failure", "atomic_file", "communicator", "communicators/", "shard", "detail/together", "detail/progress_of_share",
      "detail/ensemble_loop"},
     {"derivatives/"},
     {"reference", "detail/small_steps", "references/", "ensemble", "initial_states", "ensembles/"},

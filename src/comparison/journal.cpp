@@ -11,6 +11,7 @@
 
 #include "all_ranks.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -37,7 +38,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   }
   on_first(all_ranks(), [&] {
     if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
-      refuse("cannot write {}", path_.string());
+      fail_to_write("");
     }
     std::fseek(file_.get(), 0, SEEK_END);
     if (whole == 0) write(head);
@@ -51,8 +52,7 @@ std::string journal::open_file() {
     refuse("cannot write {}: it is no ordinary file; name another --output", path_.string());
   }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    refuse("cannot write {}: is the folder writable, and the disk not full?", path_.string());
+  if (descriptor < 0) fail_to_write(": is the folder writable, and the disk not full?");
   file_.reset(fdopen(descriptor, "r+"));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("{} is being written by another run: wait for it, or name another --output", path_.string());
@@ -108,10 +108,14 @@ void journal::keep(const std::string& part, const json& result) {
   has_written_ = true;
 }
 
+void journal::fail_to_write(std::string_view advice) const {
+  throw nysalt::detail::write_failure(message("cannot write {}{}", path_.string(), advice));
+}
+
 void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
-    refuse("cannot write {}: is the disk full? What is in it counts when you --resume", path_.string());
+    fail_to_write(": is the disk full? What is in it counts when you --resume");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "json.hpp"
 
@@ -50,6 +51,7 @@ class journal {
   std::size_t read(const std::string& text, const json& question, const std::string& head);
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
+  [[noreturn]] void fail_to_write(std::string_view advice) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;

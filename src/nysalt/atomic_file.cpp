@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "nysalt/detail/write_failure.hpp"
+
 namespace nysalt {
 
 void put_folder_on_disk(const std::filesystem::path& file) {
@@ -31,6 +33,11 @@ namespace {
 
 [[noreturn]] void cannot_write(const std::filesystem::path& file, std::string_view why) {
   throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
+}
+
+[[noreturn]] void failed_to_write(const std::filesystem::path& file) {
+  throw write_failure(
+      fmt::format("cannot write {}: is the folder there, writable, and not full?", file.string()));
 }
 
 /// Whether the name is still that of the open file.
@@ -66,7 +73,7 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
       close(file);
       continue;
     }
-    if (errno != EEXIST) cannot_write(target, "is the folder there, writable, and not full?");
+    if (errno != EEXIST) failed_to_write(target);
     remove_left(part, target);
   }
   cannot_write(target, "another process writes it; wait for that, or name another file");
@@ -128,8 +135,6 @@ void atomic_file::commit(bool durable) {
   if (durable) put_folder_on_disk(path_);
 }
 
-void atomic_file::fail() const {
-  detail::cannot_write(path_, "is the folder there, writable, and not full?");
-}
+void atomic_file::fail() const { detail::failed_to_write(path_); }
 
 }  // namespace nysalt

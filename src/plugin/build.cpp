@@ -21,6 +21,7 @@
 
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "nysalt/plugin.hpp"
 #include "plugin.hpp"
 #include "report/write_file.hpp"
@@ -132,6 +133,11 @@ fs::path cache_folder() {
   return folder;
 }
 
+[[noreturn]] void cannot_write(const fs::path& file, const std::error_code& problem) {
+  throw nysalt::detail::write_failure(
+      fmt::format("{}: cannot be written: {}", file.string(), problem.message()));
+}
+
 /// The exit code of a command whose messages go into a file; nothing if it cannot be started.
 std::optional<int> exit_code_of(const std::vector<std::string>& command, const fs::path& messages) {
   std::vector<char*> arguments;
@@ -204,7 +210,7 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   }
   std::error_code problem;
   fs::rename(made.path, library, problem);
-  if (problem) refuse("{}: cannot be written: {}", library.string(), problem.message());
+  if (problem) cannot_write(library, problem);
 }
 
 }  // namespace
@@ -247,7 +253,7 @@ std::string build_library(const std::string& source, const std::string& output) 
   std::error_code problem;
   fs::copy_file(library, copy.path, fs::copy_options::overwrite_existing, problem);
   if (!problem) fs::rename(copy.path, to, problem);
-  if (problem) refuse("{}: cannot be written: {}", to.string(), problem.message());
+  if (problem) cannot_write(to, problem);
   return to.string();
 }
 

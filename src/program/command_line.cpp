@@ -111,7 +111,7 @@ int run_command_line(int argc, char** argv) {
   }
   app.footer(
       "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
-      "the fit is not usable.");
+      "the fit is not usable, 4 a result could not be written.");
   if (const auto answer = parse(app, argc, argv)) {
     print(*answer);
     return done;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <filesystem>
 
@@ -15,6 +16,7 @@
 #include "comparison/standard_error.hpp"
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {
@@ -25,12 +27,29 @@ void print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
-  refuse("the standard output cannot be written: is the disk full?");
+  throw nysalt::detail::write_failure(
+      "the standard output cannot be written: is it closed, or the disk full?");
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
+
+namespace {
+
+/// Throws refusal if a file system could not take the longest name that a file has while it is written.
+void require_room_for_name(const std::filesystem::path& file) {
+  constexpr std::size_t longest = NAME_MAX;  // bytes, of nearly all file systems
+  const std::size_t needed = file.filename().string().size() + std::string_view(".sorted.part").size();
+  if (needed <= longest) return;
+  refuse(
+      "cannot write {}: a file name must be at most {} bytes long, got {} with the ending of what is "
+      "unfinished; "
+      "take a shorter name",
+      file.string(), longest, needed);
+}
+
+}  // namespace
 
 void require_writable(const std::filesystem::path& named) {
   namespace fs = std::filesystem;
@@ -42,6 +61,7 @@ void require_writable(const std::filesystem::path& named) {
   const fs::path file = nysalt::detail::behind_links(named);
   for (const fs::path& path : {file, manifest_of(named)}) {
     require_no_input(path);
+    require_room_for_name(path);
     if (fs::is_directory(path, ignored)) {
       refuse("cannot write {}: it is a folder; name another file", path.string());
     }

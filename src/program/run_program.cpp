@@ -10,15 +10,16 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "comparison/interruption.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "output.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-int refused(const std::string& text) {
+int told(const std::string& text, int code) {
   complain(text);
-  return bad_input;
+  return code;
 }
 
 }  // namespace
@@ -31,12 +32,15 @@ int exit_code_of(const std::function<int()>& work) {
         fmt::format("ended by signal {}: the checkpoint is there, and --resume goes on", noted_signal()));
     return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
-    return refused(
-        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system");
+    return told(
+        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system",
+        bad_input);
+  } catch (const nysalt::detail::write_failure& problem) {
+    return told(problem.what(), not_written);
   } catch (const std::exception& problem) {
-    return refused(problem.what());
+    return told(problem.what(), bad_input);
   } catch (...) {  // by a system of the user's own
-    return refused("something was thrown that is no std::exception: which it is cannot be told");
+    return told("something was thrown that is no std::exception: which it is cannot be told", bad_input);
   }
 }
 

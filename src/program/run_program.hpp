@@ -9,8 +9,8 @@ namespace nysalt::program {
 /// What the work returns, or bad_input once it is told what it threw. Throws nothing.
 int exit_code_of(const std::function<int()>& work);
 
-/// The exit code: done, bad_input or no_result of commands.hpp, or 128 and the number of the signal that ended
-/// the work. Throws nothing.
+/// The exit code: done, bad_input, no_result or not_written of commands.hpp, or 128 and the number of the
+/// signal that ended the work. Throws nothing.
 int run_program(int argc, char** argv);
 
 }  // namespace nysalt::program

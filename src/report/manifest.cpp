@@ -12,6 +12,7 @@
 #include "build_info.hpp"
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "write_file.hpp"
 
 namespace nysalt::program {
@@ -46,7 +47,8 @@ void write_manifest(const std::filesystem::path& file, const common_settings& co
   try {
     write_file(manifest_of(file), text_of(manifest));
   } catch (const std::runtime_error& problem) {
-    refuse("{} is whole, but not its manifest: {}", file.string(), problem.what());
+    throw nysalt::detail::write_failure(
+        message("{} is whole, but not the manifest: {}", file.string(), problem.what()));
   }
 }
 

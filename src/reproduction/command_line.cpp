@@ -36,7 +36,7 @@ int run_command_line(int argc, char** argv) {
       "Examples:\n"
       "  nysalt_paper linear\n"
       "  nysalt_paper deterministic langevin --quick --output results\n\n"
-      "Exit codes: 0 done, 2 bad input.");
+      "Exit codes: 0 done, 2 bad input, 4 a result could not be written.");
   if (const auto answer = parse(app, argc, argv)) {
     print(*answer);
     return done;

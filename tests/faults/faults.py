@@ -4,7 +4,7 @@
 
 usage: faults.py PROGRAM FOLDER [--some]; the exit code is 1 if a promise was broken
 
-After each failure the output is the old file or the whole new one, the exit code is 0, 2 or 3, nothing unfinished stays
+After each failure the output is the old file or the whole new one, the exit code is 0 or 4, nothing unfinished stays
 (but what a checkpoint goes on with), and doing the work again, from the checkpoint where there is one, gives the bytes of
 a run that nothing happened to. --some: a few calls of each kind.
 """
@@ -87,7 +87,7 @@ def one_failure(folder, arguments, output, has_checkpoint, expected, fault):
     fresh(folder, output)
     failed = work(folder, arguments, NYSALT_FAULT=fault)
     killed = fault.endswith("kill")
-    if failed.returncode != (-9 if killed else failed.returncode) or (not killed and failed.returncode not in (0, 2, 3)):
+    if failed.returncode != (-9 if killed else failed.returncode) or (not killed and failed.returncode not in (0, 4)):
         if not (killed and failed.returncode == 0):
             return f"exit code {failed.returncode}: {failed.stderr.strip()[:200]}"
     now = contents(folder, output)
@@ -95,8 +95,8 @@ def one_failure(folder, arguments, output, has_checkpoint, expected, fault):
         return "the output is neither the old one nor the new one"
     if failed.returncode == 0 and now != expected:
         return "exit code 0 without the output"
-    if failed.returncode == 2 and failed.stderr.count("\n") != 1:
-        return f"the refusal is not one line: {failed.stderr[:200]}"
+    if failed.returncode == 4 and failed.stderr.count("\n") != 1:
+        return f"the message is not one line: {failed.stderr[:200]}"
     left = [one for one in os.listdir(folder) if ".part" in one]
     if left and not killed and not has_checkpoint:
         return f"left: {left}"

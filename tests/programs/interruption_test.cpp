@@ -56,7 +56,8 @@ BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
   BOOST_TEST(code_after(folder, command, "c", "TERM") == 128 + 15);
   BOOST_TEST(contents(folder / "err").find("--resume goes on") != std::string::npos,
              contents(folder / "err"));
-  BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") == std::string::npos);  // not the first one
+  BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") ==
+             std::string::npos);  // not the first one
   BOOST_TEST(run(folder, command + " --resume").code == 0);
   BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
 }
@@ -239,4 +240,63 @@ BOOST_AUTO_TEST_CASE(what_is_twice_in_a_table_is_refused) {
   const auto done = run(folder, "run --method t.json --step 0.01 --horizon 1");
   BOOST_TEST(done.code == 2);
   BOOST_TEST(done.err.find("\"coefficients\" is there twice") != std::string::npos, done.err);
+}
+
+namespace {
+
+/// The script for Slurm of docs/program.md, with the numbers of a run of some seconds.
+std::string script_for_slurm() {
+  const std::string page = contents(NYSALT_SOURCE_DIR "/docs/program.md");
+  const auto begin = page.find("#!/bin/sh\n#SBATCH");
+  BOOST_REQUIRE(begin != std::string::npos);
+  std::string script = page.substr(begin, page.find("```", begin) - begin);
+  const auto put = [&](const std::string& from, const std::string& to) {
+    const auto at = script.find(from);
+    BOOST_REQUIRE_MESSAGE(at != std::string::npos, from);
+    script.replace(at, from.size(), to);
+  };
+  put("--horizon 1e6", "--horizon 4000");
+  put("--trajectories 100000", "--trajectories 100");
+  put("--sample-every 10000", "--sample-every 10");
+  put("--threads 32", "--threads 1");
+  put("--every 1000000", "--every 40000");
+  return script;
+}
+
+}  // namespace
+
+// A job that is killed is queued again: with a kill while the file is laid out, then after the first
+// checkpoint, and then later and later, it ends with the bytes of a run that nothing happened to.
+BOOST_AUTO_TEST_CASE(the_script_for_slurm_outlasts_kills) {
+  const scratch folder("slurm");
+  std::filesystem::create_directory(folder / "bin");
+  std::ofstream(folder / "bin/srun") << "#!/bin/sh\nwhile [ \"$1\" != nysalt ]; do shift; done\nshift\n"
+                                        "exec \"$nysalt\" \"$@\"\n";
+  std::ofstream(folder / "job") << script_for_slurm();
+  const std::string job = "chmod +x bin/srun; PATH=$PWD/bin:$PATH; export PATH nysalt; ";
+  const auto undisturbed = shell(folder, job + "sh job");
+  if (undisturbed.code == 2 && undisturbed.err.find("without HDF5") != std::string::npos) return;
+  BOOST_REQUIRE_MESSAGE(undisturbed.code == 0, undisturbed.err);
+  const std::string whole = contents(folder / "out.h5");
+  std::filesystem::remove(folder / "out.h5");
+  // `exec` in the script's last line too, so that a kill reaches the program itself.
+  shell(folder, "sed -i 's/^srun/exec srun/' job");
+  const auto killed = [&](const std::string& wait) {
+    return shell(folder,
+                 job + "sh job >/dev/null 2>err & p=$!; " + wait + "; kill -KILL $p; wait $p; echo $?")
+        .out;
+  };
+  const std::string is_there = "for i in $(seq 1000); do [ -e out.h5.part ] && break; sleep 0.005; done";
+  BOOST_TEST(killed(is_there) == "137\n");
+  BOOST_TEST(!std::filesystem::exists(folder / "out.h5"));
+  std::string code;
+  int kills = 1;
+  for (double seconds = 0.1; code != "0\n"; seconds *= 1.5, ++kills) {
+    BOOST_REQUIRE(kills < 40);
+    code = killed("sleep " + std::to_string(seconds));
+    BOOST_REQUIRE_MESSAGE(code == "137\n" || code == "0\n", code << contents(folder / "err"));
+  }
+  BOOST_TEST_MESSAGE(kills << " kills");
+  BOOST_TEST((contents(folder / "out.h5") == whole));
+  BOOST_TEST(!std::filesystem::exists(folder / "out.h5.part"));
 }

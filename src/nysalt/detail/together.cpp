@@ -8,12 +8,13 @@
 #include <string>
 
 #include "nysalt/communicator.hpp"
+#include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt {
 
 namespace {
 
-enum class failure : int { bad_argument, no_memory, other };
+enum class failure : int { bad_argument, no_memory, not_written, other };
 
 failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
   try {
@@ -23,6 +24,9 @@ failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
     return failure::bad_argument;
   } catch (const std::bad_alloc&) {
     return failure::no_memory;
+  } catch (const detail::write_failure& problem) {
+    text = problem.what();
+    return failure::not_written;
   } catch (const std::exception& problem) {
     text = problem.what();
   } catch (...) {
@@ -53,6 +57,7 @@ void together(const communicator& ranks, const std::function<void()>& work) {
   broadcast(ranks, text, lowest);
   if (kind == failure::bad_argument) throw std::invalid_argument(text);
   if (kind == failure::no_memory) throw std::bad_alloc();
+  if (kind == failure::not_written) throw detail::write_failure(text);
   throw std::runtime_error(text);
 }
 

@@ -10,6 +10,7 @@
 
 #include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "samples.hpp"
 
 namespace nysalt::program {
@@ -84,7 +85,8 @@ class sample_arrays final : public sample_writer {
       try {
         make_hdf5(file.part(), datasets(), about_);
       } catch (const std::runtime_error&) {
-        refuse("cannot write {}: is the folder writable, and its disk not full?", file.part().string());
+        throw nysalt::detail::write_failure(
+            message("cannot write {}: is the folder writable, and its disk not full?", file.part().string()));
       }
     }
     write_into(file);

@@ -15,6 +15,7 @@
 
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt::program {
 
@@ -60,6 +61,8 @@ namespace {
 int made_part(const std::filesystem::path& part, const std::filesystem::path& file) {
   try {
     return nysalt::detail::make_part(part, file);
+  } catch (const nysalt::detail::write_failure&) {
+    throw;
   } catch (const std::runtime_error& problem) {
     throw refusal(problem.what());
   }
@@ -158,7 +161,9 @@ void unfinished_file::finish() {
   put_on_disk();
   std::error_code failure;
   std::filesystem::rename(part_, path_, failure);
-  if (failure) refuse("cannot write {}: {}", path_.string(), failure.message());
+  if (failure) {
+    throw nysalt::detail::write_failure(message("cannot write {}: {}", path_.string(), failure.message()));
+  }
   put_folder_on_disk(path_);
   keep();
 }
@@ -169,8 +174,9 @@ void unfinished_file::remove() {
 }
 
 void unfinished_file::fail() const {
-  refuse("cannot write {}: is the folder there, writable, and not full? From a checkpoint --resume goes on",
-         part_.string());
+  throw nysalt::detail::write_failure(message(
+      "cannot write {}: is the folder there, writable, and not full? From a checkpoint --resume goes on",
+      part_.string()));
 }
 
 }  // namespace nysalt::program
