@@ -159,10 +159,25 @@ std::string of_letters(std::string_view text) {
   return result;
 }
 
+/// A text that quotes what is very long loses its middle; what to do is at the end.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 1200;  // bytes
+  constexpr std::size_t end = 300;
+  const auto is_within_letter = [&](std::size_t at) {
+    return at < text.size() && static_cast<unsigned char>(text[at]) >> 6U == 2;
+  };
+  if (text.size() <= longest) return text;
+  std::size_t first = longest - end;
+  while (is_within_letter(first)) --first;
+  std::size_t last = text.size() - end;
+  while (is_within_letter(last)) ++last;
+  return text.substr(0, first) + " [...] " + text.substr(last);
+}
+
 }  // namespace
 
 void complain(std::string text) {
-  text = of_letters(text);
+  text = shortened(of_letters(text));
   if (!speaks_for_all()) {
     keep_unsaid(text);
     return;

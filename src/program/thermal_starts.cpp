@@ -38,11 +38,11 @@ initial_states starts_in(const std::string& file, const model& system, double te
   const auto header = [&](const std::vector<std::string>& names) {
     columns = columns_of_positions(file, names, size(system));
   };
-  read_csv("--start", file, header, [&](std::size_t number, const std::vector<std::string>& cells) {
+  read_csv("--start", file, header, [&](std::size_t number, const std::vector<std::string_view>& cells) {
     vector<double, Eigen::Dynamic> q(size(system));
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      q[static_cast<Eigen::Index>(i)] =
-          number_of<double>(fmt::format("{}: line {}, q{}", file, number, i + 1), cells[columns[i]]);
+      q[static_cast<Eigen::Index>(i)] = number_in_cell(
+          cells[columns[i]], [&] { return fmt::format("{}: line {}, q{}", file, number, i + 1); });
     }
     positions.push_back(std::move(q));
   });

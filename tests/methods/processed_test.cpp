@@ -29,7 +29,7 @@ namespace {
 
 tabulated random_member(const run_time_family& family, draws& random) {
   Eigen::VectorXd theta = family.starts.front().theta;
-  for (Eigen::Index k = theta.size() - family.letters.processor().size() + 2; k < theta.size(); ++k) {
+  for (Eigen::Index k = theta.size() - std::ssize(family.letters.processor()) + 2; k < theta.size(); ++k) {
     theta[k] = random.uniform(-0.3, 0.3);
   }
   return {family.name,

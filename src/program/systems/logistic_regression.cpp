@@ -39,11 +39,11 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
     }
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
   };
-  read_csv("--data", file, header, [&](std::size_t number, const std::vector<std::string>& cells) {
+  read_csv("--data", file, header, [&](std::size_t number, const std::vector<std::string_view>& cells) {
     auto& row = rows.emplace_back();
     for (std::size_t j = 0; j < cells.size(); ++j) {
-      row.push_back(
-          number_of<double>(fmt::format("--data {}: line {}, {}", file, number, names[j]), cells[j]));
+      row.push_back(number_in_cell(
+          cells[j], [&] { return fmt::format("--data {}: line {}, {}", file, number, names[j]); }));
     }
     if (row[at] != 0.0 && row[at] != 1.0) {
       refuse("--data {}: line {}, {} must be 0 or 1 as a label, got {}", file, number, names[at], cells[at]);

@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""The worst inputs of each kind that the program reads: done or refused, within 10 s and 1 GB.
+
+usage: worst_inputs.py PROGRAM FOLDER [--some]; the exit status is 1 if a promise was broken
+
+Each kind of file and of text is made large, deep, endless and strange. The program must end with the exit code 0, 2 or
+3, a refusal with one line of at most 2,000 bytes, within 10 s of CPU time and 1 GB of memory. Prints a table. --some: one file of each kind.
+"""
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import time
+
+PROGRAM = os.path.abspath(sys.argv[1])
+FOLDER = os.path.abspath(sys.argv[2])
+SOME = "--some" in sys.argv
+SECONDS = 10
+MEGABYTES = 1000
+
+MB = 1 << 20
+TEXTS = {
+    "zeros": lambda: "\0" * MB,
+    "digits": lambda: "1" * MB,
+    "brackets": lambda: "[" * MB,
+    "braces": lambda: '{"a":' * (MB // 5),
+    "parentheses": lambda: "(" * (MB // 2) + "x" + ")" * (MB // 2),
+    "numbers": lambda: ",".join("0.5" for _ in range(MB // 4)),
+    "lines": lambda: "\n" * MB,
+    "quotes": lambda: '"' * MB,
+    "names": lambda: "\n".join(f"a{i} = {i}" for i in range(MB // 16)),
+    "no UTF-8": lambda: "\xff\xfe" * (MB // 2),
+    "large": lambda: "q1,q2,q3,q4,q5,q6\n" + "1,2,3,4,5,6\n" * (100 * MB // 12),
+    "endless": None,  # /dev/zero
+}
+RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
+
+
+def commands_of_file(name):
+    """Each kind of file that the program reads, as (kind, arguments)."""
+    yield "options", ["--config", name, *RUN]
+    yield "method", ["run", "--method", name, "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
+    yield "method in a race", ["compare", "--methods", f"verlet,{name}", "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
+    yield "method to export", ["export", name, "--to", "c"]
+    yield "stability", ["stability", "--method", name]
+    yield "starts", [*RUN, "--start", name]
+    yield "data", [*RUN, "--system", "logistic_regression", "--data", name]
+    yield "checkpoint", [*RUN, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
+    yield "system", [*RUN, "--system", name]
+    yield "report", ["cite", name]
+
+
+ENDINGS = {"options": ".toml", "starts": ".csv", "data": ".csv", "checkpoint": "", "system": ".hpp", "report": ".json"}
+
+
+def commands_of_text():
+    """Texts and numbers on the command line."""
+    shorter = 100_000  # a word of the command line has 128 kB at most
+    texts = {
+        "parentheses": "(" * (shorter // 2) + "x" + ")" * (shorter // 2),
+        "sum": "+".join(["x"] * (shorter // 2)),
+        "power": "^".join(["x"] * (shorter // 2)),
+        "minus": "-" * shorter + "x",
+        "functions": "sin(" * (shorter // 5) + "x" + ")" * (shorter // 5),
+        "digits": "1" * shorter,
+        "commas": "," * shorter,
+        "numbers": ",".join(["0.01"] * (shorter // 5)),
+        "names": ",".join(f"v{i}" for i in range(shorter // 7)),
+    }
+    for name, text in texts.items():
+        yield f"potential, {name}", [*RUN, "--potential", text, "--variables", "x"]
+        yield f"parameters, {name}", [*RUN, "--potential", "k*x^2", "--variables", "x", "--parameter", text]
+        yield f"variables, {name}", [*RUN, "--potential", "x^2", "--variables", text]
+        yield f"methods, {name}", ["compare", "--methods", text, "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
+        yield f"steps, {name}", ["compare", "--methods", "verlet", "--steps", text, "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+        yield f"observables, {name}", [*RUN, "--observables", text]
+        yield f"step, {name}", ["run", "--method", "verlet", "--step", text, "--horizon", "1", "--threads", "1"]
+    for number in ("1000000000000000000", "9223372036854775807", "1e308", "100000000", "300000"):
+        for system, option in (("fpu", "--pairs"), ("linear_chain", "--masses"), ("phi4", "--masses"),
+                               ("lennard_jones", "--atoms"), ("phi4_lattice", "--side"), ("gaussian", "--size")):
+            yield f"{system} {option} {number}", [*RUN, "--system", system, option, number]
+        if float(number) > 2**48:  # fewer are what is asked for, if it takes a day
+            yield f"trajectories {number}", [*RUN, "--trajectories", number, "--observables", "energy"]
+        yield f"variables q[{number}]", [*RUN, "--potential", "0.5*sum(q^2)", "--variables", f"q[{number}]"]
+
+
+def long_and_right():
+    """Files that are right, but long: (kind, ending, text, arguments before the name of the file)."""
+    steps = ", ".join(f"0.{100000 + i}" for i in range(100_000))
+    short = ["--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+    yield "steps", ".toml", f"steps = [{steps}]\n", ["compare", "--methods", "verlet", *short, "--config"]
+    yield "steps", ".toml", f"steps = [{steps}]\n", ["learn", "--family", "bab2", *short, "--config"]
+    starts = "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (63 * MB // 30)
+    yield "starts", ".csv", starts, [*RUN, "--start"]
+    data = "a,b,c,label\n" + "0.125,0.25,1.5,1\n0.25,0.5,2.5,0\n" * (60 * MB // 32)
+    yield "data", ".csv", data, [*RUN, "--system", "logistic_regression", "--data"]
+    yield "data", ".csv", ",".join(f"c{i}" for i in range(3000)) + "\n" + (",".join(["1", "0"] * 1500) + "\n") * 20, [
+        *RUN, "--system", "logistic_regression", "--data"]
+
+
+def limit():
+    os.setsid()
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS + 1, SECONDS + 2))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def attempt(arguments):
+    """(what is wrong or "", exit code, seconds, megabytes) of one command."""
+    started = time.monotonic()
+    with open(os.path.join(FOLDER, "out"), "wb") as out, open(os.path.join(FOLDER, "err"), "wb") as err:
+        child = subprocess.Popen([PROGRAM, *arguments], cwd=FOLDER, stdout=out, stderr=err, stdin=subprocess.DEVNULL,
+                                 preexec_fn=limit)
+        peak = 0
+        while True:
+            done, status, usage = os.wait4(child.pid, os.WNOHANG)
+            if done:
+                break
+            if time.monotonic() - started > 6 * SECONDS:
+                os.killpg(child.pid, 9)
+            time.sleep(0.002)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    seconds = usage.ru_utime + usage.ru_stime
+    peak = usage.ru_maxrss / 1024
+    with open(os.path.join(FOLDER, "err"), "rb") as file:
+        said = file.read()
+    wrong = ""
+    if child.returncode not in (0, 2, 3):
+        wrong = f"exit code {child.returncode}"
+    elif seconds > SECONDS:
+        wrong = f"{seconds:.1f} s"
+    elif peak > MEGABYTES:
+        wrong = f"{peak:.0f} MB"
+    elif child.returncode == 2 and (said.count(b"\n") != 1 or not said.startswith(b"nysalt: ")):
+        wrong = "the refusal is not one line"
+    elif child.returncode == 2 and len(said) > 2000:
+        wrong = f"a refusal of {len(said)} bytes"
+    return wrong, child.returncode, seconds, peak
+
+
+def main():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    os.makedirs(FOLDER)
+    rows, wrong = {}, 0
+
+    def note(kind, name, arguments):
+        nonlocal wrong
+        problem, code, seconds, peak = attempt(arguments)
+        row = rows.setdefault(kind, [0, 0, 0.0, 0.0, 0])
+        row[0] += 1
+        row[1] += code == 2
+        row[2] = max(row[2], seconds)
+        row[3] = max(row[3], peak)
+        if problem:
+            row[4] += 1
+            wrong += 1
+            shown = [one if len(one) < 60 else one[:57] + "..." for one in arguments]
+            print(f"{kind}, {name}: {problem}: {' '.join(shown)}", file=sys.stderr, flush=True)
+
+    for name, text in list(TEXTS.items())[:1 if SOME else None]:
+        for kind, _ in commands_of_file(""):
+            path = "/dev/zero"
+            if text is not None:
+                path = "input" + ENDINGS.get(kind, ".json")
+                with open(os.path.join(FOLDER, path), "w", encoding="latin-1") as file:
+                    file.write(text())
+            elif kind == "system":
+                path = "zero.hpp"
+                os.symlink("/dev/zero", os.path.join(FOLDER, path))
+            arguments = next(words for one, words in commands_of_file(path) if one == kind)
+            note(kind, name, arguments)
+    for kind, ending, text, arguments in [] if SOME else long_and_right():
+        path = f"long{ending}"
+        with open(os.path.join(FOLDER, path), "w", encoding="utf-8") as file:
+            file.write(text)
+        note(kind, "long and right", [*arguments, path])
+    for kind, arguments in [] if SOME else commands_of_text():
+        note(kind.split(",")[0].split(" ")[0], kind, arguments)
+    print("| kind of input | tried | refused | slowest, s | largest, MB | wrong |\n|---|---|---|---|---|---|")
+    for kind, (tried, refused, seconds, peak, bad) in rows.items():
+        print(f"| {kind} | {tried} | {refused} | {seconds:.1f} | {peak:.0f} | {bad} |")
+    print(f"\n{sum(row[0] for row in rows.values())} inputs tried, {wrong} wrong")
+    return wrong > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
