@@ -89,8 +89,15 @@ recipe recipe_of_library() {
 
 /// A source, and what it includes in quotes, one after the other.
 void append_sources(const fs::path& file, std::set<fs::path>& seen, std::string& to) {
+  constexpr std::size_t most = std::size_t{1} << 18U;  // bytes: the library's headers are not among them
   std::error_code ignored;
   if (!seen.insert(fs::weakly_canonical(file, ignored)).second) return;
+  if (!fs::is_regular_file(file, ignored)) return;  // the compiler says more
+  const auto length = fs::file_size(file, ignored);
+  if (ignored || length > most - std::min(to.size(), most)) {
+    refuse("{}: a source with what it includes must be at most 256 kB long; put data into a file of its own",
+           file.string());
+  }
   const auto text = text_of_file(file);
   if (!text) return;
   to += fmt::format("{} {}\n", text->size(), *text);
