@@ -3,11 +3,15 @@
 
 #include <dlfcn.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -35,31 +39,50 @@ struct c_functions {
   std::string file;
 };
 
-/// Data of the library for one thread; a copy has its own.
-class c_data {
+/// What nysalt_open gave each thread that came; closed together at the end. Thread-safe. Cost: of a thread
+/// that comes again with no other library between, a comparison.
+class data_of_threads {
  public:
-  explicit c_data(const c_functions& of) : of_(&of), data_(opened(of)) {}
-  c_data(const c_data& other) : c_data(*other.of_) {}
-  c_data(c_data&& other) noexcept = default;
-  c_data& operator=(c_data other) noexcept {
-    of_ = other.of_;
-    data_ = std::move(other.data_);
-    return *this;
+  explicit data_of_threads(const c_functions& of) : of_(of), number_(next_number()) { get(); }
+  data_of_threads(const data_of_threads&) = delete;
+  data_of_threads& operator=(const data_of_threads&) = delete;
+  ~data_of_threads() {
+    if (of_.close == nullptr) return;
+    for (const auto& [thread, data] : opened_) of_.close(data);
   }
-  ~c_data() = default;
-  void* get() const { return data_.get(); }
+
+  void* get() const {
+    if (of_.open == nullptr) return nullptr;
+    thread_local std::pair<std::uint64_t, void*> last;  // of which library, by number
+    if (last.first != number_) last = {number_, found()};
+    return last.second;
+  }
 
  private:
-  static std::shared_ptr<void> opened(const c_functions& of) {
-    if (of.open == nullptr) return nullptr;
-    void* const data = of.open();
-    if (data == nullptr) refuse("{}: nysalt_open returned a null pointer", of.file);
-    return {data, [close = of.close](void* held) {
-              if (close != nullptr) close(held);
-            }};
+  static std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> number = 0;
+    return ++number;
   }
-  const c_functions* of_;
-  std::shared_ptr<void> data_;
+  void* found() const {
+    const std::lock_guard lock(mutex_);
+    void*& data = opened_[std::this_thread::get_id()];
+    if (data == nullptr) data = of_.open();
+    if (data == nullptr) refuse("{}: nysalt_open returned a null pointer", of_.file);
+    return data;
+  }
+
+  const c_functions& of_;
+  std::uint64_t number_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::thread::id, void*> opened_;
+};
+
+/// A library in use; copies share it.
+struct c_library {
+  explicit c_library(c_functions all) : functions(std::move(all)), data(functions) {}
+
+  c_functions functions;
+  data_of_threads data;
 };
 
 class c_hamiltonian {
@@ -67,30 +90,30 @@ class c_hamiltonian {
   static constexpr int dimension = Eigen::Dynamic;
   static constexpr int lanes = 1;
 
-  explicit c_hamiltonian(std::shared_ptr<const c_functions> functions)
-      : functions_(std::move(functions)), data_(*functions_) {}
+  explicit c_hamiltonian(std::shared_ptr<const c_library> library) : library_(std::move(library)) {}
 
-  Eigen::Index size() const { return functions_->dimension; }
+  Eigen::Index size() const { return functions().dimension; }
   double potential(const column& q) const {
-    return functions_->potential(functions_->dimension, q.data(), data_.get());
+    return functions().potential(functions().dimension, q.data(), library_->data.get());
   }
   void force(const column& q, column& f) const {
-    functions_->force(functions_->dimension, q.data(), f.data(), data_.get());
+    functions().force(functions().dimension, q.data(), f.data(), library_->data.get());
   }
   double inverse_mass(Eigen::Index i) const {
-    return functions_->inverse_masses[static_cast<std::size_t>(i)];
+    return functions().inverse_masses[static_cast<std::size_t>(i)];
   }
-  std::string description() const { return functions_->description; }
+  std::string description() const { return functions().description; }
 
   phase_point<double, Eigen::Dynamic> start(const column& normals) const {
     phase_point<double, Eigen::Dynamic> x{column(size()), column(size())};
-    functions_->start(functions_->dimension, normals.data(), x.q.data(), x.p.data(), data_.get());
+    functions().start(functions().dimension, normals.data(), x.q.data(), x.p.data(), library_->data.get());
     return x;
   }
 
  private:
-  std::shared_ptr<const c_functions> functions_;
-  c_data data_;
+  const c_functions& functions() const { return library_->functions; }
+
+  std::shared_ptr<const c_library> library_;
 };
 static_assert(BlackBoxForce<c_hamiltonian> && NystromSystem<c_hamiltonian> && HasEnergy<c_hamiltonian>);
 
@@ -102,8 +125,7 @@ class c_starts {
     column normals(2 * system_.size());
     standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normals);
     normals *= spread_;
-    const c_hamiltonian own = system_;  // starts are asked for by several threads
-    return own.start(normals);
+    return system_.start(normals);
   }
   std::string description() const { return sentence("nysalt_start of spread {}", spread_); }
 
@@ -133,32 +155,31 @@ std::string fingerprint_of(const std::string& path) {
   return all.text();
 }
 
-std::shared_ptr<const c_functions> functions_of(void* library, const std::string& path,
-                                                const std::string& shown) {
-  auto all = std::make_shared<c_functions>();
-  all->file = shown;
-  all->force = required_function<decltype(nysalt_force)>(library, "nysalt_force", shown);
-  all->potential = required_function<decltype(nysalt_potential)>(library, "nysalt_potential", shown);
-  all->start = required_function<decltype(nysalt_start)>(library, "nysalt_start", shown);
-  all->open = optional_function<decltype(nysalt_open)>(library, "nysalt_open");
-  all->close = optional_function<decltype(nysalt_close)>(library, "nysalt_close");
-  all->dimension = required_function<decltype(nysalt_dimension)>(library, "nysalt_dimension", shown)();
+c_functions functions_of(void* library, const std::string& path, const std::string& shown) {
+  c_functions all;
+  all.file = shown;
+  all.force = required_function<decltype(nysalt_force)>(library, "nysalt_force", shown);
+  all.potential = required_function<decltype(nysalt_potential)>(library, "nysalt_potential", shown);
+  all.start = required_function<decltype(nysalt_start)>(library, "nysalt_start", shown);
+  all.open = optional_function<decltype(nysalt_open)>(library, "nysalt_open");
+  all.close = optional_function<decltype(nysalt_close)>(library, "nysalt_close");
+  all.dimension = required_function<decltype(nysalt_dimension)>(library, "nysalt_dimension", shown)();
   constexpr std::int64_t most = 100'000'000;  // numbers: ten such arrays take eight gigabytes
-  if (all->dimension < 1 || all->dimension > most) {
-    refuse("{}: nysalt_dimension must be 1 to {}, got {}", shown, most, all->dimension);
+  if (all.dimension < 1 || all.dimension > most) {
+    refuse("{}: nysalt_dimension must be 1 to {}, got {}", shown, most, all.dimension);
   }
-  all->inverse_masses.assign(static_cast<std::size_t>(all->dimension), 1.0);
+  all.inverse_masses.assign(static_cast<std::size_t>(all.dimension), 1.0);
   if (auto* const mass = optional_function<decltype(nysalt_inverse_mass)>(library, "nysalt_inverse_mass")) {
-    for (std::int64_t i = 0; i < all->dimension; ++i) {
+    for (std::int64_t i = 0; i < all.dimension; ++i) {
       const double found = mass(i);
       if (!(found > 0.0) || !std::isfinite(found)) {
         refuse("{}: nysalt_inverse_mass({}) must be positive and finite, got {}", shown, i, found);
       }
-      all->inverse_masses[static_cast<std::size_t>(i)] = found;
+      all.inverse_masses[static_cast<std::size_t>(i)] = found;
     }
   }
   auto* const described = optional_function<decltype(nysalt_description)>(library, "nysalt_description");
-  all->description = described != nullptr ? described() : std::filesystem::path(path).stem().string();
+  all.description = described != nullptr ? described() : std::filesystem::path(path).stem().string();
   return all;
 }
 
@@ -178,10 +199,10 @@ system_declaration declaration_of_c_force(void* library, const std::string& path
   system_declaration declared;
   declared.name = std::filesystem::path(path).stem().string();
   declared.title = "functions of C, by nysalt/c_force.h";
-  declared.described = functions->description;
+  declared.described = functions.description;
   declared.identity = fingerprint_of(path);
   declared.make = [functions, frequency](const parameter_values&, const bath& in, double spread) {
-    const c_hamiltonian system(functions);
+    const c_hamiltonian system(std::make_shared<const c_library>(functions));
     return nysalt::detail::made_of(system, in, c_starts(system, spread), frequency);
   };
   return declared;
