@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -50,7 +51,7 @@ class ensemble_run {
                std::int64_t count, int threads = 1)
       : stepper_(&stepper), first_(first), count_(count) {
     begin(ensemble, seed, threads, [&](std::int64_t block, int size, const state& start) {
-      return runs(*stepper_, start, size, first_ + block);
+      return runs(stepper_of(block), start, size, first_ + block);
     });
   }
 
@@ -127,6 +128,9 @@ class ensemble_run {
     const std::int64_t blocks = (count_ - 1) / width + 1;
     blocks_.resize(static_cast<std::size_t>(blocks));
     if (step_ == 0) starts_.resize(blocks_.size());
+    if constexpr (ErasedSystem<typename Stepper::system_type>) {
+      if (is_black_box(stepper_->system())) own_.resize(blocks_.size());
+    }
     for_each_block(blocks, 1, threads, [&](std::int64_t b, int) {
       const std::int64_t block = b * width;
       const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - block));
@@ -160,13 +164,35 @@ class ensemble_run {
         for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);
       }
     }
-    return runs(*stepper_, start, count, std::move(run), lost);
+    return runs(stepper_of(block), start, count, std::move(run), lost);
+  }
+
+  /// Of a black box, whose force may have memory: a copy of the system that one block alone uses.
+  struct own_system {
+    explicit own_system(const Stepper& of)
+        : system(of.system().separate()), stepper(of.with_system(system)) {}
+
+    typename Stepper::system_type system;
+    Stepper stepper;
+  };
+
+  const Stepper& stepper_of(std::int64_t block) {
+    if constexpr (ErasedSystem<typename Stepper::system_type>) {
+      if (!own_.empty()) {
+        auto& own = own_[static_cast<std::size_t>(block / width)];
+        if (!own) own = std::make_unique<own_system>(*stepper_);
+        return own->stepper;
+      }
+    }
+    return *stepper_;
   }
 
   const Stepper* stepper_;
   std::int64_t first_;
   std::int64_t count_;
   std::int64_t step_ = 0;
+  std::vector<std::unique_ptr<own_system>>
+      own_;  // before the runs that refer to it; empty but for black boxes
   std::vector<std::optional<runs>> blocks_;
   std::vector<state> starts_;  // until they were looked at
 };
