@@ -30,7 +30,7 @@ namespace {
 
 using nysalt::fuzz::mutated;
 
-constexpr int most_seconds = 60;  // of computing for one input, by a program that sanitizers slow down
+constexpr int most_seconds = 300;  // of computing for one input, by a program that is built to be examined
 
 char what_it_was[200];  // ready to be written by a handler of signals
 
