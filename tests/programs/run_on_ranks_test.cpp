@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_told_once_and_all_know_that_all_diverged) {
   const std::string command = in_bath("400") + "--output d/a.csv --checkpoint d/c --every 100";
   const auto done = shell(folder, "mkdir d\n" + on_ranks(2) + command + " & pid=$!\n" + wait_for("d/c", 500) +
                                       "mv d e; wait $pid");
-  BOOST_TEST(done.code == 2, done.err);
+  BOOST_TEST(done.code == 4, done.err);
   BOOST_TEST(count(done.err, "nysalt: cannot write d/c") == 1U, done.err);
   const auto lost = run_on(2, folder,
                            "run --system henon_heiles --spread 50 --method verlet --step 0.3 --horizon 600 "
