@@ -7,7 +7,9 @@
 
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
 
 namespace nysalt::bench {
 
@@ -25,10 +27,8 @@ inline chain_point start_of_chain(Eigen::Index masses) {
   return x;
 }
 
-/// In the order of the long chain.
-inline chain_point apart(const long_fpu_chain& chain, const chain_point& x) {
-  return {chain.ends_apart(x.q), chain.ends_apart(x.p)};
-}
+/// As the program steps it: tile by tile.
+inline model chain_model(Eigen::Index masses) { return fpu_chain<>(masses / 2, chain_omega); }
 
 inline std::span<double> numbers(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};

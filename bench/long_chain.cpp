@@ -19,12 +19,11 @@ constexpr Eigen::Index masses = 1000;
 constexpr std::int64_t steps = 1000;
 
 chain_point ours(std::int64_t count) {
-  const long_fpu_chain chain(masses / 2, chain_omega);
-  const auto stepper = make_stepper(chain, verlet{}, chain_step);
-  auto run = stepper.open(apart(chain, start_of_chain(masses)));
+  const model chain = chain_model(masses);
+  const auto stepper = make_stepper(chain, tabulated(verlet{}), chain_step);
+  auto run = stepper.open(start_of_chain(masses));
   stepper.advance(run, count);
-  const auto end = stepper.synchronous(run);
-  return {chain.ends_in_turn(end.q), chain.ends_in_turn(end.p)};
+  return stepper.synchronous(run);
 }
 
 template <contraction Fused>

@@ -9,11 +9,11 @@
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 #include "support/allocations.hpp"
 
@@ -57,8 +57,17 @@ BOOST_AUTO_TEST_CASE(the_loop_allocates_nothing) {
   BOOST_TEST(allocations_of(fpu_chain<3>(50.0), two_stage, 1000) == 0U);
   BOOST_TEST(allocations_of(fpu_chain<>(3, 50.0), verlet{}, 1000) == 0U);
   BOOST_TEST(allocations_of(fpu_chain<>(3, 50.0), two_stage, 1000) == 0U);
-  BOOST_TEST(allocations_of(long_fpu_chain(70, 50.0), verlet{}, 1000) == 0U);
-  BOOST_TEST(allocations_of(long_fpu_chain(70, 50.0), tabulated(two_stage), 1000) == 0U);
+  BOOST_TEST(allocations_of(fpu_chain<>(70, 50.0), tabulated(two_stage), 1000) == 0U);
+}
+
+// Tiles have a few buffers, whatever the number of steps.
+BOOST_AUTO_TEST_CASE(steps_in_tiles_allocate_nothing_either) {
+  for (const Eigen::Index pairs : {70, 3000}) {
+    const model chain(fpu_chain<>(pairs, 50.0));
+    const auto of_few = allocations_of(chain, tabulated(verlet{}), 100);
+    BOOST_TEST(of_few < 20U);
+    BOOST_TEST(allocations_of(chain, tabulated(verlet{}), 1000) == of_few);
+  }
 }
 
 // Letters that need more than the state have four vectors of a dynamic size, whatever the number of steps.
@@ -66,7 +75,7 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_allocate_nothing_either) {
   using counts = std::array<std::size_t, 2>;
   const fpu_chain<3> fixed(50.0);
   const fpu_chain<> dynamic(3, 50.0);
-  const long_fpu_chain long_one(70, 50.0);
+  const fpu_chain<> long_one(70, 50.0);
   const auto linear = linear_chain::between_walls(6, 4.0);
   const with_quadratic_part split(dynamic, Eigen::MatrixXd::Identity(6, 6));
   const with_quadratic_part fixed_split(fixed, Eigen::MatrixXd::Identity(6, 6));

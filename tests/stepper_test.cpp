@@ -117,7 +117,7 @@ using methods_in_lanes = std::tuple<verlet, member<nystrom>>;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(each_lane_has_the_bits_of_one_trajectory, M, methods_in_lanes) {
   draws random;
-  for_each<std::tuple<an_fpu_chain, a_long_fpu, a_free_chain>>([&]<class Model>() {
+  for_each<std::tuple<an_fpu_chain, a_dynamic_fpu, a_free_chain>>([&]<class Model>() {
     const auto system = Model::make();
     const auto method = any_method<M>(random);
     const auto by_type = make_stepper(system, method, 0.02);

@@ -36,7 +36,6 @@
 #include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/logistic_regression.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/phi4_lattice.hpp"

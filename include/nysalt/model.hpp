@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +65,18 @@ class model {
     result.facts_ = std::move(facts);
     return result;
   }
+  /// The same, whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
+  /// bits are those of one thread. Throws std::invalid_argument unless threads >= 1.
+  model on_threads(int threads) const {
+    if (threads < 1)
+      throw std::invalid_argument(sentence("model: threads must be at least 1, got {}", threads));
+    model result = *this;
+    result.threads_ = threads;
+    return result;
+  }
+  int threads() const { return threads_; }  ///< that share a step of one trajectory
+  /// Of a LocalSystem: the functions of its sites, else null.
+  const detail::site_kernels* sites() const { return system_->sites(); }
   /// With a copy of the system of its own, for a thread whose system may change while it computes.
   model separate() const {
     model result = *this;
@@ -157,6 +170,7 @@ class model {
   std::shared_ptr<const detail::any_system> system_;
   std::shared_ptr<const detail::model_facts> facts_;
   bool is_in_bath_ = true;
+  int threads_ = 1;
 };
 
 namespace detail {

@@ -267,6 +267,7 @@ class stepper {
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
     surroundings_of_word result;
+    if constexpr (ErasedSystem<S>) result.threads = system.threads();
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(word, system);
     if constexpr (HasQuadraticPart<S>) {

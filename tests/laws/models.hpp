@@ -36,7 +36,6 @@
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/logistic_regression.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/phi4_lattice.hpp"
@@ -91,7 +90,6 @@ struct a_chain : within_one { static auto make() { return linear_chain::between_
 struct a_free_chain : within_one { static auto make() { return free_chain(); } };
 struct an_fpu_chain : within_a_half { static auto make() { return fpu_chain<3>(10.0); } };
 struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2, 7.0); } };
-struct a_long_fpu : within_a_half { static auto make() { return long_fpu_chain(2, 7.0); } };
 struct a_pendulum : within_one { static auto make() { return pendulum(); } };
 struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
 struct a_planet {
@@ -124,16 +122,16 @@ struct a_faster_one : within_one { static auto make() { return relativistic_with
 // clang-format on
 
 /// Every system whose force can be differentiated exactly. (a_black_box takes differences.)
-using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_long_fpu,
-                           a_pendulum, a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring,
-                           a_lattice, a_gaussian, a_posterior, a_potential, a_dynamic_one,
-                           a_differentiable_box, two_weights, a_fast_one, a_faster_one>;
+using systems = std::tuple<an_oscillator, a_chain, a_free_chain, an_fpu_chain, a_dynamic_fpu, a_pendulum,
+                           a_galaxy, a_planet, flat_atoms, atoms_in_space, a_ring, a_dynamic_ring, a_lattice,
+                           a_gaussian, a_posterior, a_potential, a_dynamic_one, a_differentiable_box,
+                           two_weights, a_fast_one, a_faster_one>;
 
 /// One of each kind, for laws about methods rather than systems: fixed and dynamic, with masses, with a
 /// layout of its own, by potential and by force, with a quadratic part of its own or split off, and with
 /// another K.
 using various_systems =
-    std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
+    std::tuple<a_free_chain, an_fpu_chain, a_galaxy, a_planet, flat_atoms, a_split_pendulum,
                two_split_weights, a_split_ring, a_differentiable_box, a_fast_one, a_faster_one>;
 
 template <class... List>

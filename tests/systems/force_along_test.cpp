@@ -9,7 +9,6 @@
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -169,9 +168,6 @@ BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
     all(fpu_chain<1>(omega), waves.head(2));
     all(fpu_chain<3>(omega), waves.head(6));
     all(fpu_chain<>(100, omega), waves.head(200));
-    for (const Eigen::Index pairs : {1, 2, 63, 64, 65, 128}) {
-      all(long_fpu_chain(pairs, omega), waves.head(2 * pairs));
-    }
   }
 }
 

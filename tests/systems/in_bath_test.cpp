@@ -20,7 +20,7 @@ const auto some_bath = bath::of_sigma(0.01, 0.05);
 
 /// With modes, masses, bands, kicks, a potential alone, a force alone; fixed and dynamic.
 using nystrom_systems =
-    std::tuple<a_free_chain, an_fpu_chain, a_long_fpu, a_dynamic_one, a_differentiable_box, two_weights>;
+    std::tuple<a_free_chain, an_fpu_chain, a_dynamic_one, a_differentiable_box, two_weights>;
 
 template <class S>
 using in = in_bath<S>;

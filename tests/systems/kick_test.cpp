@@ -109,7 +109,7 @@ bool runs_alike(const S& system, const M& method, double step, const phase_point
          same_bits(cut_finish(system, method, step, x, 50, 20), integrate(other, method, step, x, 50).finish);
 }
 
-using with_kick = std::tuple<an_fpu_chain, a_dynamic_fpu, a_long_fpu>;
+using with_kick = std::tuple<an_fpu_chain, a_dynamic_fpu>;
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/detail/site_kernels.hpp"
 #include "nysalt/detail/step_program.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/lanes.hpp"
@@ -83,6 +84,8 @@ class any_system {
   virtual normal_modes modes() const = 0;
   /// Of the system in a bath, or in none.
   virtual std::vector<frequency_band> frequency_bands(const bath* in) const = 0;
+  /// Of a local system, else null.
+  virtual const site_kernels* sites() const { return nullptr; }
   /// p += c force(q) by the system's own kick.
   virtual void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const = 0;
 

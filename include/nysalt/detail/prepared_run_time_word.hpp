@@ -34,6 +34,7 @@ class prepared_word<run_time_word, C, N> {
     }
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
     run_.calls = plain_.calls = w.stochastic_letters > 0;
+    run_.threads = around.threads;
     if (halves_meet_) run_.loop.push_back({.number = seam_of_steps});
     if (halves_meet_) run_.last.push_back({.number = seam_of_steps});
     for (std::size_t i = 0; i < w.length; ++i) {
@@ -65,6 +66,9 @@ class prepared_word<run_time_word, C, N> {
 
   /// What the loop applies: the word itself, as its letters lie elsewhere and no copy would be nearer.
   const prepared_word& in_loop() const { return *this; }
+
+  /// The letters of an open run.
+  const detail::step_program<C>& program() const { return run_; }
 
   /// Opens a run. Cost: the word's evaluations_to_open.
   template <class T, System S>

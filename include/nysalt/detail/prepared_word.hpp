@@ -22,6 +22,7 @@ namespace nysalt {
 struct surroundings_of_word {
   std::optional<bath> heat_bath;  ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const modal_coordinates> part;  ///< for letters R
+  int threads = 1;                                ///< that may share a step
 };
 
 namespace detail {

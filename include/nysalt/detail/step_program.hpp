@@ -37,6 +37,7 @@ struct step_program {
   std::vector<letter> last;  ///< of a step after which the run may be looked at
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run
   field reads = field::none;
+  int threads = 1;     ///< that share a step where the system allows it
   bool calls = false;  ///< there are letters that are called back
   /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the
   /// state in registers then. Empty of other loops.

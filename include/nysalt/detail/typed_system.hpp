@@ -11,6 +11,7 @@
 
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/detail/take_steps.hpp"
+#include "nysalt/detail/tiled_steps.hpp"
 #include "nysalt/flows/drift.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/kick.hpp"
@@ -103,6 +104,17 @@ class typed_kernels final : public kernels<T> {
   void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                const step_program<C>& letters, std::int64_t steps, const callback& other,
                const watch<T>& watched) const final {
+    if constexpr (std::same_as<T, double> && N == Eigen::Dynamic && LocalSystem<S>) {
+      const typed_site_kernels<S> sites(*system_);
+      if (!letters.pairs.empty() && pays_in_tiles(sites.layout())) {
+        tiled_steps tiles(sites, letters.threads);
+        state_in_place<T, N> x{q, p, f};
+        return watch_steps(
+            steps, watched,
+            [&](std::int64_t count) { tiles.advance(q.data(), p.data(), f.data(), letters, count); },
+            [&] { show<field::whole, S, T, C>(*system_, x, room, letters, watched); });
+      }
+    }
     if constexpr (serves) {
       room_of_letters<T, N> own(room);
       state_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p), as_fixed<N>(f)};
@@ -248,6 +260,10 @@ class typed_system final : public any_system {
     }
     return {};
   }
+  const site_kernels* sites() const override {
+    if constexpr (LocalSystem<S>) return &sites_;
+    return nullptr;
+  }
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
     if constexpr (HasKick<S, double>) {
       system_.kick(as_fixed<S::dimension>(q), as_fixed<S::dimension>(p), c);
@@ -258,6 +274,17 @@ class typed_system final : public any_system {
 
  private:
   held_system<S> system_;
+  struct not_local {
+    explicit not_local(const held_system<S>&) {}
+  };
+  static auto sites_of() {
+    if constexpr (LocalSystem<S>) {
+      return std::type_identity<typed_site_kernels<S>>();
+    } else {
+      return std::type_identity<not_local>();
+    }
+  }
+  [[no_unique_address]] typename decltype(sites_of())::type sites_{system_};
   typed_kernels<S, double> of_one_{system_};
   typed_kernels<S, lanes> of_lanes_{system_};
   typed_kernels<S, slopes> of_slopes_{system_};

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/system.hpp"
+#include "nysalt/local_system.hpp"
 
 namespace nysalt {
 
@@ -16,7 +16,6 @@ namespace nysalt {
 /// both ends fixed [hairer_lubich_wanner_2006, section I.5.1; li_lu_tao_ye_2023, equation (5.1)]:
 ///   V = omega^2/4 sum_i (q_{2i} - q_{2i-1})^2 + sum_{i=0..m} (q_{2i+1} - q_{2i})^4,  q_0 = q_{2m+1} = 0.
 /// Pairs is m, or Eigen::Dynamic. A force costs one pass of some 4 m multiplications and 4 m additions.
-/// Many masses move faster as a long_fpu_chain.
 template <int Pairs = Eigen::Dynamic>
 class fpu_chain {
  public:
@@ -127,6 +126,50 @@ class fpu_chain {
     }
   }
 
+  // A LocalSystem, a site being a stiff spring with the masses at its left and right end.
+  static constexpr int components = 2;                   ///< coordinates of a site
+  Eigen::Index sites() const { return pairs(); }         ///< m
+  static constexpr Eigen::Index reach() { return 1; }    ///< sites between a force and what the force reads
+  static constexpr bool is_periodic() { return false; }  ///< its ends are fixed
+  /// The force on both ends of stiff springs begin .. end - 1, as a LocalSystem has it.
+  template <class T>
+  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
+                      Eigen::Index end) const {
+    in_blocks(
+        q, begin, end, [](const T& u) { return quartic_pull(u); }, 0.5 * omega_ * omega_,
+        [&](Eigen::Index i, const T& stiff, const T& left, const T& right) __attribute__((always_inline)) {
+          f(0, i) = stiff - left;
+          f(1, i) = right - stiff;
+        });
+  }
+  /// p += c force_in_range(q), with the 4 of the soft bonds in c as in kick().
+  template <class T, class C>
+  void kick_in_range(const site_columns<const T>& q, const site_columns<T>& p, const C& c, Eigen::Index begin,
+                     Eigen::Index end) const {
+    const C four_c = c * 4.0;
+    in_blocks(
+        q, begin, end, [](const T& u) { return u * u * u; }, 0.5 * omega_ * omega_ * 0.25,
+        [&](Eigen::Index i, const T& stiff, const T& left, const T& right) __attribute__((always_inline)) {
+          p(0, i) += (stiff - left) * four_c;
+          p(1, i) += (right - stiff) * four_c;
+        });
+  }
+
+  /// The energies of stiff springs begin .. end - 1 and of the soft bonds to their left, and of the last
+  /// bond.
+  template <class T>
+  T potential_in_range(const site_columns<const T>& q, Eigen::Index begin, Eigen::Index end) const {
+    T stiff(0.0);
+    T soft(0.0);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const T stretch = q(1, i) - q(0, i);
+      stiff += stretch * stretch;
+      soft += fourth_power(i > 0 ? T(q(0, i) - q(1, i - 1)) : q(0, i));
+    }
+    if (end == pairs()) soft += fourth_power(T(-q(1, end - 1)));
+    return stiff * (0.25 * omega_ * omega_) + soft;
+  }
+
   /// I_j = (y_{1,j}^2 + omega^2 x_{1,j}^2)/2, the energy of stiff spring j = 0..m-1
   /// [li_lu_tao_ye_2023, equation (5.4)].
   template <class T>
@@ -170,6 +213,34 @@ class fpu_chain {
   std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
 
  private:
+  /// take(i, stiff, left, right) for stiff springs begin .. end - 1, with the pull of stiff spring i and of
+  /// the soft bonds on either side of it. The soft pulls of a block are computed first, so that both loops
+  /// vectorise and no pull is computed twice.
+  template <class T>
+  [[gnu::always_inline]] void in_blocks(const site_columns<const T>& q, Eigen::Index begin, Eigen::Index end,
+                                        const auto& pull, double k, const auto& take) const {
+    constexpr Eigen::Index block = 64;
+    const Eigen::Index last = pairs();
+    T soft[block + 1];  // soft[n] is to the left of site first + n
+    for (Eigen::Index first = begin; first < end; first += block) {
+      const Eigen::Index count = std::min(block, end - first);
+      const Eigen::Index inner_begin = first == 0 ? 1 : 0;
+      const Eigen::Index inner_end = first + count == last ? count : count + 1;
+      if (first == 0) soft[0] = pull(q(0, 0));
+      for (Eigen::Index n = inner_begin; n < inner_end; ++n) {
+        soft[n] = pull(T(q(0, first + n) - q(1, first + n - 1)));
+      }
+      if (first + count == last) soft[count] = pull(T(-q(1, last - 1)));
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC ivdep
+#endif
+      for (Eigen::Index n = 0; n < count; ++n) {
+        const Eigen::Index i = first + n;
+        take(i, T((q(1, i) - q(0, i)) * k), soft[n], soft[n + 1]);
+      }
+    }
+  }
+
   template <class T>
   static T fourth_power(const T& u) {
     const T square = u * u;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/system.hpp"
+#include "nysalt/local_system.hpp"
 
 namespace nysalt {
 
@@ -55,6 +55,37 @@ class phi4_chain {
     }
   }
 
+  // A LocalSystem, a site being a mass.
+  static constexpr int components = 1;                  ///< coordinates of a site
+  Eigen::Index sites() const { return size(); }         ///< n
+  static constexpr Eigen::Index reach() { return 1; }   ///< sites between a force and what the force reads
+  static constexpr bool is_periodic() { return true; }  ///< the last mass is joined to the first
+  /// The force on masses begin .. end - 1.
+  template <class T>
+  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
+                      Eigen::Index end) const {
+    for (Eigen::Index i = begin; i < end; ++i) f(0, i) = force_at(q, i);
+  }
+  /// p += c force_in_range(q).
+  template <class T, class C>
+  void kick_in_range(const site_columns<const T>& q, const site_columns<T>& p, const C& c, Eigen::Index begin,
+                     Eigen::Index end) const {
+    for (Eigen::Index i = begin; i < end; ++i) p(0, i) += force_at(q, i) * c;
+  }
+  /// The energies of wells begin .. end - 1 and of the springs to their right.
+  template <class T>
+  T potential_in_range(const site_columns<const T>& q, Eigen::Index begin, Eigen::Index end) const {
+    T springs(0.0);
+    T wells(0.0);
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const T stretch = q(0, i + 1) - q(0, i);
+      const T square = q(0, i) * q(0, i);
+      springs += stretch * stretch;
+      wells += square * square;
+    }
+    return springs * 0.5 + wells * 0.25;
+  }
+
   /// The force of the wells alone, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
@@ -95,6 +126,12 @@ class phi4_chain {
   std::string description() const { return sentence("phi4_chain(masses={})", size()); }
 
  private:
+  template <class T>
+  [[gnu::always_inline]] static T force_at(const site_columns<const T>& q, Eigen::Index i) {
+    const T left = q(0, i) - q(0, i - 1);
+    const T right = q(0, i + 1) - q(0, i);
+    return right - left - q(0, i) * q(0, i) * q(0, i);
+  }
   Eigen::Index next(Eigen::Index i) const { return i + 1 < size() ? i + 1 : 0; }
 
   Eigen::Index masses_;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/system.hpp"
+#include "nysalt/local_system.hpp"
 
 namespace nysalt {
 
@@ -45,13 +45,7 @@ class phi4_lattice {
   T potential(const vector<T, dimension>& q) const {
     T sum(0.0);
     for_each_row([&](Eigen::Index row, Eigen::Index, Eigen::Index below) {
-      for (Eigen::Index k = 0; k < side_; ++k) {
-        const T& x = q[row + k];
-        const T right = q[row + (k + 1 < side_ ? k + 1 : 0)] - x;
-        const T down = q[below + k] - x;
-        const T square = x * x;
-        sum += square * (square * coupling_ + mass_squared_) + right * right + down * down;
-      }
+      add_potential_of_row(q.data() + row, q.data() + below, sum);
     });
     return sum;
   }
@@ -70,6 +64,45 @@ class phi4_lattice {
                __attribute__((always_inline)) { out[i] += x * c; });
   }
 
+  // A LocalSystem, whose ranges are whole rows of sites.
+  static constexpr int components = 1;                  ///< coordinates of a site
+  Eigen::Index sites() const { return size(); }         ///< L^2
+  Eigen::Index reach() const { return side_; }          ///< the rows above and below
+  static constexpr bool is_periodic() { return true; }  ///< the last row is next to the first
+  Eigen::Index sites_of_row() const { return side_; }   ///< L
+  /// The force on the sites of rows begin/L .. end/L - 1.
+  template <class T>
+  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
+                      Eigen::Index end) const {
+    for (Eigen::Index row = begin; row < end; row += side_) {
+      each_force_of_row(
+          &q(0, row), &q(0, row - side_),
+          &q(0, row + side_), [out = &f(0, row)](Eigen::Index k, const T& x) __attribute__((always_inline)) {
+            out[k] = x;
+          });
+    }
+  }
+  /// p += c force_in_range(q).
+  template <class T, class C>
+  void kick_in_range(const site_columns<const T>& q, const site_columns<T>& p, const C& c, Eigen::Index begin,
+                     Eigen::Index end) const {
+    for (Eigen::Index row = begin; row < end; row += side_) {
+      each_force_of_row(
+          &q(0, row), &q(0, row - side_), &q(0, row + side_),
+          [ out = &p(0, row), c ](Eigen::Index k, const T& x)
+              __attribute__((always_inline)) { out[k] += x * c; });
+    }
+  }
+  /// The terms of V of the sites of these rows, with the springs to the right and down.
+  template <class T>
+  T potential_in_range(const site_columns<const T>& q, Eigen::Index begin, Eigen::Index end) const {
+    T sum(0.0);
+    for (Eigen::Index row = begin; row < end; row += side_) {
+      add_potential_of_row(&q(0, row), &q(0, row + side_), sum);
+    }
+    return sum;
+  }
+
   std::string description() const {
     return sentence("phi4_lattice(side={}, mass_squared={}, coupling={})", side_, mass_squared_, coupling_);
   }
@@ -82,29 +115,50 @@ class phi4_lattice {
     }
   }
 
-  /// -dV/dq = 2 (the sum of the four neighbours) - (2 m^2 + 8) q - 4 lambda q^3.
+  /// Adds the terms of V of a row, with the springs to the right and to the row below.
+  template <class T>
+  void add_potential_of_row(const T* here, const T* below, T& sum) const {
+    for (Eigen::Index k = 0; k < side_; ++k) {
+      const T& x = here[k];
+      const T right = here[k + 1 < side_ ? k + 1 : 0] - x;
+      const T down = below[k] - x;
+      const T square = x * x;
+      sum += square * (square * coupling_ + mass_squared_) + right * right + down * down;
+    }
+  }
+
+  /// take(i, f_i) for all sites.
   template <class T>
   [[gnu::always_inline]] void each_force(const vector<T, dimension>& q, const auto& take) const {
+    for_each_row([&](Eigen::Index row, Eigen::Index above, Eigen::Index below)
+                     __attribute__((always_inline)) {
+                       each_force_of_row(
+                           q.data() + row, q.data() + above,
+                           q.data() + below, [&](Eigen::Index k, const T& x) __attribute__((always_inline)) {
+                             take(row + k, x);
+                           });
+                     });
+  }
+
+  /// take(k, f) for the columns k of a row:
+  /// -dV/dq = 2 (the sum of the four neighbours) - (2 m^2 + 8) q - 4 lambda q^3.
+  template <class T>
+  [[gnu::always_inline]] void each_force_of_row(const T* here, const T* up, const T* down,
+                                                const auto& take) const {
     const double linear = 2.0 * mass_squared_ + 8.0;
     const double cubic = 4.0 * coupling_;
     const Eigen::Index last = side_ - 1;
-    for_each_row([&](Eigen::Index row, Eigen::Index above,
-                     Eigen::Index below) __attribute__((always_inline)) {
-      const T* const here = q.data() + row;
-      const T* const up = q.data() + above;
-      const T* const down = q.data() + below;
-      const auto one = [&](Eigen::Index k, const T& left, const T& right) __attribute__((always_inline)) {
-        const T x = here[k];
-        const T neighbours = (left + right) + (up[k] + down[k]);
-        take(row + k, neighbours * 2.0 - x * (x * x * cubic + linear));
-      };
-      one(0, here[last], here[1 < side_ ? 1 : 0]);
+    const auto one = [&](Eigen::Index k, const T& left, const T& right) __attribute__((always_inline)) {
+      const T x = here[k];
+      const T neighbours = (left + right) + (up[k] + down[k]);
+      take(k, neighbours * 2.0 - x * (x * x * cubic + linear));
+    };
+    one(0, here[last], here[1 < side_ ? 1 : 0]);
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC ivdep
 #endif
-      for (Eigen::Index k = 1; k < last; ++k) one(k, here[k - 1], here[k + 1]);
-      one(last, here[last - 1], here[0]);
-    });
+    for (Eigen::Index k = 1; k < last; ++k) one(k, here[k - 1], here[k + 1]);
+    one(last, here[last - 1], here[0]);
   }
 
   Eigen::Index side_;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+// Systems whose force is local on a sequence of sites, so that threads and ranks can share one trajectory.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "nysalt/system.hpp"
+
+namespace nysalt {
+
+/// A view of the values of consecutive sites, one array for each component of a site: entry (c, i) is
+/// component c of site i, i being the number of the site in the whole system.
+template <class T>
+class site_columns {
+ public:
+  /// The values of sites first_site, first_site + 1, ...; those of component c begin at values[c * stride].
+  site_columns(T* values, Eigen::Index first_site, Eigen::Index stride)
+      : values_(values), first_site_(first_site), stride_(stride) {}
+  /// A view of the same values as constants.
+  operator site_columns<const T>() const  // NOLINT(google-explicit-constructor)
+      requires(!std::is_const_v<T>) {
+    return {values_, first_site_, stride_};
+  }
+
+  /// Component c of site i.
+  T& operator()(Eigen::Index c, Eigen::Index i) const { return values_[c * stride_ + (i - first_site_)]; }
+
+ private:
+  T* values_;
+  Eigen::Index first_site_;
+  Eigen::Index stride_;
+};
+
+namespace detail {
+using columns = site_columns<double>;
+using constant_columns = site_columns<const double>;
+}  // namespace detail
+
+/// A system on a sequence of sites 0 .. sites() - 1: coordinate components * i + c is component c of site i,
+/// and the force on a site reads the sites at most reach() away. Steps of words of A and B then apply many
+/// letters to a tile of sites while the tile is in the cache, and threads and ranks share the tiles
+/// (docs/how-to/one_large_system.md).
+///
+///   static constexpr int components = 1;          coordinates of a site
+///   Eigen::Index sites() const;
+///   Eigen::Index reach() const;
+///   bool is_periodic() const;                     whether site 0 follows the last one. Then views also hold
+///                                                 images: site -1 is the last site, and sites() the first
+///   template <class T>
+///   void force_in_range(const site_columns<const T>& q, const site_columns<T>& f,
+///                       Eigen::Index begin, Eigen::Index end) const;
+///                                                 the force on sites begin .. end - 1, with the bits of
+///                                                 force()
+/// What it may have beside these:
+///   Eigen::Index sites_of_row() const;            ranges begin and end at multiples of this number, else of
+///   1 template <class T, class C> void kick_in_range(const site_columns<const T>& q, const site_columns<T>&
+///   p, const C& c, begin, end) const;
+///                                                 p += c force_in_range(q), with the bits of kick()
+///   template <class T>
+///   T potential_in_range(const site_columns<const T>& q, begin, end) const;
+///                                                 the terms of V that belong to these sites, each term of V
+///                                                 to one site: energies of distributed runs are sums of
+///                                                 these
+template <class S>
+concept LocalSystem =
+    NystromSystem<S> && !BlackBoxForce<S> &&
+    requires(const S& s, const detail::constant_columns& q, const detail::columns& f, Eigen::Index i) {
+  { S::components } -> std::convertible_to<int>;
+  { s.sites() } -> std::convertible_to<Eigen::Index>;
+  { s.reach() } -> std::convertible_to<Eigen::Index>;
+  { s.is_periodic() } -> std::convertible_to<bool>;
+  s.force_in_range(q, f, i, i);
+};
+
+namespace detail {
+template <class S>
+concept HasKickInRange = requires(const S& s, const constant_columns& q, const columns& p, Eigen::Index i) {
+  s.kick_in_range(q, p, 1.0, i, i);
+};
+template <class S>
+concept HasPotentialInRange = requires(const S& s, const constant_columns& q, Eigen::Index i) {
+  { s.potential_in_range(q, i, i) } -> std::same_as<double>;
+};
+}  // namespace detail
+
+}  // namespace nysalt

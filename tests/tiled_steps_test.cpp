@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSL-1.0
+// Steps tile by tile have the bits of steps in a plain loop, for any number of threads.
+#include "nysalt/detail/tiled_steps.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
+#include "support/draws.hpp"
+#include "support/local_systems.hpp"
+#include "support/refusal.hpp"
+#include "support/rounding.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+/// Of order 1, whose letters do not merge.
+tabulated euler(const std::string& letters) {
+  return tabulated("symplectic Euler " + letters, run_time_word(letters), {1.0, 1.0}, {1, false, false});
+}
+
+/// That begin with drifts and with kicks, merge or not, and keep their last force or not.
+const std::vector<tabulated> words{tabulated(verlet()),
+                                   tabulated(verlet_aba()),
+                                   euler("AB"),
+                                   euler("BA"),
+                                   tabulated(srkn6b()),
+                                   tabulated(srkn11b()),
+                                   tabulated(member<nystrom>({0.5, 0.4}))};
+
+/// Whether a run of the model, watched every so many steps, shows the states of a plain loop.
+bool moves_as_in_a_loop(const auto& system, const tabulated& method, std::int64_t steps, std::int64_t every,
+                        int threads) {
+  draws random;
+  const state start = random.state(system, 0.5);
+  std::vector<state> expected;
+  std::vector<state> found;
+  const auto keep_in = [](std::vector<state>& states) {
+    return [&states](std::int64_t, double, const state& x) { states.push_back(x); };
+  };
+  const double h = 0.01;
+  const auto loop = integrate(make_stepper(system, method, h), start, steps, keep_in(expected), every);
+  const model shared = model(system).on_threads(threads);
+  const auto tiles = integrate(make_stepper(shared, method, h), start, steps, keep_in(found), every);
+  bool result = same_bits(loop.finish, tiles.finish) && found.size() == expected.size();
+  for (std::size_t k = 0; result && k < found.size(); ++k) result = same_bits(expected[k], found[k]);
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(tiles_have_the_bits_of_a_loop) {
+  // Around the sizes of tiles, which are 1024 or 2048 sites here, and of one tile alone.
+  for (const Eigen::Index sites : {16, 40, 1023, 1024, 1025, 2049, 5000}) {
+    for_each_local_system(
+        [&](const auto& system) {
+          for (const auto& method : words) {
+            for (const int threads : {1, 3}) {
+              BOOST_TEST_CONTEXT(describe(system) << ", " << method.name() << ", " << threads << " threads") {
+                BOOST_TEST(moves_as_in_a_loop(system, method, 37, 37, threads));
+              }
+            }
+          }
+        },
+        sites);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(watched_runs_show_the_states_of_a_loop) {
+  for (const std::int64_t every : {1, 3, 64, 100}) {
+    for_each_local_system(
+        [&](const auto& system) {
+          for (const auto& method : words) {
+            BOOST_TEST_CONTEXT(describe(system) << ", " << method.name() << ", every " << every) {
+              BOOST_TEST(moves_as_in_a_loop(system, method, 130, every, 2));
+            }
+          }
+        },
+        300);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_reach_that_is_too_short_has_other_bits) {
+  const short_sighted system(5000);
+  BOOST_TEST(!moves_as_in_a_loop(system, tabulated(verlet()), 100, 100, 2));
+  BOOST_TEST(moves_as_in_a_loop(far_springs(5000), tabulated(verlet()), 100, 100, 2));
+}
+
+BOOST_AUTO_TEST_CASE(portions_are_the_letters_of_the_steps) {
+  detail::step_program<double> program;
+  program.pairs = {{1.0, 2.0}, {3.0, 4.0}};
+  program.begins_with_kick = true;
+  program.keeps_last_force = false;
+  for (const int kicks : {1, 2, 3, 5, 100}) {
+    detail::letters_in_portions letters(program, 7);
+    std::vector<double> coefficients;
+    for (auto portion = letters.next(kicks); !portion.empty(); portion = letters.next(kicks)) {
+      int taken = 0;
+      for (const auto& letter : portion) {
+        BOOST_TEST(letter.is_kick == (coefficients.size() % 2 == 0));
+        taken += letter.is_kick;
+        coefficients.push_back(letter.coefficient);
+      }
+      BOOST_TEST(taken <= kicks);
+    }
+    BOOST_TEST(coefficients.size() == 28U);
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      BOOST_TEST(coefficients[k] == static_cast<double>(k % 4 + 1));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_model_needs_a_thread) {
+  const model chain(fpu_chain<>(3, 50.0));
+  BOOST_TEST(chain.threads() == 1);
+  BOOST_TEST(chain.on_threads(4).threads() == 4);
+  BOOST_TEST(
+      refuses<std::invalid_argument>([&] { chain.on_threads(0); }, {"threads must be at least 1, got 0"}));
+}
