@@ -35,53 +35,58 @@ class site_columns {
 namespace detail {
 using columns = site_columns<double>;
 using constant_columns = site_columns<const double>;
+
+/// A class that derives from a system and has another force inherits ranges that are not of that force: they
+/// count only if they are written in the class of the force or further down, as a kick does.
+template <class S>
+concept HasForceInRange = requires(const S& s, const constant_columns& q, const columns& f, Eigen::Index i) {
+  s.template force_in_range<double>(q, f, i, i);
+  requires std::is_base_of_v<typename decltype(origin_of_force<S, double>())::type,
+                             typename written_in<decltype(&S::template force_in_range<double>)>::type>;
+};
+template <class S>
+concept HasKickInRange = requires(const S& s, const constant_columns& q, const columns& p, Eigen::Index i) {
+  s.template kick_in_range<double>(q, p, 1.0, i, i);
+  requires std::is_base_of_v < typename written_in<decltype(&S::template force_in_range<double>)>::type,
+  typename written_in<decltype(&S::template kick_in_range<double, double>)>::type > ;
+};
+template <class S>
+concept HasPotentialInRange = requires(const S& s, const constant_columns& q, Eigen::Index i) {
+  { s.template potential_in_range<double>(q, i, i) } -> std::same_as<double>;
+};
 }  // namespace detail
 
 /// A system on a sequence of sites 0 .. sites() - 1: coordinate components * i + c is component c of site i,
 /// and the force on a site reads the sites at most reach() away. Steps of words of A and B then apply many
 /// letters to a tile of sites while the tile is in the cache, and threads and ranks share the tiles
-/// (docs/how-to/one_large_system.md).
+/// (docs/how-to/one_large_system.md). V is a type of view below, site_columns<const T>, and W
+/// site_columns<T>.
 ///
-///   static constexpr int components = 1;          coordinates of a site
+///   static constexpr int components = 1;   coordinates of a site
 ///   Eigen::Index sites() const;
 ///   Eigen::Index reach() const;
-///   bool is_periodic() const;                     whether site 0 follows the last one. Then views also hold
-///                                                 images: site -1 is the last site, and sites() the first
-///   template <class T>
-///   void force_in_range(const site_columns<const T>& q, const site_columns<T>& f,
-///                       Eigen::Index begin, Eigen::Index end) const;
-///                                                 the force on sites begin .. end - 1, with the bits of
-///                                                 force()
-/// What it may have beside these:
-///   Eigen::Index sites_of_row() const;            ranges begin and end at multiples of this number, else of
-///   1 template <class T, class C> void kick_in_range(const site_columns<const T>& q, const site_columns<T>&
-///   p, const C& c, begin, end) const;
-///                                                 p += c force_in_range(q), with the bits of kick()
-///   template <class T>
-///   T potential_in_range(const site_columns<const T>& q, begin, end) const;
-///                                                 the terms of V that belong to these sites, each term of V
-///                                                 to one site: energies of distributed runs are sums of
-///                                                 these
+///   bool is_periodic() const;              whether site 0 follows the last site. Then views also hold
+///   images:
+///                                          site -1 is the last site, and site sites() the first
+///   template <class T> void force_in_range(const V& q, const W& f, Eigen::Index begin, Eigen::Index end)
+///   const;
+///                                          the force on sites begin .. end - 1, with the bits of force()
+///
+/// It may have, beside these:
+///
+///   Eigen::Index sites_of_row() const;     ranges begin and end at multiples of this number
+///   template <class T, class C> void kick_in_range(const V& q, const W& p, const C& c, begin, end) const;
+///                                          p += c force_in_range(q), with the bits of kick()
+///   template <class T> T potential_in_range(const V& q, begin, end) const;
+///                                          the terms of V(q) that belong to these sites, each term to one
+///                                          site: the energies of distributed runs are sums of these
 template <class S>
 concept LocalSystem =
-    NystromSystem<S> && !BlackBoxForce<S> &&
-    requires(const S& s, const detail::constant_columns& q, const detail::columns& f, Eigen::Index i) {
+    NystromSystem<S> && !BlackBoxForce<S> && detail::HasForceInRange<S> && requires(const S& s) {
   { S::components } -> std::convertible_to<int>;
   { s.sites() } -> std::convertible_to<Eigen::Index>;
   { s.reach() } -> std::convertible_to<Eigen::Index>;
   { s.is_periodic() } -> std::convertible_to<bool>;
-  s.force_in_range(q, f, i, i);
 };
-
-namespace detail {
-template <class S>
-concept HasKickInRange = requires(const S& s, const constant_columns& q, const columns& p, Eigen::Index i) {
-  s.kick_in_range(q, p, 1.0, i, i);
-};
-template <class S>
-concept HasPotentialInRange = requires(const S& s, const constant_columns& q, Eigen::Index i) {
-  { s.potential_in_range(q, i, i) } -> std::same_as<double>;
-};
-}  // namespace detail
 
 }  // namespace nysalt

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
+#include "../support/local_systems.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
@@ -258,6 +259,19 @@ BOOST_AUTO_TEST_CASE(kicks_that_are_not_those_of_the_force_are_found) {
   BOOST_TEST(check(kick_without_coefficient()).kick_defect > 0.1);
   BOOST_TEST(check(an_fpu_chain::make()).kick_defect <= 4.0 * eps);
   BOOST_TEST(check(without_kick(wrong_kick())).passed());
+}
+
+BOOST_AUTO_TEST_CASE(ranges_that_are_not_of_the_force_are_found) {
+  for_each_local_system([](const auto& system) {
+    const auto result = check(system);
+    BOOST_TEST_CONTEXT(describe(system) << ": " << result.report()) {
+      BOOST_TEST(result.passed());
+      // The same operations, but for the coefficient 0.5 of two kicks of an FPU chain in one.
+      BOOST_TEST(result.range_defect <= 8.0 * eps);
+    }
+  });
+  BOOST_TEST(says(check(short_sighted(30)), "force_in_range reads sites beyond reach()"));
+  BOOST_TEST(says(check(deaf_to_the_left(30)), "force_in_range or kick_in_range is not the force"));
 }
 
 BOOST_AUTO_TEST_CASE(wrong_velocities_are_found) {

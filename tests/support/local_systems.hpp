@@ -68,6 +68,17 @@ struct short_sighted : far_springs {
   static constexpr Eigen::Index reach() { return 2; }
 };
 
+/// Forgets the bond to the left of each range.
+struct deaf_to_the_left : phi4_chain<> {
+  using phi4_chain<>::phi4_chain;
+  template <class T>
+  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
+                      Eigen::Index end) const {
+    phi4_chain<>::force_in_range(q, f, begin, end);
+    if (begin < end) f(0, begin) += q(0, begin) - q(0, begin - 1);
+  }
+};
+
 template <class S>
 Eigen::Index row_of(const S& system) {
   if constexpr (requires { system.sites_of_row(); }) return system.sites_of_row();

@@ -63,8 +63,7 @@ int other_bits(const S& system, const state& x, Eigen::Index begin, Eigen::Index
   force<double>(system, x.q, whole);
   Eigen::VectorXd kicked = x.p;
   if constexpr (detail::HasKickInRange<S>) {
-    system.kick_in_range(detail::constant_columns(range.template view<const double>(q)), p_view, 0.3, begin,
-                         end);
+    system.template kick_in_range<double>(range.template view<const double>(q), p_view, 0.3, begin, end);
     if constexpr (HasKick<S, double>) {
       system.kick(x.q, kicked, 0.3);
     } else {
@@ -126,21 +125,24 @@ BOOST_AUTO_TEST_CASE(energies_of_ranges_add_up_to_the_potential) {
   });
 }
 
-namespace {
-/// Forgets the bond to the left of each range.
-struct deaf_to_the_left : phi4_chain<> {
-  using phi4_chain<>::phi4_chain;
-  template <class T>
-  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
-                      Eigen::Index end) const {
-    phi4_chain<>::force_in_range(q, f, begin, end);
-    if (begin < end) f(0, begin) += q(0, begin) - q(0, begin - 1);
-  }
-};
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(a_force_that_knows_where_a_range_begins_is_seen) {
   const deaf_to_the_left system(9);
   draws random;
   BOOST_TEST(other_bits(system, random.state(system, 0.5), 3, 6) > 0);
 }
+
+namespace {
+/// A chain of another force, which inherits the ranges of the old one.
+struct stronger : fpu_chain<> {
+  using fpu_chain<>::fpu_chain;
+  template <class T>
+  void force(const vector<T, Eigen::Dynamic>& q, vector<T, Eigen::Dynamic>& f) const {
+    fpu_chain<>::force(q, f);
+    for (auto& entry : f) entry = entry * 2.0;
+  }
+};
+static_assert(LocalSystem<fpu_chain<>> && LocalSystem<phi4_chain<>> && LocalSystem<phi4_lattice>);
+static_assert(LocalSystem<far_springs> && !detail::HasKickInRange<far_springs>);
+static_assert(!LocalSystem<stronger>);
+static_assert(LocalSystem<deaf_to_the_left> && !detail::HasKickInRange<deaf_to_the_left>);
+}  // namespace

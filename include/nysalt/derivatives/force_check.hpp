@@ -16,16 +16,19 @@ struct force_check {
   double derivative_defect = 0.0;    ///< of force_derivative, against differences of the force
   double kick_defect = 0.0;          ///< of a kick of the system's own, p += c force(q)
   Eigen::Index kick_coordinate = 0;  ///< where that is worst
-  double soft_defect = 0.0;          ///< of soft_force = force + K q, K the quadratic part that modes() tell
-  Eigen::Index soft_coordinate = 0;  ///< where that is worst
-  double asymmetry = 0.0;            ///< of the Jacobian of the force: a gradient's is symmetric
-  double velocity_defect = 0.0;      ///< of velocity = grad K
+  double range_defect = 0.0;  ///< of forces and kicks in ranges of sites, of a LocalSystem; infinite if
+                              ///< one reads sites beyond its reach
+  Eigen::Index range_coordinate = 0;  ///< where that is worst
+  double soft_defect = 0.0;           ///< of soft_force = force + K q, K the quadratic part that modes() tell
+  Eigen::Index soft_coordinate = 0;   ///< where that is worst
+  double asymmetry = 0.0;             ///< of the Jacobian of the force: a gradient's is symmetric
+  double velocity_defect = 0.0;       ///< of velocity = grad K
   Eigen::Index velocity_coordinate = 0;  ///< where that is worst
   double velocity_asymmetry = 0.0;       ///< of the Jacobian of a velocity without a kinetic energy
   double tolerance = 0.0;                ///< of the gradient: what the derivatives used can be off by
   /// Of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences.
   double asymmetry_tolerance = 0.0;
-  double kick_tolerance = 0.0;        ///< of the kick and of the soft force
+  double kick_tolerance = 0.0;        ///< of the kick, of ranges and of the soft force
   double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences
   double velocity_tolerance = 0.0;    ///< of the velocity and of its Jacobian's asymmetry
   bool has_potential = false;         ///< whether there was a V to compare with; else only the symmetry tells
@@ -35,9 +38,9 @@ struct force_check {
   /// Whether everything is finite and every defect within its tolerance.
   bool passed() const {
     return finite && gradient_defect <= tolerance && kick_defect <= kick_tolerance &&
-           soft_defect <= kick_tolerance && derivative_defect <= derivative_tolerance &&
-           asymmetry <= asymmetry_tolerance && velocity_defect <= velocity_tolerance &&
-           velocity_asymmetry <= velocity_tolerance;
+           range_defect <= kick_tolerance && soft_defect <= kick_tolerance &&
+           derivative_defect <= derivative_tolerance && asymmetry <= asymmetry_tolerance &&
+           velocity_defect <= velocity_tolerance && velocity_asymmetry <= velocity_tolerance;
   }
   /// The first thing that is wrong, in the order in which mistakes cause others.
   std::string report() const;

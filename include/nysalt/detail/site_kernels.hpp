@@ -87,7 +87,7 @@ class typed_site_kernels final : public site_kernels {
       }
     }
     if constexpr (HasPotentialInRange<S>) {
-      return 0.5 * twice + system_->potential_in_range(constant_columns(x.q), begin, end);
+      return 0.5 * twice + system_->template potential_in_range<double>(x.q, begin, end);
     }
     return 0.5 * twice;
   }
@@ -114,10 +114,10 @@ class typed_site_kernels final : public site_kernels {
   void kick(const tile& x, const tile_letter& letter, Eigen::Index begin, Eigen::Index end) const {
     if constexpr (HasKickInRange<S>) {
       if (!letter.keeps_force) {
-        return system_->kick_in_range(constant_columns(x.q), x.p, letter.coefficient, begin, end);
+        return system_->template kick_in_range<double>(x.q, x.p, letter.coefficient, begin, end);
       }
     }
-    system_->force_in_range(constant_columns(x.q), x.f, begin, end);
+    system_->template force_in_range<double>(x.q, x.f, begin, end);
     for (Eigen::Index c = 0; c < S::components; ++c) {
       for (Eigen::Index i = begin; i < end; ++i) x.p(c, i) += x.f(c, i) * letter.coefficient;
     }

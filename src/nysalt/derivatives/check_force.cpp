@@ -67,6 +67,7 @@ class force_examination {
     keep(energies(f_), largest_force_);
     if (source_.has_potential) look_at_potential(q);
     if (source_.has_kick) look_at_kick(q);
+    if (source_.has_ranges) look_at_ranges(q);
     if (source_.has_soft_force && source_.size <= looked_along_singly) look_at_soft_force(q);
     const auto slope = [&](const column& v) { source_.force_slope(q, v, other_); };
     look_at_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
@@ -81,6 +82,7 @@ class force_examination {
     const double scale = std::max(largest_force_, rest);
     result.gradient_defect /= scale;
     result.kick_defect /= scale;
+    result.range_defect /= scale;
     result.soft_defect /= scale;
     result.derivative_defect /= largest_slope_;
     result.asymmetry /= largest_slope_;
@@ -101,6 +103,19 @@ class force_examination {
     other_ = f_;
     source_.kick(q, other_);
     note(energies(other_ - 1.5 * f_), found_.kick_defect, found_.kick_coordinate);
+  }
+
+  void look_at_ranges(const column& q) {
+    other_ = f_;
+    source_.kick_in_ranges(q, other_);
+    const column defects = energies(other_ - 1.5 * f_);
+    for (Eigen::Index i = 0; i < defects.size(); ++i) {
+      const double defect =
+          std::isfinite(defects[i]) ? std::abs(defects[i]) : std::numeric_limits<double>::infinity();
+      if (defect <= found_.range_defect) continue;
+      found_.range_defect = defect;
+      found_.range_coordinate = i;
+    }
   }
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace nysalt {
 
 namespace {
@@ -32,6 +34,19 @@ std::string force_check::objection() const {
         "the kick is not p += c force(q): {} is off by {:.2e} of the largest force; check its formula, or "
         "leave it out",
         where(kick_coordinate), kick_defect);
+  }
+  if (range_defect > kick_tolerance) {
+    if (!std::isfinite(range_defect)) {
+      return fmt::format(
+          "force_in_range reads sites beyond reach() from the range: {} is not finite where these are not; "
+          "check reach() and the formula",
+          where(range_coordinate));
+    }
+    return fmt::format(
+        "force_in_range or kick_in_range is not the force: {} is off by {:.2e} of the largest force; check "
+        "its "
+        "formula at the ends of ranges",
+        where(range_coordinate), range_defect);
   }
   if (soft_defect > kick_tolerance) {
     return fmt::format(

@@ -2,13 +2,16 @@
 // Forces of a model, and derivatives of them by several ways.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/differences.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/detail/site_kernels.hpp"
 
 namespace nysalt::detail {
 
@@ -21,6 +24,7 @@ class force_source {
       : size(system.size()),
         has_potential(system.facts().has_potential),
         has_kick(system.facts().has_own_kick),
+        has_ranges(system.sites() != nullptr),
         has_soft_force(system.facts().has_quadratic_part),
         has_derivative(system.facts().has_own_derivative),
         has_velocity(system.facts().has_own_velocity),
@@ -35,6 +39,7 @@ class force_source {
   Eigen::Index size;
   bool has_potential;
   bool has_kick;
+  bool has_ranges;
   bool has_soft_force;
   bool has_derivative;
   bool has_velocity;
@@ -63,6 +68,18 @@ class force_source {
   }
   /// p += force(q)/2
   void kick(const column& q, column& p) const { system_.own_kick(q, p, 0.5); }
+  /// The same in four ranges of sites, by the kick and by the force in turn. What is beyond the reach of a
+  /// range is not a number.
+  void kick_in_ranges(const column& q, column& p) const {
+    const site_kernels& sites = *system_.sites();
+    const site_layout layout = sites.layout();
+    const Eigen::Index rows = layout.sites / layout.sites_of_row;
+    constexpr Eigen::Index ranges = 4;
+    for (Eigen::Index k = 0; k < ranges; ++k) {
+      kick_in_range(layout.sites_of_row * (rows * k / ranges),
+                    layout.sites_of_row * (rows * (k + 1) / ranges), k % 2 == 1, q, p);
+    }
+  }
   void soft_force(const column& q, column& f) const { system_.soft_force(q, f); }
   std::shared_ptr<const modal_coordinates> modes() const { return modal_coordinates::of(system_); }
   void derivative(const column& q, const column& v, column& g) const { system_.force_derivative(q, v, g); }
@@ -90,6 +107,36 @@ class force_source {
   }
 
  private:
+  void kick_in_range(Eigen::Index begin, Eigen::Index end, bool by_force, const column& q, column& p) const {
+    const site_layout layout = system_.sites()->layout();
+    const auto is_there = [&](Eigen::Index i) { return layout.is_periodic || (0 <= i && i < layout.sites); };
+    Eigen::Index first = begin - layout.reach;
+    Eigen::Index last = end + layout.reach;
+    if (!is_there(first)) first = 0;
+    if (!is_there(last - 1)) last = layout.sites;
+    const Eigen::Index margin = 3 * layout.reach + 16;
+    const Eigen::Index stride = last - first + 2 * margin;
+    std::vector<double> values(static_cast<std::size_t>(3 * layout.components * stride),
+                               std::numeric_limits<double>::quiet_NaN());
+    const auto part = [&](Eigen::Index number) {
+      return columns(values.data() + number * layout.components * stride, first - margin, stride);
+    };
+    const tile x{
+        part(0), part(1), part(2), first, last, first == begin - layout.reach, last == end + layout.reach};
+    for (Eigen::Index c = 0; c < layout.components; ++c) {
+      for (Eigen::Index i = first; i < last; ++i) {
+        const Eigen::Index site = (i % layout.sites + layout.sites) % layout.sites;
+        x.q(c, i) = q[layout.components * site + c];
+        x.p(c, i) = p[layout.components * site + c];
+      }
+    }
+    const std::array<tile_letter, 1> letter{{{.coefficient = 0.5, .is_kick = true, .keeps_force = by_force}}};
+    system_.sites()->advance(x, letter);
+    for (Eigen::Index c = 0; c < layout.components; ++c) {
+      for (Eigen::Index i = begin; i < end; ++i) p[layout.components * i + c] = x.p(c, i);
+    }
+  }
+
   static vector<slopes, Eigen::Dynamic> lifted(const column& x, const column& v) {
     vector<slopes, Eigen::Dynamic> result(x.size());
     for (Eigen::Index i = 0; i < x.size(); ++i) {
