@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     race_heaviest_run();
     race_learning();
     race_threads();
+    race_one_chain();
     race_compiling();
     benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& problem) {

@@ -15,6 +15,7 @@ void race_langevin();
 void race_heaviest_run();
 void race_learning();
 void race_threads();
+void race_one_chain();
 void race_compiling();
 
 }  // namespace nysalt::bench

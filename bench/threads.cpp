@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "agree.hpp"
+#include "chain_run.hpp"
 #include "ensemble_run.hpp"
 #include "peers/roofs.hpp"
+#include "peers/textbook_chain.hpp"
 #include "races.hpp"
 
 namespace nysalt::bench {
@@ -45,6 +47,48 @@ void race_threads() {
                        kernel(kernel_steps / 2);
                      }});
   race("threads", std::move(runners), {.turn_seconds = 0.02, .clock = clock_kind::wall});
+}
+
+/// One trajectory of a long chain on one thread and on two, beside the textbook's loop, and beside a loop
+/// that only moves q and p.
+void race_one_chain() {
+  for (const Eigen::Index masses : {1'000'000, 10'000'000}) {
+    const std::int64_t steps = 100'000'000 / masses;
+    const double work = static_cast<double>(masses * steps);
+    const auto start = std::make_shared<chain_point>(start_of_chain(masses));
+    const auto f = std::make_shared<Eigen::VectorXd>(masses);
+    const auto tiles = [start, steps](int threads) {
+      const model chain = chain_model(start->q.size()).on_threads(threads);
+      const auto stepper = make_stepper(chain, tabulated(verlet{}), chain_step);
+      auto run = stepper.open(*start);
+      stepper.advance(run, steps);
+      return stepper.synchronous(run);
+    };
+    const auto one = tiles(1);
+    require_agreement("a chain on two threads", numbers(one.q), numbers(tiles(2).q), 0.0);
+    std::vector<runner> runners{{"one thread", work, [=] { benchmark::DoNotOptimize(tiles(1).q.data()); }},
+                                {"two threads", work, [=] { benchmark::DoNotOptimize(tiles(2).q.data()); }}};
+    runners.push_back({"textbook", work, [=] {
+                         auto x = *start;
+                         constexpr double k = 0.5 * chain_omega * chain_omega;
+                         textbook_chain<contraction::off>(numbers(x.q), numbers(x.p), numbers(*f), k,
+                                                          chain_step, steps);
+                         benchmark::DoNotOptimize(x.q.data());
+                       }});
+    const auto move = [steps](std::span<double> q, std::span<double> p) {
+      stream<contraction::off>(q, p, 1.0, steps);
+    };
+    const auto x = std::make_shared<chain_point>(*start);
+    runners.push_back({"moving the data, one thread", work, [=] { move(numbers(x->q), numbers(x->p)); }});
+    runners.push_back({"moving the data, two threads", work, [=] {
+                         const std::size_t half = static_cast<std::size_t>(masses) / 2;
+                         std::jthread other(
+                             [=] { move(numbers(x->q).first(half), numbers(x->p).first(half)); });
+                         move(numbers(x->q).last(half), numbers(x->p).last(half));
+                       }});
+    race(masses == 1'000'000 ? "one chain of 10^6" : "one chain of 10^7", std::move(runners),
+         {.turn_seconds = 0.0, .clock = clock_kind::wall});
+  }
 }
 
 }  // namespace nysalt::bench

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <charconv>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +55,16 @@ inline bool is_built_in_observable(const initial_value_problem& made, const std:
          (pairs > 0 && (name == "stiff_energy" || index_after(name, "stiff_energy_", pairs) > 0));
 }
 
+/// value(system, state) as a function of the state. A black box may have memory: the function has a copy of
+/// the system, which one thread at a time evaluates.
+inline nysalt::detail::over_scalars<nysalt::detail::of_state> of_system(const model& system, auto value) {
+  if (!is_black_box(system)) return [&system, value](const auto& x) { return value(system, x); };
+  return [own = system.separate(), guard = std::make_shared<std::mutex>(), value](const auto& x) {
+    const std::lock_guard lock(*guard);
+    return value(own, x);
+  };
+}
+
 /// A function of the state of one trajectory, or of those in the lanes of packs. Refers to what
 /// was made. Throws refusal, listing the names, if there is none of that name.
 inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const initial_value_problem& made,
@@ -63,20 +75,24 @@ inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const i
     if (own.name == name) return own.value;
   }
   if (name == "energy") {
-    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) { return energy<T>(system, x); };
+    return of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
+      return energy<T>(of, x);
+    });
   }
   if (name == "kinetic_energy") {
-    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) {
-      return kinetic_energy<T>(system, x.p);
-    };
+    return of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
+      return kinetic_energy<T>(of, x.p);
+    });
   }
   if (name == "kinetic_temperature") {
-    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) {
-      return kinetic_temperature<T>(system, x);
-    };
+    return of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
+      return kinetic_temperature<T>(of, x);
+    });
   }
   if (name == "potential_energy") {
-    return [&system]<class T>(const phase_point<T, Eigen::Dynamic>& x) { return system.potential(x.q); };
+    return of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
+      return of.potential(x.q);
+    });
   }
   if (const auto i = index_after(name, "q", size(system))) {
     return [i](const auto& x) { return x.q[i - 1]; };

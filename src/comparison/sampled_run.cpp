@@ -39,13 +39,22 @@ std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional
   return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
 }
 
+/// Trajectories of the rank that has most, at least one.
+std::int64_t all_trajectories_of_rank(std::int64_t count, const communicator& ranks) {
+  return std::max<std::int64_t>((count - 1) / ranks.size() + 1, 1);
+}
+
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
 void run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
                     const sampled_plan& plan, const record_taker& take, const counter& progress,
                     const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
-  const model& system = made.system;
+  // Threads that find no trajectory of their own share the steps of the others, where the system allows it.
+  const std::int64_t blocks =
+      (all_trajectories_of_rank(plan.trajectories.count, ranks) - 1) / lanes_in<P> + 1;
+  const auto together_at_work = static_cast<int>(std::min<std::int64_t>(blocks, plan.trajectories.threads));
+  const model system = made.system.on_threads(plan.trajectories.threads / together_at_work);
   std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;
   for (const auto& name : plan.observables) watched.push_back(observable(made, name));
   const auto read = [&](const states& x, std::span<P> values) {
