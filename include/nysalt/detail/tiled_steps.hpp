@@ -45,7 +45,4 @@ class tiled_steps {
   std::vector<double> right_halo_;
 };
 
-/// Whether tiles pay: a system of few coordinates is stepped sooner than its tile is filled.
-bool pays_in_tiles(const site_layout& layout);
-
 }  // namespace nysalt::detail

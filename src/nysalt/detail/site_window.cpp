@@ -23,6 +23,9 @@ constexpr Eigen::Index most_values_of_tile = 256 * 1024 / sizeof(double);
 // factor of two on the processors of docs/performance.md, and the best number of kicks goes with the square
 // root.
 constexpr double kicks_of_a_move = 8.0;
+// A tile computes at most one part in so many twice. Where a kick takes longer than on a chain, moving costs
+// less beside it, and more of the tile would be lost than moving gains.
+constexpr Eigen::Index most_overlap = 16;
 // Beyond this, moving is less than a tenth of the work.
 constexpr Eigen::Index most_kicks = 64;
 // Where the window is a single tile without a halo: so that a sweep is long beside its call.
@@ -71,6 +74,12 @@ std::span<T> numbers(T* begin, Eigen::Index count) {
   return {begin, static_cast<std::size_t>(count)};
 }
 
+/// Sites of a tile, as far as the cache decides.
+Eigen::Index sites_that_fit(const site_layout& layout) {
+  const Eigen::Index values_of_site = 2 * layout.components;
+  return std::clamp(64 * layout.reach, values_of_tile / values_of_site, most_values_of_tile / values_of_site);
+}
+
 }  // namespace
 
 /// The threads, and a buffer for each.
@@ -111,22 +120,17 @@ site_window::site_window(const site_kernels& system, Eigen::Index first, Eigen::
   const Eigen::Index row = layout_.sites_of_row;
   const Eigen::Index rows = count / row;
   const Eigen::Index reach = layout_.reach;
-  const Eigen::Index values_of_site = 2 * layout_.components;
-  const Eigen::Index wanted =
-      std::clamp(64 * reach, values_of_tile / values_of_site, most_values_of_tile / values_of_site);
-  const Eigen::Index rows_of_tile = std::max<Eigen::Index>(wanted / row, 1);
+  const Eigen::Index rows_of_tile = std::max<Eigen::Index>(sites_that_fit(layout_) / row, 1);
   const Eigen::Index rows_reached = (reach - 1) / row + 1;  // a halo comes from one neighbour
   const Eigen::Index for_threads = std::min<Eigen::Index>(threads, rows / (8 * rows_reached));
   const Eigen::Index tiles = std::clamp<Eigen::Index>(std::max((rows - 1) / rows_of_tile + 1, for_threads), 1,
                                                       std::max<Eigen::Index>(rows / rows_reached, 1));
   for (Eigen::Index t = 0; t <= tiles; ++t) tiles_.push_back(first + row * (rows * t / tiles));
-  const Eigen::Index least_sites = row * (rows / tiles);
   // Of n kicks in a sweep, each site is moved once and a tile of s sites computes n reach more than its own:
   // a kick of a site costs kicks_of_a_move/n + n reach/s beside itself, least at the square root.
-  const double best =
-      std::sqrt(kicks_of_a_move * static_cast<double>(least_sites) / static_cast<double>(reach));
-  kicks_ = static_cast<int>(std::clamp<Eigen::Index>(static_cast<Eigen::Index>(best), 1,
-                                                     std::min(most_kicks, least_sites / reach)));
+  const Eigen::Index reaches = std::max<Eigen::Index>(row * (rows / tiles) / reach, 1);
+  const auto best = static_cast<Eigen::Index>(std::sqrt(kicks_of_a_move * static_cast<double>(reaches)));
+  kicks_ = static_cast<int>(std::clamp<Eigen::Index>(std::min(best, reaches / most_overlap), 1, most_kicks));
   const bool has_halo = has_neighbour(side::left) || has_neighbour(side::right) || tiles > 1;
   if (!has_halo) kicks_ = kicks_without_halo;
   edges_.resize(static_cast<std::size_t>(2 * (tiles - 1)) * halo_size(kicks_));
@@ -250,6 +254,14 @@ std::vector<double> site_window::energies_of_leaves(const double* q, const doubl
     result[static_cast<std::size_t>(number)] = system_->energy(x, begin, end);
   });
   return result;
+}
+
+bool pays_in_tiles(const site_layout& layout, int threads) {
+  constexpr Eigen::Index few = 64;
+  if (layout.components * layout.sites < few || layout.sites < 4 * layout.reach) return false;
+  // One thread gains from two kicks in a sweep on, or where nothing is computed twice.
+  const bool is_one_tile = !layout.is_periodic && layout.sites <= sites_that_fit(layout);
+  return threads > 1 || is_one_tile || sites_that_fit(layout) >= 2 * most_overlap * layout.reach;
 }
 
 Eigen::Index sites_of_leaf(const site_layout& layout) {

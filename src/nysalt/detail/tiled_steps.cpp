@@ -42,9 +42,4 @@ void tiled_steps::advance(double* q, double* p, double* f, const step_program<do
   }
 }
 
-bool pays_in_tiles(const site_layout& layout) {
-  constexpr Eigen::Index few = 64;
-  return layout.components * layout.sites >= few && layout.sites >= 4 * layout.reach;
-}
-
 }  // namespace nysalt::detail

@@ -20,7 +20,7 @@ system_declaration declare_fpu() {
                      .usual = 3,
                      .meaning = "pairs of masses",
                      .least = 1,
-                     .most = 1'000'000},  // a state of some tens of megabytes
+                     .most = 10'000'000},  // a run takes some gigabytes
                     {.name = "omega", .usual = 50.0, .meaning = "stiff frequency"}};
   fpu.make = [](const parameter_values& values, const bath& in, double spread) {
     const auto pairs = values.whole("pairs");
