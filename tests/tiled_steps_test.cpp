@@ -119,6 +119,51 @@ BOOST_AUTO_TEST_CASE(portions_are_the_letters_of_the_steps) {
   }
 }
 
+namespace {
+/// Sites that do not fit together.
+struct misfit : far_springs {
+  Eigen::Index row = 1;
+  Eigen::Index far = 3;
+  Eigen::Index all = 30;
+  using far_springs::far_springs;
+  Eigen::Index sites() const { return all; }
+  Eigen::Index reach() const { return far; }
+  Eigen::Index sites_of_row() const { return row; }
+};
+/// Forces on sites from nothing but the sites.
+struct single_wells : far_springs {
+  using far_springs::far_springs;
+  static constexpr Eigen::Index reach() { return 0; }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    for (Eigen::Index i = 0; i < q.size(); ++i) f[i] = q[i] * q[i] * q[i] * -1.0;
+  }
+  template <class T>
+  void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
+                      Eigen::Index end) const {
+    for (Eigen::Index i = begin; i < end; ++i) {
+      for (Eigen::Index c = 0; c < components; ++c) f(c, i) = q(c, i) * q(c, i) * q(c, i) * -1.0;
+    }
+  }
+};
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(sites_that_do_not_fit_together_are_refused) {
+  const auto with = [](auto member, Eigen::Index value) {
+    misfit result(30);
+    result.*member = value;
+    return result;
+  };
+  BOOST_CHECK_NO_THROW(model(misfit(30)));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { model(with(&misfit::all, 29)); },
+                                            {"coordinates, 60, got 2 * 29"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { model(with(&misfit::far, -1)); },
+                                            {"reach() must not be negative"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { model(with(&misfit::row, 7)); }, {"got 3, 30 and 7"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { model(with(&misfit::row, 0)); }, {"got 3, 30 and 0"}));
+  BOOST_TEST(moves_as_in_a_loop(single_wells(3000), tabulated(verlet()), 100, 100, 2));
+}
+
 BOOST_AUTO_TEST_CASE(a_model_needs_a_thread) {
   const model chain(fpu_chain<>(3, 50.0));
   BOOST_TEST(chain.threads() == 1);

@@ -33,7 +33,9 @@ void require_observables(const initial_value_problem& made, const std::string& n
 
 /// Refuses energies and forces that are not finite, and a force other than -grad V, at four starts.
 void require_force(const initial_value_problem& made, const std::string& name) {
-  constexpr Eigen::Index most = 2000;  // some hundred forces a coordinate
+  // A force from a potential costs a potential for each coordinate. That of a local system is the user's own,
+  // and costs as much as a step.
+  const Eigen::Index most = made.system.sites() != nullptr ? 1'000'000 : 2000;
   std::vector<Eigen::VectorXd> points;
   std::vector<Eigen::VectorXd> momenta;
   for (std::uint64_t n = 0; n < 4; ++n) {

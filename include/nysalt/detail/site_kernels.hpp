@@ -37,6 +37,10 @@ struct site_layout {
   bool has_energy = false;
 };
 
+/// The layout, with a reach of at least 1. Throws std::invalid_argument unless sites and components make up
+/// `size` coordinates, the reach is not negative, and the sites are whole rows.
+site_layout required(const site_layout& layout, Eigen::Index size);
+
 /// The functions of a local system on tiles.
 class site_kernels {
  public:
@@ -52,18 +56,14 @@ class site_kernels {
 template <LocalSystem S>
 class typed_site_kernels final : public site_kernels {
  public:
-  /// Refers to the system.
-  explicit typed_site_kernels(const S& system) : system_(&system) {}
+  /// Refers to the system. Throws std::invalid_argument if its sites do not make up its coordinates.
+  explicit typed_site_kernels(const S& system)
+      : system_(&system), layout_(required(layout_of(system), size(system))) {}
 
-  site_layout layout() const final {
-    site_layout result{system_->sites(),       S::components,         system_->reach(), 1,
-                       system_->is_periodic(), HasPotentialInRange<S>};
-    if constexpr (requires { system_->sites_of_row(); }) result.sites_of_row = system_->sites_of_row();
-    return result;
-  }
+  site_layout layout() const final { return layout_; }
 
   void advance(const tile& x, std::span<const tile_letter> letters) const final {
-    const Eigen::Index reach = system_->reach();
+    const Eigen::Index reach = layout_.reach;
     Eigen::Index begin = x.begin;
     Eigen::Index end = x.end;
     for (const tile_letter& letter : letters) {
@@ -93,6 +93,12 @@ class typed_site_kernels final : public site_kernels {
   }
 
  private:
+  static site_layout layout_of(const S& system) {
+    site_layout result{system.sites(),       S::components,         system.reach(), 1,
+                       system.is_periodic(), HasPotentialInRange<S>};
+    if constexpr (requires { system.sites_of_row(); }) result.sites_of_row = system.sites_of_row();
+    return result;
+  }
   double inverse_mass(Eigen::Index c, Eigen::Index i) const {
     const Eigen::Index sites = system_->sites();
     const Eigen::Index site = (i % sites + sites) % sites;  // of an image
@@ -124,6 +130,7 @@ class typed_site_kernels final : public site_kernels {
   }
 
   const S* system_;
+  site_layout layout_;
 };
 
 }  // namespace nysalt::detail

@@ -10,6 +10,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
+
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
 
@@ -253,6 +256,24 @@ std::vector<double> site_window::energies_of_leaves(const double* q, const doubl
     fill(inner_last, last);
     result[static_cast<std::size_t>(number)] = system_->energy(x, begin, end);
   });
+  return result;
+}
+
+site_layout required(const site_layout& layout, Eigen::Index size) {
+  if (layout.components < 1 || layout.sites < 1 || layout.components * layout.sites != size) {
+    throw std::invalid_argument(
+        sentence("LocalSystem: components * sites() must be the number of coordinates, {}, got {} * {}", size,
+                 layout.components, layout.sites));
+  }
+  const Eigen::Index row = layout.sites_of_row;
+  if (layout.reach < 0 || row < 1 || layout.sites % row != 0 || layout.reach % row != 0) {
+    throw std::invalid_argument(
+        sentence("LocalSystem: reach() must not be negative, and sites() and reach() must be multiples of "
+                 "sites_of_row(), got {}, {} and {}",
+                 layout.reach, layout.sites, row));
+  }
+  site_layout result = layout;
+  result.reach = std::max(layout.reach, row);
   return result;
 }
 
