@@ -64,15 +64,22 @@ struct all_pairs {
         force_error(force),
         derivative_error(force) {
     const double side = system.side();
+    const double* const from = q.data();
     const smooth_pair pair(system.options());
     long double energies = 0.0;
     long double virials = 0.0;
     for (Eigen::Index i = 0; i < q.size(); i += 3) {
       for (Eigen::Index j = i + 3; j < q.size(); j += 3) {
-        Eigen::Vector3d d = q.segment<3>(i) - q.segment<3>(j);
-        for (double& along : d) along -= side * std::nearbyint(along / side);
-        const double x = d.squaredNorm();
+        std::array<double, 3> way{};
+        double x = 0.0;
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          double along = from[i + axis] - from[j + axis];
+          along -= side * std::nearbyint(along / side);
+          way[static_cast<std::size_t>(axis)] = along;
+          x += along * along;
+        }
         if (x >= pair.centre()) continue;
+        const Eigen::Vector3d d(way[0], way[1], way[2]);
         const double push = -2.0 * pair.derivative(x, 1);
         const double slope = -4.0 * pair.derivative(x, 2);
         const double steeper = 8.0 * std::abs(pair.derivative(x, 3));
@@ -153,7 +160,7 @@ phase_point<double, Eigen::Dynamic> melted(const liquid& system, std::int64_t st
 
 BOOST_AUTO_TEST_CASE(forces_are_those_of_all_pairs) {
   for (const int smoothness : {0, 1, 2, 3}) {
-    for (const auto& [atoms, density] : {std::pair{108, 0.3}, {256, 0.8442}, {300, 1.2}, {500, 0.05}}) {
+    for (const auto& [atoms, density] : {std::pair{108, 0.3}, {256, 0.8442}, {256, 1.2}, {108, 0.05}}) {
       BOOST_TEST_CONTEXT("smoothness " << smoothness << ", density " << density) {
         const liquid system(atoms, density, {.smoothness = smoothness});
         require_all_pairs(system, shaken(system, 0.08));
@@ -195,7 +202,7 @@ BOOST_AUTO_TEST_CASE(atoms_may_be_on_the_borders_of_cells) {
   // Cells of the list are an integer part of the side: so are the sites of crystals of one to five cells, and
   // those moved by a whole side.
   for (const double density : {0.05, 0.8442}) {
-    const liquid system(500, density);
+    const liquid system(256, density);
     Eigen::VectorXd q = lennard_jones_liquid_law(system, 0.0)(1, 0).q;
     q.head(3).array() += system.side();
     q.segment<3>(30).array() -= system.side();
