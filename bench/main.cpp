@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     race_ensemble();
     race_single_trajectory();
     race_long_chain();
+    race_liquid();
     race_growth();
     race_noise();
     race_langevin();

@@ -9,6 +9,7 @@ namespace nysalt::bench {
 void race_ensemble();
 void race_single_trajectory();
 void race_long_chain();
+void race_liquid();
 void race_growth();
 void race_noise();
 void race_langevin();

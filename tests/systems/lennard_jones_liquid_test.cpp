@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: BSL-1.0
+// The liquid's forces are those of all pairs, with bits that neither lists nor threads change.
+#include "nysalt/systems/lennard_jones_liquid.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "../support/draws.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/model.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+using liquid = lennard_jones_liquid;
+using options = lennard_jones_liquid_options;
+
+namespace {
+
+/// The derivative of 4 (x^-6 - x^-3) of that order.
+double pair_derivative(double x, int order) {
+  const double third = 1.0 / (x * x * x);
+  double of_sixth = 4.0 * third * third;
+  double of_third = 4.0 * third;
+  for (int k = 0; k < order; ++k) {
+    of_sixth *= (-6.0 - k) / x;
+    of_third *= (-3.0 - k) / x;
+  }
+  return of_sixth - of_third;
+}
+/// The same less the Taylor polynomial.
+class smooth_pair {
+ public:
+  explicit smooth_pair(const options& of) : centre_(of.cutoff * of.cutoff) {
+    for (int m = 0; m <= of.smoothness; ++m) at_centre_.push_back(pair_derivative(centre_, m));
+  }
+  double derivative(double x, int order) const {
+    double result = pair_derivative(x, order);
+    double term = 1.0;
+    for (std::size_t m = static_cast<std::size_t>(order); m < at_centre_.size(); ++m) {
+      result -= at_centre_[m] * term;
+      term *= (x - centre_) / (static_cast<double>(m) - order + 1.0);
+    }
+    return result;
+  }
+  double centre() const { return centre_; }
+
+ private:
+  double centre_;
+  std::vector<double> at_centre_{};
+};
+
+/// By all pairs; what rounding may add to a component of the force of each atom, to V, and to the virial.
+struct all_pairs {
+  all_pairs(const liquid& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v)
+      : force(Eigen::VectorXd::Zero(q.size())),
+        derivative(force),
+        force_error(force),
+        derivative_error(force) {
+    const double side = system.side();
+    const double* const from = q.data();
+    const smooth_pair pair(system.options());
+    long double energies = 0.0;
+    long double virials = 0.0;
+    for (Eigen::Index i = 0; i < q.size(); i += 3) {
+      for (Eigen::Index j = i + 3; j < q.size(); j += 3) {
+        std::array<double, 3> way{};
+        double x = 0.0;
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          double along = from[i + axis] - from[j + axis];
+          along -= side * std::nearbyint(along / side);
+          way[static_cast<std::size_t>(axis)] = along;
+          x += along * along;
+        }
+        if (x >= pair.centre()) continue;
+        const Eigen::Vector3d d(way[0], way[1], way[2]);
+        const double push = -2.0 * pair.derivative(x, 1);
+        const double slope = -4.0 * pair.derivative(x, 2);
+        const double steeper = 8.0 * std::abs(pair.derivative(x, 3));
+        const Eigen::Vector3d w = v.segment<3>(i) - v.segment<3>(j);
+        const Eigen::Vector3d change = push * w + slope * d.dot(w) * d;
+        force.segment<3>(i) += push * d;
+        force.segment<3>(j) -= push * d;
+        derivative.segment<3>(i) += change;
+        derivative.segment<3>(j) -= change;
+        energies += pair.derivative(x, 0);
+        virials += push * x;
+        // Each of two positions is rounded to eps of a side, or of what it is; some 30 roundings of either
+        // formula, whose powers magnify that of x by up to 8.
+        const double moved = 4.0 * eps * (side + q.cwiseAbs().maxCoeff());
+        const double rounded = 60.0 * eps;
+        const double r = std::sqrt(x);
+        const double stiff = std::abs(push) + std::abs(slope) * x;
+        const double stiffer = (3.0 * std::abs(slope) + steeper * x) * r;
+        for (const Eigen::Index k : {i, j}) {
+          force_error.segment<3>(k).array() += stiff * moved + rounded * std::abs(push) * r;
+          derivative_error.segment<3>(k).array() += (stiffer * moved + rounded * stiff) * w.norm();
+        }
+        potential_error += std::abs(push) * r * moved + rounded * (std::abs(pair_derivative(x, 0)) + 1.0);
+        virial_error += (stiff * moved + rounded * std::abs(push) * r) * r;
+      }
+    }
+    potential = static_cast<double>(energies);
+    virial = static_cast<double>(virials);
+  }
+  Eigen::VectorXd force;
+  Eigen::VectorXd derivative;
+  Eigen::VectorXd force_error;
+  Eigen::VectorXd derivative_error;
+  double potential = 0.0;
+  double potential_error = 0.0;
+  double virial = 0.0;
+  double virial_error = 0.0;
+};
+
+/// By how much the largest of x is beyond what it may be.
+double beyond(const Eigen::VectorXd& x, const Eigen::VectorXd& allowed) {
+  return (x.cwiseAbs() - allowed).maxCoeff();
+}
+
+void require_all_pairs(const liquid& system, const Eigen::VectorXd& q) {
+  draws random;
+  Eigen::VectorXd v(q.size());
+  for (double& x : v) x = random.uniform(-1.0, 1.0);
+  const all_pairs expected(system, q, v);
+  Eigen::VectorXd f(q.size());
+  Eigen::VectorXd g(q.size());
+  system.force(q, f);
+  system.force_derivative(q, v, g);
+  BOOST_TEST(beyond(f - expected.force, expected.force_error) <= 0.0);
+  BOOST_TEST(beyond(g - expected.derivative, expected.derivative_error) <= 0.0);
+  BOOST_TEST(std::abs(system.potential(q) - expected.potential) <= expected.potential_error);
+  BOOST_TEST(std::abs(system.virial(q) - expected.virial) <= expected.virial_error);
+  // A pair that is left out at the cut-off is seen: its force is at least this, or it is smooth there.
+  const smooth_pair pair(system.options());
+  const double of_pair = std::abs(2.0 * system.options().cutoff * pair.derivative(pair.centre(), 1));
+  if (system.options().smoothness == 0) BOOST_TEST(of_pair > 2.0 * expected.force_error.maxCoeff());
+}
+
+/// A crystal with each atom moved by up to `reach` along each axis.
+Eigen::VectorXd shaken(const liquid& system, double reach) {
+  draws random;
+  Eigen::VectorXd q = lennard_jones_liquid_law(system, 0.0)(1, 0).q;
+  for (double& x : q) x += random.uniform(-reach, reach);
+  return q;
+}
+
+/// After some time: atoms are anywhere, the list is old.
+phase_point<double, Eigen::Dynamic> melted(const liquid& system, std::int64_t steps) {
+  return integrate(system, verlet{}, 0.004, lennard_jones_liquid_law(system, 3.0)(1, 0), steps).finish;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(forces_are_those_of_all_pairs) {
+  for (const int smoothness : {0, 1, 2, 3}) {
+    for (const auto& [atoms, density] : {std::pair{108, 0.3}, {256, 0.8442}, {256, 1.2}, {108, 0.05}}) {
+      BOOST_TEST_CONTEXT("smoothness " << smoothness << ", density " << density) {
+        const liquid system(atoms, density, {.smoothness = smoothness});
+        require_all_pairs(system, shaken(system, 0.08));
+      }
+    }
+  }
+  const liquid far_reaching(256, 0.3, {.cutoff = 4.0, .skin = 0.5});
+  require_all_pairs(far_reaching, shaken(far_reaching, 0.08));
+  const liquid melted_one(256, 0.8442);
+  require_all_pairs(melted_one, melted(melted_one, 300).q);
+}
+
+BOOST_AUTO_TEST_CASE(the_smallest_box_is_served) {
+  const double density = 200.0 / std::pow(5.6 * (1.0 + 4.0 * eps), 3);
+  const liquid system(200, density);
+  require_all_pairs(system, shaken(system, 0.05));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { liquid(199, density); }, {"the side", "at least 2 (cut-off + skin)", "at least 200 atoms"}));
+}
+
+BOOST_AUTO_TEST_CASE(atoms_may_leave_the_box) {
+  const liquid system(256, 0.8442);
+  draws random;
+  const Eigen::VectorXd q = shaken(system, 0.08);
+  Eigen::VectorXd elsewhere = q;
+  for (double& x : elsewhere) x += system.side() * std::floor(random.uniform(-3.0, 4.0));
+  require_all_pairs(system, elsewhere);
+  // The same places to rounding have the same forces to what it makes of them, below 1e-9 of a stiffness of
+  // some 10^3 and positions of some 20.
+  Eigen::VectorXd f(q.size());
+  Eigen::VectorXd others(q.size());
+  system.force(q, f);
+  system.force(elsewhere, others);
+  BOOST_TEST((f - others).cwiseAbs().maxCoeff() < 1e-9);
+  BOOST_TEST((f - others).cwiseAbs().maxCoeff() > 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(atoms_may_be_on_the_borders_of_cells) {
+  // Cells of the list are an integer part of the side: so are the sites of crystals of one to five cells, and
+  // those moved by a whole side.
+  for (const double density : {0.05, 0.8442}) {
+    const liquid system(256, density);
+    Eigen::VectorXd q = lennard_jones_liquid_law(system, 0.0)(1, 0).q;
+    q.head(3).array() += system.side();
+    q.segment<3>(30).array() -= system.side();
+    require_all_pairs(system, q);
+  }
+  const liquid system(256, 0.2);  // a side of 10.86: cells of 1/7 of it
+  Eigen::VectorXd q(3 * 256);
+  for (Eigen::Index i = 0; i < 256; ++i) {
+    q.segment<3>(3 * i) = Eigen::Vector3d(static_cast<double>(i % 7), static_cast<double>(i / 7 % 7),
+                                          static_cast<double>(i / 49)) *
+                          (system.side() / 7.0);
+  }
+  require_all_pairs(system, q);
+}
+
+BOOST_AUTO_TEST_CASE(the_force_is_minus_the_gradient) {
+  for (const int smoothness : {1, 2, 3}) {
+    const liquid system(256, 0.8442, {.smoothness = smoothness});
+    draws random;
+    const Eigen::VectorXd q = shaken(system, 0.08);
+    Eigen::VectorXd v(q.size());
+    Eigen::VectorXd f(q.size());
+    for (double& x : v) x = random.uniform(-1.0, 1.0);
+    system.force(q, f);
+    const auto slope = [&](double s) {
+      return (system.potential(q + s * v) - system.potential(q - s * v)) / (2.0 * s);
+    };
+    // Halving s leaves a quarter of the error, a third of the change; pairs that cross the cut-off between
+    // make it somewhat more than that. V has 2 eps of each of some 2e4 pairs of up to 4.
+    const double changed = std::abs(slope(2e-4) - slope(1e-4));
+    const double rounding = 2.0 * eps * 2e4 * 4.0 / 1e-4;
+    BOOST_TEST(std::abs(slope(1e-4) + f.dot(v)) <= changed + rounding);
+    BOOST_TEST(std::abs(slope(1e-4) + 1.001 * f.dot(v)) > changed + rounding);
+  }
+}
+
+// u - T falls as the power of smoothness + 1 towards the cut-off.
+BOOST_AUTO_TEST_CASE(so_many_derivatives_vanish_at_the_cut_off) {
+  for (const int smoothness : {0, 1, 2, 3}) {
+    const liquid pair(2, 2.0 / 512.0, {.smoothness = smoothness});
+    const auto at = [&](double r) {
+      Eigen::VectorXd q = Eigen::VectorXd::Zero(6);
+      q[3] = r;
+      return pair.potential(q);
+    };
+    BOOST_TEST(at(2.5) == 0.0);
+    // Of e = 0.01 the next power adds a part of e (smoothness + 8)/r_c, or so, to e and twice that to 2 e.
+    const double ratio = at(2.48) / at(2.49) / std::pow(2.0, smoothness + 1);
+    BOOST_TEST(std::abs(ratio - 1.0) < 0.01 * (smoothness + 8) / 2.5);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bits_depend_neither_on_threads_nor_on_the_list) {
+  const liquid one(256, 0.8442);
+  const auto x = melted(one, 250);
+  BOOST_TEST(one.lists_made() > 10);
+  Eigen::VectorXd with_old_list(x.size());
+  one.force(x.q, with_old_list);
+  BOOST_TEST_REQUIRE(with_old_list.cwiseAbs().maxCoeff() > 1.0);
+  Eigen::VectorXd derivative(x.size());
+  one.force_derivative(x.q, x.p, derivative);
+  const liquid fresh = one;  // of a copy, which has no list yet
+  BOOST_TEST(fresh.lists_made() == 0);
+  for (const double skin : {0.3, 0.05, 0.7}) {
+    for (const int threads : {1, 2, 3, 4}) {
+      const liquid other(256, 0.8442, {.skin = skin, .threads = threads});
+      Eigen::VectorXd f(x.size());
+      other.force(x.q, f);
+      BOOST_TEST((f == with_old_list));
+      other.force_derivative(x.q, x.p, f);
+      BOOST_TEST((f == derivative));
+      BOOST_TEST(other.potential(x.q) == one.potential(x.q));
+      BOOST_TEST(other.virial(x.q) == one.virial(x.q));
+    }
+  }
+  // Another order of the atoms gives the same forces, to the bit, in that order.
+  Eigen::VectorXd reversed(x.size());
+  for (Eigen::Index i = 0; i < x.size(); i += 3) reversed.segment<3>(i) = x.q.segment<3>(x.size() - 3 - i);
+  Eigen::VectorXd f(x.size());
+  fresh.force(reversed, f);
+  for (Eigen::Index i = 0; i < x.size(); i += 3) {
+    BOOST_TEST_REQUIRE((f.segment<3>(i) == with_old_list.segment<3>(x.size() - 3 - i)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(long_runs_have_equal_bits_on_one_thread_and_two) {
+  const liquid one(256, 0.8442, {.smoothness = 2});
+  const liquid two(256, 0.8442, {.smoothness = 2, .skin = 0.4, .threads = 2});
+  const auto start = lennard_jones_liquid_law(one, 1.44)(7, 0);
+  const auto energy_of = [](const liquid& system, const auto& x) {
+    return 0.5 * x.p.squaredNorm() + system.potential(x.q);
+  };
+  const auto first = integrate(one, verlet{}, 0.004, start, 1000).finish;
+  const auto second = integrate(two, verlet{}, 0.004, start, 1000).finish;
+  BOOST_TEST(same_bits(first, second));
+  BOOST_TEST(energy_of(one, first) - energy_of(one, start) == energy_of(two, second) - energy_of(two, start));
+  // From the middle on by an object that did not see the first half, as after a restart.
+  const liquid restarted = two;
+  auto run = make_stepper(one, verlet{}, 0.004).open(start);
+  make_stepper(one, verlet{}, 0.004).advance(run, 500);
+  const auto rest = make_stepper(restarted, verlet{}, 0.004);
+  auto goes_on = rest.open(start);
+  goes_on = run;
+  rest.advance(goes_on, 500);
+  BOOST_TEST(same_bits(rest.synchronous(goes_on), first));
+  // Through the library's own type, on copies of the system.
+  BOOST_TEST(same_bits(integrate(model(two), verlet{}, 0.004, start, 1000).finish, first));
+  // Another start ends elsewhere.
+  auto other = start;
+  other.q[0] += 1e-12;
+  BOOST_TEST(!same_bits(integrate(one, verlet{}, 0.004, other, 1000).finish, first));
+}
+
+// Forces of a pair are opposite to the bit: what is left is one rounding of each atom's force, eps/2 of it.
+BOOST_AUTO_TEST_CASE(momentum_is_kept_to_rounding) {
+  const liquid system(256, 0.8442);
+  const auto x = melted(system, 100);
+  Eigen::VectorXd f(x.size());
+  system.force(x.q, f);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    long double sum = 0.0;
+    double allowed = 0.0;
+    for (Eigen::Index i = axis; i < f.size(); i += 3) {
+      sum += f[i];
+      allowed += 0.5 * eps * std::abs(f[i]);
+    }
+    BOOST_TEST(std::abs(static_cast<double>(sum)) <= allowed);
+    BOOST_TEST(std::abs(static_cast<double>(sum - f[axis])) > allowed);  // without one of the atoms
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_place_has_no_force) {
+  const liquid system(256, 0.8442);
+  const Eigen::VectorXd q = shaken(system, 0.05);
+  Eigen::VectorXd before(q.size());
+  Eigen::VectorXd f(q.size());
+  system.force(q, before);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           0x1p17 * system.side()}) {
+    Eigen::VectorXd other = q;
+    other[4] = bad;
+    system.force(other, f);
+    BOOST_TEST(f.array().isNaN().all());
+    BOOST_TEST(std::isnan(system.potential(other)));
+    BOOST_TEST(std::isnan(system.virial(other)));
+    liquid(system).force(other, f);  // where no list was made
+    BOOST_TEST(f.array().isNaN().all());
+    system.force_derivative(q, other, f);
+    BOOST_TEST((f.array().isNaN().all() || std::isfinite(bad)));
+    system.force(q, f);
+    BOOST_TEST((f == before));
+  }
+  Eigen::VectorXd near = q;
+  near.segment<3>(3) = near.head(3);
+  near[3] += 0.249;
+  system.force(near, f);
+  BOOST_TEST((std::isnan(f[0]) && std::isnan(f[3])));
+  near[3] += 0.002;
+  system.force(near, f);
+  BOOST_TEST(f.allFinite());
+  near[3] = near[0];
+  system.force(near, f);
+  BOOST_TEST((std::isnan(f[0]) && std::isnan(f[3])));
+}
+
+BOOST_AUTO_TEST_CASE(bad_liquids_are_refused) {
+  using wrong = std::invalid_argument;
+  const double infinite = std::numeric_limits<double>::infinity();
+  BOOST_TEST(refuses<wrong>([] { liquid(1, 0.8442); }, {"atoms", "from 2", "got 1"}));
+  BOOST_TEST(refuses<wrong>([] { liquid(Eigen::Index{1} << 31, 0.8442); }, {"atoms", "got 2147483648"}));
+  for (const double bad : {0.0, -1.0, infinite, infinite - infinite}) {
+    BOOST_TEST(refuses<wrong>([&] { liquid(500, bad); }, {"density", "positive and finite"}));
+    BOOST_TEST(refuses<wrong>([&] { liquid(500, 0.8, {.skin = bad}); }, {"skin", "positive and finite"}));
+    BOOST_TEST(refuses<wrong>([&] { liquid(500, 0.8, {.cutoff = bad}); }, {"cut-off", "at least 1"}));
+  }
+  BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.smoothness = 4}); }, {"smoothness", "0 to 3", "got 4"}));
+  BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.smoothness = -1}); }, {"smoothness", "got -1"}));
+  BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.threads = 0}); }, {"threads", "at least 1", "got 0"}));
+  const liquid good(500, 0.8);
+  BOOST_TEST(refuses<wrong>([&] { lennard_jones_liquid_law(good, -1.0); }, {"temperature", "got -1"}));
+  BOOST_TEST(good.description() == "lennard_jones_liquid(atoms=500, density=0.8, cutoff=2.5, smoothness=0)");
+  BOOST_TEST(liquid(500, 0.8, {.skin = 0.2, .threads = 2}).description() == good.description());
+}
