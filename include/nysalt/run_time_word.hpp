@@ -341,6 +341,18 @@ consteval bool has_own_letters() {
     return false;
   }
 }
+/// Whether a word may have a letter of known_letters.
+template <Word W>
+consteval bool has_known_letters() {
+  if constexpr (TypeLevelWord<W>) {
+    return []<std::size_t... I>(std::index_sequence<I...>) {
+      return (is_known_letter<typename W::template letter<I>> || ...);
+    }
+    (std::make_index_sequence<W::length>());
+  } else {
+    return true;
+  }
+}
 }  // namespace detail
 
 }  // namespace nysalt
