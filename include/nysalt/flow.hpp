@@ -75,7 +75,7 @@ constexpr splitting splitting_of() {
   }
 }
 
-/// How many forces at displaced points a letter evaluates itself; 0 where it declares none.
+/// How many forces a letter evaluates itself, at displaced points or of a part; 0 where it declares none.
 template <class L>
 constexpr int displaced_forces_of() {
   if constexpr (requires { L::displaced_forces; }) {
@@ -119,6 +119,9 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 }
 || requires(flow_state<double, 1>& x, flow_room<double, 1>& room) {
   L::apply(free_particle{}, L::prepare(1.0, 1.0, 1.0), x, room);
+}
+|| requires(const double* c, flow_state<double, 1>& x, flow_room<double, 1>& room) {
+  L::apply(free_particle{}, L::prepare(c, 1.0), x, room);
 };
 }  // namespace detail
 
@@ -132,20 +135,22 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 ///                      that equal neighbours merge
 /// and, if it is that of a part of the Hamiltonian,
 ///   serves<S, T>                     whether it exists for a system over a scalar
-///   prepare(c, h), prepare(b, c, h) of two slots, prepare<N>(c, h, part) of a QuadraticFlow
+///   prepare(c, h), prepare(b, c, h) of two slots, prepare(const C* c, h) of any number of them,
+///   prepare<N>(c, h, part) of a QuadraticFlow
 ///                                    fold the step into the coefficients, once per run
 ///   apply(system, prepared, state, room)
 /// Such a letter that reads the force may also offer
 ///   evaluate_and_apply(system, prepared, state, room)
 /// for where the force is not known and no letter reads it afterwards: then it need not be stored in f.
-/// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true.
+/// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true. A letter of one's own derives from
+/// exact_flow, which states most of this.
 ///
 /// A letter among known_letters states besides, for what is said of words as data:
 ///   splits             what its words split H into (`any` if a letter does not say)
 ///   needs              the sentence for who does not serve it, and require_served<S, T>(), the same while
 ///                      compiling; both of letters that not every system serves
 ///   invertible         with all coefficients negated it is its inverse
-///   displaced_forces   how many forces at displaced points it evaluates itself, if any
+///   displaced_forces   how many forces it evaluates itself, at displaced points or of a part, if any
 ///   symplectic         false of one that is not
 ///   same_order_as      the letter of K and V in whose place it obeys the same order conditions
 ///   on_oscillator(stiffness, c, q, p)   its action on an oscillator, unless it is of the bath

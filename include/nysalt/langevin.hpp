@@ -145,14 +145,14 @@ inline run_time_word thermostatted(const run_time_word& w, placement where) {
         letters));
   }
   const std::string o(1, ornstein_uhlenbeck::letter);
-  if (where == placement::end) return run_time_word(letters + o);
-  if (where == placement::symmetric) return run_time_word(o + letters + o);
+  if (where == placement::end) return w.with_letters(letters + o);
+  if (where == placement::symmetric) return w.with_letters(o + letters + o);
   if (letters.size() % 2 == 0) {
     throw std::invalid_argument(
         sentence("the word {} has no central letter to split: place O at the end, or symmetric", letters));
   }
   const std::size_t central = letters.size() / 2;
-  return run_time_word(letters.substr(0, central + 1) + o + letters.substr(central));
+  return w.with_letters(letters.substr(0, central + 1) + o + letters.substr(central));
 }
 
 }  // namespace nysalt

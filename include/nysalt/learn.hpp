@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/make_problem.hpp"
@@ -66,7 +69,24 @@ fit learn(const run_time_family& family, const S& system, const flow_map_data& d
   }
 }
 
-/// The same for a family as a type, whose method is one too.
+namespace detail {
+/// check_letter() of all letters of one's own at a state of each quarter of the data.
+template <TypeLevelWord W, System S>
+void require_sound_letters_on(const S& system, const flow_map_data& data) {
+  constexpr int N = S::dimension;
+  std::vector<phase_point<double, N>> points;
+  const std::size_t pairs = data.start.size();
+  for (std::size_t quarter = 0; quarter < 4 && pairs > 0; ++quarter) {
+    const phase_point<double, Eigen::Dynamic> x = data.start[(2 * quarter + 1) * pairs / 8];
+    if (x.size() == size(system)) points.push_back({x.q, x.p});  // else the data are refused later
+  }
+  if (!points.empty()) require_sound_letters<W>(system, points, data.step);
+}
+}  // namespace detail
+
+/// The same for a family as a type, whose method is one too. Its word may have letters of one's own, which
+/// check_letter() tries at four states of the data before the search, with check_force. What they do to an
+/// oscillator is not known: the guard is the trial run, and no classical method is named as a rival.
 template <Family F, SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
 learned<F> learn(const F& family, const S& system, const flow_map_data& data, const flow_map_data& held_out,
@@ -83,7 +103,14 @@ learned<F> learn(const F& family, const S& system, const flow_map_data& data, co
                                .seed = options.seed,
                                .max_iterations = options.max_iterations,
                                .threads = options.threads};
-  const run_time_family as_data(family);
+  const run_time_family as_data = [&] {
+    if constexpr (detail::has_own_letters<typename F::word>()) {
+      if (options.check_force) detail::require_sound_letters_on<typename F::word>(system, data);
+      return run_time_family(family, system);
+    } else {
+      return run_time_family(family);
+    }
+  }();
   run_time_options.start = column_of(options.start);
   if (options.classical_starts) {
     run_time_options.further_starts.assign(as_data.starts.begin() + 1, as_data.starts.end());

@@ -118,7 +118,8 @@ class tuned_method {
 template <System S, Method M, NoiseSource Noise = no_noise>
 stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const M& method, double step,
                                                          const Noise& noise = {}) {
-  require_suited<M, S>();
+  // Letters of one's own may know a system that is not K + V.
+  if constexpr (SeparableSystem<S> || detail::has_known_letters<typename M::word>()) require_suited<M, S>();
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
   }

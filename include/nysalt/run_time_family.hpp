@@ -32,13 +32,22 @@ class run_time_family {
   /// From any family; learns nothing of its type but what is listed here.
   template <class F>
     requires(!std::same_as<F, run_time_family> && Family<F>)
-  explicit run_time_family(const F& family)
+  explicit run_time_family(const F& family) : run_time_family(family, run_time_word(word_of(family))) {}
+  /// The same of a word with letters of one's own, as they act on this system.
+  template <Family F, System S>
+    requires(TypeLevelWord<typename F::word> && !std::same_as<S, run_time_word>)
+  run_time_family(const F& family, const S& system)
+      : run_time_family(family, run_time_word(word_of(family), system)) {}
+
+ private:
+  template <Family F>
+  run_time_family(const F& family, const run_time_word& word)
       : name(F::name),
         parameter_names(F::parameter_names.begin(), F::parameter_names.end()),
         order(F::order),
         symmetric(F::symmetric),
         requires_quadratic_kinetic(F::requires_quadratic_kinetic),
-        letters(word_of(family)),
+        letters(word),
         coefficients_([family](const Eigen::VectorXd& theta) {
           const auto c = family.coefficients(array_from<F>(theta));
           return std::vector<double>(c.begin(), c.end());
@@ -67,6 +76,7 @@ class run_time_family {
     if constexpr (requires { typename F::contained; }) contain(run_time_family(typename F::contained{}));
   }
 
+ public:
   /// A method as a family of one member, without parameters.
   run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
 

@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/own_letter.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/drift.hpp"
@@ -36,16 +39,29 @@ template <class... L>
 }
 }  // namespace detail
 
-/// Whether all letters of a word are of known_letters, so that it can be data.
+namespace detail {
+template <class L, class Known>
+inline constexpr bool is_among = false;
+template <class L, class... Known>
+inline constexpr bool is_among<L, std::tuple<Known...>> = (std::same_as<L, Known> || ...);
+/// One of known_letters.
+template <class L>
+inline constexpr bool is_known_letter = is_among<L, known_letters>;
+
+template <class L, class Known>
+inline constexpr bool is_named_among = false;
+template <class L, class... Known>
+inline constexpr bool is_named_among<L, std::tuple<Known...>> = ((L::letter == Known::letter) || ...);
+/// Its character is that of one of known_letters.
+template <class L>
+inline constexpr bool names_known_letter = is_named_among<L, known_letters>;
+}  // namespace detail
+
+/// Whether all letters of a word are of known_letters, so that it can be data without a system.
 template <TypeLevelWord W>
 consteval bool are_known_letters() {
-  const auto is_known = []<class L>(std::type_identity<L>) {
-    return []<class... Known>(std::type_identity<std::tuple<Known...>>) {
-      return (std::same_as<L, Known> || ...);
-    }(std::type_identity<known_letters>());
-  };
-  return [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return (is_known(std::type_identity<typename W::template letter<I>>()) && ...);
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return (detail::is_known_letter<typename W::template letter<I>> && ...);
   }
   (std::make_index_sequence<W::length>());
 }
@@ -67,8 +83,25 @@ class run_time_word {
   /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
   /// split H in one way and some in the other, or if a processor is not made of letters A and B in turn, or
   /// belongs to a kernel with letters O or R.
-  explicit run_time_word(std::string letters)
-      : length(std::min(letters.find(processor_mark), letters.size())), letters_(std::move(letters)) {
+  explicit run_time_word(std::string letters) : run_time_word(std::move(letters), own_letters()) {}
+  /// The word of a type, whose letters are known_letters.
+  template <TypeLevelWord W>
+  explicit run_time_word(W) : run_time_word(W::letters()) {}
+  /// The same with letters of one's own, as they act on this system, which is copied: the word steps no
+  /// other, over double and packs, and their derivatives by two parameters.
+  template <TypeLevelWord W, System S>
+  run_time_word(W, const S& system) : run_time_word(W::letters(), own_letters_of<W>(system)) {}
+
+  /// Other letters, of which those of one's own are what they are here.
+  run_time_word with_letters(std::string letters) const { return {std::move(letters), own_letters_}; }
+
+ private:
+  using own_letters = std::vector<std::shared_ptr<const detail::own_letter>>;
+
+  run_time_word(std::string letters, own_letters own)
+      : length(std::min(letters.find(processor_mark), letters.size())),
+        letters_(std::move(letters)),
+        own_letters_(std::move(own)) {
     if (length == 0) throw std::invalid_argument("a word needs at least one letter");
     bool additive = false;
     bool is_of_k_and_v = false;
@@ -76,25 +109,20 @@ class run_time_word {
     std::vector<bool> moves;
     std::vector<bool> is_of_bath;
     for (std::size_t i = 0; i < length; ++i) {
-      const bool is_known = detail::with_letter(letters_[i], known_letters{}, [&](auto flow) {
-        first_slots_.push_back(slots);
-        slots += flow.slots;
-        force_derivatives += flow.force_derivatives;
-        displaced_forces += detail::displaced_forces_of<decltype(flow)>();
-        is_symplectic = is_symplectic && detail::is_symplectic<decltype(flow)>();
-        if (flow.reads != field::none) this->reads = flow.reads;
-        reads.push_back(flow.reads != field::none);
-        moves.push_back(flow.moves_q);
-        is_of_bath.push_back(StochasticFlow<decltype(flow)>);
-        is_of_k_and_v = is_of_k_and_v || flow.splits == splitting::kinetic_and_potential;
-        rotates_ = rotates_ || flow.splits == splitting::quadratic_part_and_rest;
-        reads_modes = reads_modes || QuadraticFlow<decltype(flow)>;
-        if (i == 0) additive = flow.additive;
-      });
-      if (!is_known) {
-        throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}",
-                                             letters_, letters_[i], listed([](auto) { return true; })));
-      }
+      const detail::letter_facts letter = facts_at(i);
+      first_slots_.push_back(slots);
+      slots += letter.slots;
+      force_derivatives += letter.force_derivatives;
+      displaced_forces += letter.displaced_forces;
+      is_symplectic = is_symplectic && letter.symplectic;
+      if (letter.reads != field::none) this->reads = letter.reads;
+      reads.push_back(letter.reads != field::none);
+      moves.push_back(letter.moves_q);
+      is_of_bath.push_back(letter.is_of_bath);
+      is_of_k_and_v = is_of_k_and_v || letter.splits == splitting::kinetic_and_potential;
+      rotates_ = rotates_ || letter.splits == splitting::quadratic_part_and_rest;
+      reads_modes = reads_modes || letter.reads_modes;
+      if (i == 0) additive = letter.additive;
     }
     if (is_of_k_and_v && rotates_) {
       const auto letters_of = [](splitting of_h) {
@@ -113,15 +141,16 @@ class run_time_word {
       throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
-    evaluations_per_step = plan_.count(plan_.in_loop) + force_derivatives + displaced_forces;
-    evaluations_to_open = plan_.is_known_when_open ? 1 : 0;
+    if (merges) evaluations_to_look = facts_at(0).displaced_forces;  // once a run and look, not in each step
+    evaluations_per_step =
+        plan_.count(plan_.in_loop) + force_derivatives + displaced_forces - evaluations_to_look;
+    evaluations_to_open = (plan_.is_known_when_open ? 1 : 0) + evaluations_to_look;
     evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives + displaced_forces;
     kernel_slots = slots;
     if (is_processed()) take_processor();
   }
-  template <TypeLevelWord W>
-  explicit run_time_word(W) : run_time_word(W::letters()) {}
 
+ public:
   bool is_processed() const { return length < letters_.size(); }  ///< it has a processor
   /// The letters of the processor P; empty of a word that has none.
   std::string processor() const { return is_processed() ? letters_.substr(length + 1) : std::string(); }
@@ -141,7 +170,15 @@ class run_time_word {
     return (i + 1 < length ? first_slots_[i + 1] : kernel_slots) - first_slots_[i];
   }
 
-  const std::string& letters() const { return letters_; }  ///< as they were given
+  const std::string& letters() const { return letters_; }         ///< as they were given
+  bool has_own_letters() const { return !own_letters_.empty(); }  ///< it was made with a system
+  /// A letter of one's own; null where the letter is another one.
+  const detail::own_letter* own_letter(char letter) const {
+    for (const auto& own : own_letters_) {
+      if (own->facts.letter == letter) return own.get();
+    }
+    return nullptr;
+  }
   /// Its letters are those of a quadratic part and the rest, R, S or H.
   bool rotates() const { return rotates_; }
   /// Where a step of an open run begins: 1 if letter 0 merges with the last.
@@ -149,20 +186,22 @@ class run_time_word {
   /// Which letters evaluate the force, in a plain step and in an open run.
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
-  std::size_t length;             ///< how many letters, those of a processor left out
-  std::size_t slots = 0;          ///< how many coefficients: those of the kernel, then those of the processor
-  std::size_t kernel_slots = 0;   ///< how many without those of the processor
-  field reads = field::none;      ///< the force that its letters read
-  int force_derivatives = 0;      ///< f'(q) v in a step, one evaluation each
-  int displaced_forces = 0;       ///< forces at displaced points in a step
-  bool is_symplectic = true;      ///< each of its letters is
-  bool reads_modes = false;       ///< it has a letter R
-  bool merges;                    ///< last and first letter are applied as one
-  bool halves_meet;               ///< first and last letter are of the bath
-  int stochastic_letters;         ///< how many letters are of the bath
-  int evaluations_per_step;       ///< force evaluations of a step of an open run
-  int evaluations_to_open;        ///< force evaluations to open a run, those of P(h)^-1 among them
-  int evaluations_to_look = 0;    ///< force evaluations of P(-h), for each time that a run is looked at
+  std::size_t length;            ///< how many letters, those of a processor left out
+  std::size_t slots = 0;         ///< how many coefficients: those of the kernel, then those of the processor
+  std::size_t kernel_slots = 0;  ///< how many without those of the processor
+  field reads = field::none;     ///< the force that its letters read
+  int force_derivatives = 0;     ///< f'(q) v in a step, one evaluation each
+  int displaced_forces = 0;      ///< forces at displaced points in a step
+  bool is_symplectic = true;     ///< each of its letters is
+  bool reads_modes = false;      ///< it has a letter R
+  bool merges;                   ///< last and first letter are applied as one
+  bool halves_meet;              ///< first and last letter are of the bath
+  int stochastic_letters;        ///< how many letters are of the bath
+  int evaluations_per_step;      ///< force evaluations of a step of an open run
+  int evaluations_to_open;       ///< force evaluations to open a run, those of P(h)^-1 among them
+  /// Force evaluations for each time that a run is looked at: of P(-h), or of a first letter that is taken
+  /// back and evaluates forces itself.
+  int evaluations_to_look = 0;
   int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
 
  private:
@@ -206,7 +245,45 @@ class run_time_word {
     return all;
   }
 
+  /// What letter i states of itself. Throws std::invalid_argument if it is not known.
+  detail::letter_facts facts_at(std::size_t i) const {
+    if (const auto* own = own_letter(letters_[i])) return own->facts;
+    detail::letter_facts result{};
+    const bool is_known = detail::with_letter(
+        letters_[i], known_letters{}, [&](auto flow) { result = detail::facts_of_letter<decltype(flow)>(); });
+    if (is_known) return result;
+    throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}", letters_,
+                                         letters_[i], listed([](auto) { return true; })));
+  }
+
+  template <class W, class S>
+  static own_letters own_letters_of(const S& system) {
+    own_letters result;
+    std::vector<const std::type_info*> types;
+    const auto add = [&]<class L>(std::type_identity<L>) {
+      if constexpr (!detail::is_known_letter<L>) {
+        static_assert(!detail::names_known_letter<L>,
+                      "nysalt: a letter of one's own takes a character that no known letter has");
+        for (std::size_t k = 0; k < result.size(); ++k) {
+          if (result[k]->facts.letter != L::letter) continue;
+          if (*types[k] == typeid(L)) return;
+          throw std::invalid_argument(sentence(
+              "the word {} has two letters of one's own that are named {}; name one of them otherwise",
+              W::letters(), L::letter));
+        }
+        types.push_back(&typeid(L));
+        result.push_back(std::make_shared<const detail::bound_letter<L, S>>(system));
+      }
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (add(std::type_identity<typename W::template letter<I>>()), ...);
+    }
+    (std::make_index_sequence<W::length>());
+    return result;
+  }
+
   std::string letters_;
+  own_letters own_letters_;
   bool rotates_ = false;
   std::vector<std::size_t> first_slots_;
   detail::evaluation_plan<std::vector<evaluation>> plan_;
@@ -253,5 +330,29 @@ inline bool is_palindrome(const run_time_word& word, const std::vector<double>& 
 /// A word as a type or as data: what a stepper takes.
 template <class W>
 concept Word = TypeLevelWord<W> || std::same_as<W, run_time_word>;
+
+namespace detail {
+/// Whether a word as a type has letters that are not known_letters.
+template <Word W>
+consteval bool has_own_letters() {
+  if constexpr (TypeLevelWord<W>) {
+    return !are_known_letters<W>();
+  } else {
+    return false;
+  }
+}
+/// Whether a word may have a letter of known_letters.
+template <Word W>
+consteval bool has_known_letters() {
+  if constexpr (TypeLevelWord<W>) {
+    return []<std::size_t... I>(std::index_sequence<I...>) {
+      return (is_known_letter<typename W::template letter<I>> || ...);
+    }
+    (std::make_index_sequence<W::length>());
+  } else {
+    return true;
+  }
+}
+}  // namespace detail
 
 }  // namespace nysalt

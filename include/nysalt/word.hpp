@@ -141,13 +141,19 @@ struct word {
   /// How many f'(q) v a step evaluates, each of which counts as one force evaluation.
   static constexpr int force_derivatives =
       (0 + ... + L::force_derivatives);  // none is in a letter that merges
-  /// How many forces at displaced points a step evaluates.
+  /// How many forces its letters evaluate themselves in a plain step, at displaced points or of parts.
   static constexpr int displaced_forces = (0 + ... + detail::displaced_forces_of<L>());
+  /// Those of the first letter where it merges: once a run, and not in each step of it.
+  static constexpr int displaced_forces_to_open = merges ? detail::displaced_forces_of<letter<0>>() : 0;
   /// Each of its letters is symplectic, and so is the step.
   static constexpr bool is_symplectic = (detail::is_symplectic<L>() && ...);
   /// Force evaluations of a step of an open run.
-  static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives + displaced_forces;
-  static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< those to open a run
+  static constexpr int evaluations_per_step =
+      plan.count(plan.in_loop) + force_derivatives + displaced_forces - displaced_forces_to_open;
+  /// Those to open a run.
+  static constexpr int evaluations_to_open = (plan.is_known_when_open ? 1 : 0) + displaced_forces_to_open;
+  /// Those each time that a run is looked at: of the first letter, which is taken back on a copy.
+  static constexpr int evaluations_to_look = displaced_forces_to_open;
   /// Those of a plain step, which begins with q and p alone.
   static constexpr int evaluations_of_plain_step =
       plan.count(plan.in_step) + force_derivatives + displaced_forces;

@@ -50,7 +50,7 @@ conservative_word<W> conservative_part(const W&) {
 inline run_time_word conservative_part(const run_time_word& w) {
   std::string letters = w.letters();
   std::erase(letters, ornstein_uhlenbeck::letter);
-  return run_time_word(letters);
+  return w.with_letters(letters);
 }
 
 namespace detail {

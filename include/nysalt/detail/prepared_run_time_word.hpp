@@ -6,18 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "nysalt/detail/prepared_word.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/take_steps.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
 
 /// Of letters as data: the same operations in the same order as of a type, hence the same bits. Letters of
-/// the bath are done here, all others by the system's kernels: in one virtual call for many steps where the
-/// system is a model.
+/// the bath and of one's own are done here, all others by the system's kernels: in one virtual call for many
+/// steps where the system is a model.
 template <Scalar C, int N>
 class prepared_word<run_time_word, C, N> {
  public:
@@ -43,15 +45,17 @@ class prepared_word<run_time_word, C, N> {
       if (!is_at_seam) plain_.loop.push_back(evaluating(one, w.plan().in_step[i]));
       if (i < w.first_in_loop() || is_at_seam) continue;
       letter in_run = one;
-      if (merges_ && i + 1 == w.length) {  // letters that merge have one coefficient
-        const std::array both{C(c[w.kernel_slots - 1] + c.front()), C(0.0)};
+      if (merges_ && i + 1 == w.length) {
+        std::vector<C> both;
+        for (std::size_t k = 0; k < w.slots_of(0); ++k) both.push_back(C(c[w.first_slot(i) + k] + c[k]));
         in_run = prepare(w, i, both.data(), h, around);
       }
       run_.loop.push_back(evaluating(in_run, w.plan().in_loop[i]));
       run_.last.push_back(evaluating(in_run, w.plan().in_last[i]));
     }
     if (merges_) {
-      const std::array back{C(-c.front()), C(0.0)};
+      std::vector<C> back;
+      for (std::size_t k = 0; k < w.slots_of(0); ++k) back.push_back(C(-c[k]));
       first_ = prepare(w, 0, c.data(), h, around);
       run_.undo = {prepare(w, 0, back.data(), h, around)};
     }
@@ -90,6 +94,7 @@ class prepared_word<run_time_word, C, N> {
                std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
                const auto& look) const {
     const auto see = [&] {
+      if (merges_ && is_own(run_.undo.front())) apply_own(run_.undo.front().number, y, cursor.room);
       end(system, y, cursor);
       look();
     };
@@ -131,10 +136,23 @@ class prepared_word<run_time_word, C, N> {
   static constexpr int next_step = -1;
   static constexpr int seam_of_steps = -2;
   static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
+  static constexpr int first_own = 1 << 24;  // and letter of one's own number k as first_own + k
 
   letter prepare(const run_time_word& w, std::size_t i, const C* c, double h,
                  const surroundings_of_word& around) {
     letter result;
+    if (const auto* own = w.own_letter(w.letters()[i])) {
+      if constexpr (detail::carries_own_letters<C>) {
+        result.number = first_own + static_cast<int>(own_.size());
+        own_.push_back(own->prepare(c, h));
+        return result;
+      } else {
+        throw std::invalid_argument(sentence(
+            "the word {} has letters of one's own: as data it has no such derivatives; take the word by its "
+            "type",
+            w.letters()));
+      }
+    }
     detail::with_letter(w.letters()[i], known_letters{}, [&](auto flow) {
       using L = decltype(flow);
       auto folded = detail::prepare_letter<L, Eigen::Dynamic>(c, h, around);
@@ -165,8 +183,8 @@ class prepared_word<run_time_word, C, N> {
   /// The cursor goes on with the last letter O where a step ends with it, else by a call of its own.
   void end_step(std::vector<letter>& letters) const {
     if (!run_.calls) return;
-    const bool by_letter =
-        !letters.empty() && letters.back().what == detail::action::call && letters.back().number >= 0;
+    const bool by_letter = !letters.empty() && letters.back().what == detail::action::call &&
+                           letters.back().number >= 0 && letters.back().number < ends_step;
     if (by_letter) {
       letters.back().number |= ends_step;
     } else {
@@ -193,6 +211,7 @@ class prepared_word<run_time_word, C, N> {
             std::int64_t steps, auto& cursor, const detail::watch<T>& watched) const {
     if (letters.loop.empty()) return;
     const auto act = [&](int number) {
+      if (number >= first_own) return apply_own(number, x, cursor.room);
       if constexpr (is_noisy<decltype(cursor)>) {
         if (number == seam_of_steps) return seam_.cross(system, cursor, x);
         if (number != next_step) {
@@ -221,7 +240,24 @@ class prepared_word<run_time_word, C, N> {
     }
     force<T>(system, x.q, x.f);
   }
+  static bool is_own(const letter& one) {
+    return one.what == detail::action::call && one.number >= first_own;
+  }
+  template <class T, int Size>
+  [[gnu::noinline]] void apply_own(int number, flow_state<T, Size>& x, auto& room) const {
+    if constexpr (detail::prepared_own_letter<C>::template serves<T>) {
+      const auto& one = own_[static_cast<std::size_t>(number - first_own)].template over<T>();
+      if constexpr (Size == Eigen::Dynamic) {
+        if (one) return one({x.q.data(), x.p.data(), &x.q, &x.p, &room});
+      } else {
+        if (one) return one({x.q.data(), x.p.data()});
+      }
+    }
+    throw std::invalid_argument(
+        "a word as data does not carry letters of one's own over this scalar; take the word by its type");
+  }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {
+    if (is_own(one)) return apply_own(one.number, x, cursor.room);
     detail::apply_known<field::whole>(system, one, x, cursor.room);
   }
 
@@ -246,6 +282,7 @@ class prepared_word<run_time_word, C, N> {
   letter first_{};
   std::vector<ornstein_uhlenbeck::prepared<C>> noise_;  // of the letters O, in their order
   std::vector<std::shared_ptr<const turn>> turns_;      // that the programs refer to
+  std::vector<detail::prepared_own_letter<C>> own_;     // letters of one's own, in their order
   noise_seam<C> seam_;
 };
 

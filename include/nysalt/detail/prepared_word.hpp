@@ -13,6 +13,7 @@
 
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/noise_seam.hpp"
+#include "nysalt/detail/own_letter.hpp"
 #include "nysalt/detail/pairs_in_loop.hpp"
 #include "nysalt/word.hpp"
 
@@ -26,17 +27,15 @@ struct surroundings_of_word {
 };
 
 namespace detail {
-/// One letter with its coefficients, c[0] and perhaps c[1], and the step folded in.
+/// One letter with its coefficients, from c[0] on, and the step folded in.
 template <Flow Letter, int N, Scalar C>
 auto prepare_letter(const C* c, double h, const surroundings_of_word& around) {
   if constexpr (StochasticFlow<Letter>) {
     return Letter::prepare(c[0], h, *around.heat_bath);
   } else if constexpr (QuadraticFlow<Letter>) {
     return Letter::template prepare<N>(c[0], h, around.part);
-  } else if constexpr (Letter::slots == 2) {
-    return Letter::prepare(c[0], c[1], h);
   } else {
-    return Letter::prepare(c[0], h);
+    return prepare_coefficients<Letter>(c, h);
   }
 }
 }  // namespace detail
@@ -72,11 +71,15 @@ class prepared_word<word<L...>, C, N> {
   /// Folds step and surroundings into the coefficients.
   prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& around)
       : letters_(prepare(c, h, around, std::make_index_sequence<W::length>{})) {
-    if constexpr (W::merges) {  // letters that merge have one coefficient
-      const C both = c[W::slots - 1] + c[0];
-      const C back = -c[0];
-      seam_ = detail::prepare_letter<first, N>(&both, h, around);
-      undo_ = detail::prepare_letter<first, N>(&back, h, around);
+    if constexpr (W::merges) {
+      std::array<C, first::slots> both;
+      std::array<C, first::slots> back;
+      for (std::size_t k = 0; k < first::slots; ++k) {
+        both[k] = c[W::slots - first::slots + k] + c[k];
+        back[k] = -c[k];
+      }
+      seam_ = detail::prepare_letter<first, N>(both.data(), h, around);
+      undo_ = detail::prepare_letter<first, N>(back.data(), h, around);
     } else if constexpr (W::halves_meet) {
       seam_ = noise_seam<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
                             around.heat_bath->sigma() > 0.0);
@@ -89,7 +92,7 @@ class prepared_word<word<L...>, C, N> {
   /// Opens a run. Cost: W::evaluations_to_open.
   template <class T, System S>
   void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::evaluations_to_open > 0) force_of<W::reads, T>(system, x.q, x.f);
+    if constexpr (W::plan.is_known_when_open) force_of<W::reads, T>(system, x.q, x.f);
     if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x, cursor.room);
   }
   /// Steps of an open run. Cost: W::evaluations_per_step each.

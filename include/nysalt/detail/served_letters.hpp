@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "nysalt/detail/sentence.hpp"
@@ -41,6 +42,24 @@ void require_served(const W& word, const S& system) {
     detail::require_letters<S, T, W>(std::make_index_sequence<W::length>{});
   } else {
     for (const char letter : word.letters()) {
+      if (const auto* own = word.own_letter(letter)) {
+        std::string alone;
+        if constexpr (ErasedSystem<S>) {
+          alone = system.facts().description_alone;
+        } else {
+          alone = describe(system);
+        }
+        if (own->system != alone) {
+          throw std::invalid_argument(
+              sentence("the word {} cannot step {}: the letter {} is of {}; make the word with this system",
+                       word.letters(), alone, letter, own->system));
+        }
+        if (!own->template serves<T>()) {
+          throw std::invalid_argument(
+              sentence("the word {} cannot step {} side by side: the letter {} asks for one lane",
+                       word.letters(), describe(system), letter));
+        }
+      }
       detail::with_letter(letter, known_letters{}, [&](auto flow) {
         using L = decltype(flow);
         if constexpr (requires { L::needs; }) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {
@@ -19,11 +21,17 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
                         const Theta& theta, const auto& times_k, P& q, P& p) {
   const split_stiffness<Theta, std::remove_cvref_t<decltype(times_k)>> stiffness{theta, times_k};
   for (std::size_t i = 0; i < word.length; ++i) {
-    detail::with_letter(word.letters()[i], known_letters{}, [&](auto flow) {
+    const bool is_known = detail::with_letter(word.letters()[i], known_letters{}, [&](auto flow) {
       if constexpr (!StochasticFlow<decltype(flow)>) {
         flow.on_oscillator(stiffness, &coefficients[word.first_slot(i)], q, p);
       }
     });
+    if (!is_known) {
+      throw std::invalid_argument(sentence(
+          "the word {} has the letter {}, whose action on an oscillator is not known: its stability is "
+          "looked at by trial runs",
+          word.letters(), word.letters()[i]));
+    }
   }
 }
 

@@ -29,7 +29,8 @@ enum class met { ever, often };
 /// Outside of the bands a word may be unstable: gaps() tells where. Words with rotations are stable on the
 /// quadratic part at any step. The guard looks at how much such words magnify each of its modes under soft
 /// forces of any positive stiffness up to the largest along the states, and at pairs of modes that the soft
-/// forces couple.
+/// forces couple. What letters of one's own do to an oscillator it does not know: it admits such words, and
+/// trial runs decide.
 class stability_guard {
  public:
   /// Looks at growth over so many steps: less than a factor e is admitted. Of words with rotations, if there

@@ -38,7 +38,7 @@ inline tabulated repeated(const tabulated& method, int times) {
       }
     }
   }
-  return {std::to_string(times) + " x " + method.name(), run_time_word(letters), coefficients, method};
+  return {std::to_string(times) + " x " + method.name(), word.with_letters(letters), coefficients, method};
 }
 
 }  // namespace nysalt

@@ -56,13 +56,20 @@ class tabulated : public method_properties {
       static_assert(
           are_known_letters<typename M::word>(),
           "nysalt: a table knows the letters of known_letters alone, in nysalt/run_time_word.hpp; step "
-          "the word as a type, or add the letter there");
+          "the word as a type, or make the table with its system: tabulated(method, system)");
     }
     static_assert(
         !requires { method.require_validity(std::string(), 1.0); },
         "nysalt: a tuned method is valid at one step and for one system, which a table cannot guard; "
         "take its anywhere()");
   }
+
+  /// A method whose word has letters of one's own, as they act on this system: it steps no other.
+  template <Method M, System S>
+    requires(TypeLevelWord<typename M::word>)
+  tabulated(const M& method, const S& system)
+      : tabulated(method.name(), run_time_word(word_of(method), system), to_vector(method.coefficients()),
+                  {method.order, method.symmetric, method.requires_quadratic_kinetic}) {}
 
   const run_time_word& letters() const { return letters_; }
   std::vector<double> coefficients() const { return coefficients_; }
@@ -97,7 +104,9 @@ tabulated table_for(const M& method, const S& system, double step) {
   require_suited<M, S>();
   if constexpr (requires { method.require_validity(std::string(), step); }) {
     method.require_validity(describe(system), step);
-    return table_of(method.anywhere());
+    return table_for(method.anywhere(), system, step);
+  } else if constexpr (has_own_letters<typename M::word>()) {
+    return tabulated(method, system);
   } else {
     return table_of(method);
   }

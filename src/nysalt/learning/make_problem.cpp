@@ -166,7 +166,8 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   facts.seed = data.seed;
   facts.held_out_seed = held_out.seed;
   facts.held_out_is_new = !detail::begin_alike(data, held_out);
-  facts.guard = problem.guard.description();
+  facts.guard = family.letters.has_own_letters() ? "trial runs alone, as the word has letters of its own"
+                                                 : problem.guard.description();
   facts.coordinates_used = measure->residuals();
   facts.dropped = measure->dropped();
   facts.samples = data.all_pairs();
@@ -211,9 +212,10 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   const loss_kind& kind = *chosen.kind;
   if (other == nullptr && !family.letters.is_symplectic && !kind.is_for_sampling) {
     throw std::invalid_argument(sentence(
-        "learn: {} has the letter D, and is not symplectic: it is for sampling; take the loss acceptance or "
-        "energy:K, or the family fg_chin",
-        family.name));
+        "learn: {} has {}, and is not symplectic: it is for sampling; take the loss acceptance or energy:K, "
+        "or "
+        "the family fg_chin",
+        family.name, family.letters.has_own_letters() ? "a letter of its own that is not" : "the letter D"));
   }
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
   const auto measure = std::make_shared<const metric>(system, data, which);

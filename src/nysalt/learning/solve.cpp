@@ -42,6 +42,7 @@ namespace {
 /// The member of the family whose step is exact on an oscillator of the highest mode's frequency, or, where
 /// no modes are declared, of the highest frequency that is met often; nothing if there is none.
 std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
+  if (problem.family.letters.has_own_letters()) return std::nullopt;
   double highest = problem.frequency_to_fit;
   if (highest == 0.0) {
     for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
@@ -283,7 +284,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
     }
   }
 
-  if (options.planned_steps > long_run && !problem.is_in_bath) {
+  if (options.planned_steps > long_run && !problem.is_in_bath && !family.letters.has_own_letters()) {
     const auto near = near_resonance(family.letters, family.coefficients(theta),
                                      problem.guard.frequencies(met::often), problem.step);
     if (near) summary.resonance = in_words(*near);

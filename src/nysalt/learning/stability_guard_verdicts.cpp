@@ -51,6 +51,7 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
+  if (word.has_own_letters()) return {};
   if (!word.rotates()) return unstable(word, coefficients, step, which);
   const std::string of_one = magnified(word, coefficients, step);
   return of_one.empty() ? resonant(word, coefficients, step) : of_one;
@@ -59,7 +60,7 @@ std::string stability_guard::objection(const run_time_word& word, const std::vec
 std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
-  if (word.rotates()) return {};
+  if (word.rotates() || word.has_own_letters()) return {};
   double highest = 0.0;
   for (const auto& band : bands_) highest = std::max(highest, step * band.high);
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),

@@ -45,8 +45,9 @@ std::vector<named_parameters> starts_of(const run_time_family& family, const fit
   for (auto& start : starts) fix(options, start.theta);
   const std::size_t known = starts.size();
   const objective on_oscillators =
-      problem.stages.empty() ? objective()
-                             : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
+      problem.stages.empty() || family.letters.has_own_letters()
+          ? objective()
+          : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
   const int random_starts =
       options.random_starts.value_or(usual_random_starts(problem, options.effort, free.size()));

@@ -24,6 +24,7 @@ void summarise_rival(const learning_problem& problem, const contender& chosen, s
   for (const auto& method : classical_methods_of_cost(family.letters.evaluations_per_step)) {
     // Rotations are not counted, and are not free: words with them are compared with each other.
     if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
+    if (family.letters.has_own_letters()) continue;  // what these cost is for their author to declare
     if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
     // Nor do words without a processor pay for looking.
     if (method.letters().evaluations_to_look > family.letters.evaluations_to_look) continue;

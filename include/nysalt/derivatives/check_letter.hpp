@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSL-1.0
+// A check of letters that users write by hand.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "nysalt/derivatives/jacobian.hpp"
+#include "nysalt/derivatives/letter_check.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+namespace detail {
+
+template <Flow L>
+constexpr letter_claims claims_of() {
+  letter_claims result{L::letter, L::moves_q, is_symplectic<L>(), false, L::additive, true};
+  if constexpr (requires { L::invertible; }) result.invertible = L::invertible;
+  if constexpr (requires { L::reversible; }) result.reversible = L::reversible;
+  return result;
+}
+
+/// The letter with all of its coefficients times c.
+template <Flow L, System S, Scalar C, Scalar T>
+phase_point<T, S::dimension> after_letter(const S& system, const std::vector<double>& coefficients,
+                                          const C& c, double h, phase_point<T, S::dimension> x) {
+  typename word<L>::template coefficients<C> scaled;
+  for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] = c * coefficients[k];
+  stepper<S, word<L>, C>(system, scaled, h).step(x);
+  return x;
+}
+
+template <int N>
+Eigen::VectorXd as_column(const phase_point<double, N>& x) {
+  Eigen::VectorXd result(2 * x.size());
+  result << x.q, x.p;
+  return result;
+}
+
+template <Flow L, System S>
+letter_trial try_letter(const S& system, const phase_point<double, S::dimension>& x, double h,
+                        const std::vector<double>& coefficients) {
+  using D = dual<double, 1>;
+  constexpr int N = S::dimension;
+  const auto after = [&](double c, const phase_point<double, N>& from) {
+    return after_letter<L>(system, coefficients, c, h, from);
+  };
+  const auto turned = [](phase_point<double, N> z) {
+    z.p = (-z.p).eval();
+    return z;
+  };
+  letter_trial result;
+  const auto y = after(1.0, x);
+  result.x = as_column(x);
+  result.y = as_column(y);
+  result.jacobian = jacobian([&](auto& z) { z = after_letter<L>(system, coefficients, 1.0, h, z); }, x);
+  result.back = as_column(after(-1.0, y));
+  result.in_parts = as_column(after(0.6, after(0.4, x)));
+  result.reversed = as_column(turned(after(1.0, turned(y))));
+  constexpr double apart = 6e-6;  // the cube root of a rounding: its square and rounding over it are equal
+  result.difference = (as_column(after(1.0 + apart, x)) - as_column(after(1.0 - apart, x))) / (2.0 * apart);
+  const auto lifted = after_letter<L>(system, coefficients, D::variable(1.0, 0), h, x.template cast<D>());
+  result.slope.resize(result.y.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    result.slope[i] = lifted.q[i].derivative[0];
+    result.slope[x.size() + i] = lifted.p[i].derivative[0];
+  }
+  return result;
+}
+
+}  // namespace detail
+
+/// Tries a letter, of one's own or of the library, over the step h at some points, and compares what it does
+/// with what it claims: that it is symplectic (by its exact Jacobian), that negated coefficients take it
+/// back, that coefficients add up, that it is reversible, that it leaves q alone; and the derivative by its
+/// coefficients, which learning needs, with a difference. The coefficients are 1 unless given. Points should
+/// be typical of the motion: two or more tell the unit of each coordinate.
+///
+/// Throws std::invalid_argument if there are no points, if one has not the system's dimension, or unless
+/// there is a coefficient for each slot. Cost: 2 N + 8 letters a point, most over dual numbers.
+template <Flow L, System S>
+  requires(!StochasticFlow<L>)
+letter_check check_letter(const S& system, const std::vector<phase_point<double, S::dimension>>& points,
+                          double h, std::vector<double> coefficients = {}) {
+  if (points.empty()) throw std::invalid_argument("check_letter: the points must not be empty");
+  if (coefficients.empty()) coefficients.assign(L::slots, 1.0);
+  if (coefficients.size() != L::slots) {
+    throw std::invalid_argument(sentence("check_letter: the letter {} has {} slots, got {} coefficients",
+                                         L::letter, L::slots, coefficients.size()));
+  }
+  std::vector<detail::letter_trial> trials;
+  for (const auto& x : points) trials.push_back(detail::try_letter<L>(system, x, h, coefficients));
+  return detail::judge_letter(detail::claims_of<L>(), trials);
+}
+
+/// Throws std::invalid_argument, with its report, if a letter of one's own in this word fails check_letter().
+template <TypeLevelWord W, System S>
+void require_sound_letters(const S& system, const std::vector<phase_point<double, S::dimension>>& points,
+                           double h) {
+  const auto require_one = [&]<class L>(std::type_identity<L>) {
+    if constexpr (!detail::is_known_letter<L>) {
+      const letter_check found = check_letter<L>(system, points, h);
+      if (!found.passed()) throw std::invalid_argument(found.report());
+    }
+  };
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (require_one(std::type_identity<typename W::template letter<I>>()), ...);
+  }
+  (std::make_index_sequence<W::length>());
+}
+
+}  // namespace nysalt

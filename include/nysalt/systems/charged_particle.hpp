@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/energy.hpp"
+
+namespace nysalt {
+
+/// A particle of unit mass and charge in a uniform magnetic field along the third axis and an electric
+/// potential, a system of three degrees of freedom with a force:
+///   H = |v|^2/2 + V(q),  v = p - A(q),  A = frequency/2 (-q_2, q_1, 0),
+/// so that v' = force(q) + frequency (v_2, -v_1, 0). The momenta are the canonical ones, in which words of
+/// flows are symplectic. H does not separate: words of letters A and B do not step it; those of
+/// cyclotron_flow, or boris, and kick_of_part<0>, the electric one, do.
+template <System Potential>
+  requires(Potential::dimension == 3)
+class charged_particle {
+ public:
+  static constexpr int dimension = 3;
+  static constexpr std::size_t parts = 1;  ///< the electric potential, for kick_of_part<0>
+
+  /// Throws std::invalid_argument unless the cyclotron frequency is finite and not zero.
+  charged_particle(const Potential& electric, double cyclotron_frequency)
+      : electric_(electric), frequency_(cyclotron_frequency) {
+    if (cyclotron_frequency == 0.0 || !std::isfinite(cyclotron_frequency)) {
+      throw std::invalid_argument(
+          sentence("charged_particle: the cyclotron frequency must be finite and not zero, got {}; without a "
+                   "magnetic field take the potential as the system",
+                   cyclotron_frequency));
+    }
+  }
+
+  /// The electric potential; there is no other part.
+  template <std::size_t I>
+    requires(I == 0)
+  const Potential& part() const { return electric_; }
+  double cyclotron_frequency() const { return frequency_; }  ///< of its turns around the field
+  /// v = p - A(q).
+  template <class State>
+  auto velocity_of(const State& x) const {
+    auto v = x.p;
+    v[0] += x.q[1] * (0.5 * frequency_);
+    v[1] -= x.q[0] * (0.5 * frequency_);
+    return v;
+  }
+  /// Makes p = v + A(q).
+  template <class State>
+  void set_velocity(State& x, const auto& v) const {
+    x.p = v;
+    x.p[0] -= x.q[1] * (0.5 * frequency_);
+    x.p[1] += x.q[0] * (0.5 * frequency_);
+  }
+  /// The state at q with velocity v.
+  phase_point<double, 3> at(const vector<double, 3>& q, const vector<double, 3>& v) const {
+    phase_point<double, 3> x{q, v};
+    set_velocity(x, v);
+    return x;
+  }
+  /// H, which the motion conserves.
+  template <class T>
+  T energy_of(const phase_point<T, 3>& x) const {
+    const auto v = velocity_of(x);
+    return (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * 0.5 + electric_.potential(x.q);
+  }
+  std::string description() const {
+    return sentence("charged_particle({}, cyclotron_frequency={})", describe(electric_), frequency_);
+  }
+
+ private:
+  Potential electric_;
+  double frequency_;
+};
+
+/// The quadrupole of a Penning trap with an octupole, both harmonic functions:
+///   V = omega_z^2/2 (z^2 - rho^2/2) + octupole (z^4 - 3 z^2 rho^2 + 3 rho^4/8),  rho^2 = x^2 + y^2.
+/// Along the field it traps, across it only the magnetic field does, where cyclotron_frequency^2 > 2
+/// omega_z^2 and the amplitudes are small. Source: [brown_gabrielse_1986].
+class penning_potential {
+ public:
+  static constexpr int dimension = 3;
+
+  /// Throws std::invalid_argument unless omega_z is positive and both are finite.
+  explicit penning_potential(double omega_z, double octupole = 0.0) : omega_z_(omega_z), octupole_(octupole) {
+    if (!(omega_z > 0.0) || !std::isfinite(omega_z) || !std::isfinite(octupole)) {
+      throw std::invalid_argument(
+          sentence("penning_potential: omega_z must be positive and both finite, got {} and the octupole {}",
+                   omega_z, octupole));
+    }
+  }
+
+  template <class T>
+  T potential(const vector<T, 3>& q) const {
+    const T rho = q[0] * q[0] + q[1] * q[1];
+    const T z = q[2] * q[2];
+    return (z - rho * 0.5) * (0.5 * omega_z_ * omega_z_) +
+           (z * z - z * rho * 3.0 + rho * rho * 0.375) * octupole_;
+  }
+  template <class T>
+  void force(const vector<T, 3>& q, vector<T, 3>& f) const {
+    const double k = omega_z_ * omega_z_;
+    const T rho = q[0] * q[0] + q[1] * q[1];
+    const T z = q[2] * q[2];
+    const T across = T(0.5 * k) + (z * 6.0 - rho * 1.5) * octupole_;
+    f[0] = q[0] * across;
+    f[1] = q[1] * across;
+    f[2] = q[2] * (T(-k) - (z * 4.0 - rho * 6.0) * octupole_);
+  }
+  std::string description() const {
+    return sentence("penning_potential(omega_z={}, octupole={})", omega_z_, octupole_);
+  }
+
+ private:
+  double omega_z_;
+  double octupole_;
+};
+
+/// A Penning trap: charged_particle(penning_potential(omega_z), cyclotron_frequency).
+using penning_trap = charged_particle<penning_potential>;
+
+}  // namespace nysalt

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSL-1.0
+// Letters of one's own go where letters of the library go: into words as types and as data, over packs and
+// derivatives, and into learning; to the same bits.
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/learn.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+/// The drift, written again.
+struct my_drift : exact_flow<'a'> {
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.q[i] += x.p[i] * t;
+  }
+};
+/// The kick, written again: it evaluates the force itself.
+struct my_kick : exact_flow<'b'> {
+  static constexpr bool moves_q = false;
+  static constexpr int displaced_forces = 1;
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto& room) {
+    using T = typename State::scalar_type;
+    force<T>(system, x.q, room.x);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += room.x[i] * t;
+  }
+};
+
+template <class W>
+struct method_of {
+  using word = W;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return word::letters(); }
+  static typename word::template coefficients<double> coefficients() { return {0.3, 0.5, 0.4, 0.5, 0.3}; }
+};
+using own_drifts_first = method_of<word<my_drift, my_kick, my_drift, my_kick, my_drift>>;
+using own_kicks_first = method_of<word<my_kick, my_drift, my_kick, my_drift, my_kick>>;
+using mixed = method_of<word<drift, my_kick, drift, my_kick, drift>>;
+using library_drifts_first = method_of<word<drift, kick, drift, kick, drift>>;
+using library_kicks_first = method_of<word<kick, drift, kick, drift, kick>>;
+
+using own_methods = std::tuple<own_drifts_first, own_kicks_first, mixed>;
+
+const phase_point<double, 2> start{{0.1, -0.2}, {0.3, 0.1}};
+
+/// The states that a watched run of 7 steps shows, every second of them and the last.
+template <class S, class M>
+std::vector<double> seen(const S& system, const M& method, const phase_point<double, S::dimension>& from) {
+  const auto steps = make_stepper(system, method, 0.2);
+  std::vector<double> all;
+  const auto note = [&](const auto& x) {
+    all.insert(all.end(), x.q.begin(), x.q.end());
+    all.insert(all.end(), x.p.begin(), x.p.end());
+  };
+  auto run = steps.open(from);
+  steps.advance(run, 7, 2, [&](std::int64_t, const auto& x) { note(x); });
+  note(steps.synchronous(run));
+  auto x = from;
+  steps.step(x);
+  note(x);
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(as_data_it_has_the_bits_of_its_type, M, own_methods) {
+  const henon_heiles system;
+  const auto as_type = seen(system, M(), start);
+  BOOST_TEST(as_type == seen(system, tabulated(M(), system), start));
+  const phase_point<double, Eigen::Dynamic> dynamic{start.q, start.p};
+  BOOST_TEST(as_type == seen(model(system), tabulated(M(), system), dynamic));
+}
+
+BOOST_AUTO_TEST_CASE(letters_written_again_have_the_bits_of_the_library) {
+  const henon_heiles system;
+  BOOST_TEST(seen(system, own_drifts_first(), start) == seen(system, library_drifts_first(), start));
+  BOOST_TEST(seen(system, own_kicks_first(), start) == seen(system, library_kicks_first(), start));
+  BOOST_TEST(seen(system, own_kicks_first(), start) != seen(system, library_drifts_first(), start));
+}
+
+BOOST_AUTO_TEST_CASE(also_of_a_dynamic_dimension) {
+  const phi4_chain<> chain(5);
+  const phase_point<double, Eigen::Dynamic> from{Eigen::VectorXd::LinSpaced(5, -0.3, 0.4),
+                                                 Eigen::VectorXd::LinSpaced(5, 0.2, -0.1)};
+  const auto as_type = seen(chain, own_kicks_first(), from);
+  BOOST_TEST(as_type == seen(chain, library_kicks_first(), from));
+  BOOST_TEST(as_type == seen(chain, tabulated(own_kicks_first(), chain), from));
+  BOOST_TEST(as_type == seen(model(chain), tabulated(own_kicks_first(), chain), from));
+}
+
+BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
+  using pack_type = detail::lanes;
+  const model system{henon_heiles()};
+  const tabulated method(own_kicks_first{}, henon_heiles{});
+  const auto steps = make_stepper(system, method, 0.2);
+  const auto start_of = [](int k) {
+    return phase_point<double, Eigen::Dynamic>{Eigen::Vector2d(0.1 + 0.01 * k, -0.2),
+                                               Eigen::Vector2d(0.3, 0.1 - 0.02 * k)};
+  };
+  auto together = steps.open(gather<pack_type, Eigen::Dynamic>(lanes_in<pack_type>, start_of));
+  steps.advance(together, 5);
+  const auto side_by_side = steps.synchronous(together);
+  for (int k = 0; k < lanes_in<pack_type>; ++k) {
+    auto alone = steps.open(start_of(k));
+    steps.advance(alone, 5);
+    const auto x = steps.synchronous(alone);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      BOOST_TEST(lane(side_by_side.q[i], k) == x.q[i]);
+      BOOST_TEST(lane(side_by_side.p[i], k) == x.p[i]);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
+  using W = own_kicks_first::word;
+  static_assert(W::merges && W::evaluations_per_step == 2 && W::evaluations_of_plain_step == 3 &&
+                W::evaluations_to_open == 1 && W::evaluations_to_look == 1);
+  const run_time_word as_data(W{}, henon_heiles());
+  BOOST_TEST(as_data.letters() == "babab");
+  BOOST_TEST(as_data.merges);
+  BOOST_TEST(as_data.has_own_letters());
+  BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
+  BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
+  BOOST_TEST(as_data.evaluations_to_look == W::evaluations_to_look);
+  BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
+  BOOST_TEST(!run_time_word("BAB").has_own_letters());
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {
+  const tabulated method(own_drifts_first{}, henon_heiles{});
+  const pendulum other;
+  BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(other, method, 0.1); },
+                                            {"the word ababa cannot step pendulum(): the letter a is of "
+                                             "henon_heiles(); make the word with this system"}));
+  const henon_heiles same;
+  BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
+}
+
+namespace {
+/// Another letter of the same name.
+struct other_drift : my_drift {};
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(two_letters_of_one_name_are_refused) {
+  using W = word<my_drift, my_kick, other_drift>;
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [] { run_time_word(W{}, henon_heiles()); },
+      {"the word aba has two letters of one's own that are named a; name one of them otherwise"}));
+}
+
+BOOST_AUTO_TEST_CASE(its_action_on_an_oscillator_is_not_guessed) {
+  const run_time_word word(own_drifts_first::word{}, henon_heiles());
+  BOOST_CHECK_THROW(stability_windows(word, {0.3, 0.5, 0.4, 0.5, 0.3}), std::invalid_argument);
+}
+
+namespace {
+
+struct own_family : symmetric_composition<my_drift, my_kick, 7> {
+  static constexpr std::string_view name = "own";
+};
+/// p -= sin(q) of another force.
+struct off_kick : my_kick {
+  static constexpr bool moves_q = false;
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    x.p[0] -= x.q[1] * t;
+    x.p[1] += x.q[0] * t;
+  }
+};
+struct off_family : symmetric_composition<my_drift, off_kick, 7> {
+  static constexpr std::string_view name = "off";
+};
+
+}  // namespace
+
+// The losses have equal bits, so that a search from one start goes the same way.
+BOOST_AUTO_TEST_CASE(what_is_learned_with_it_is_what_is_learned_with_the_library) {
+  const henon_heiles system;
+  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
+  const auto data = [&](std::uint64_t seed) {
+    return make_flow_map_data(system, starts, fine_steps<>(0.01),
+                              {.step = 0.5, .horizon = 2.0, .trajectories = 16, .seed = seed});
+  };
+  const auto first = data(1);
+  const auto second = data(2);
+  const learn_options<own_family> options{.classical_starts = false, .random_starts = 0, .guarded = false};
+  const learn_options<aba<3>> same{.classical_starts = false, .random_starts = 0, .guarded = false};
+  const auto own = learn(own_family(), system, first, second, options);
+  const auto known = learn(aba<3>(), system, first, second, same);
+  BOOST_TEST(own.summary.loss == known.summary.loss);
+  BOOST_TEST(own.method.parameters() == known.method.parameters());
+  BOOST_TEST(own.summary.guard == "trial runs alone, as the word has letters of its own");
+  BOOST_TEST(own.summary.loss < own.summary.held_out_start_loss);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { learn(off_family(), system, first, second); },
+                                            {"the letter b is not symplectic: it is off by "}));
+}
