@@ -118,6 +118,8 @@ class long_fpu_chain {
     return in_turn_.frequency_bands_at(temperature);
   }
   std::string description() const { return sentence("long_fpu_chain(pairs={}, omega={})", pairs(), omega()); }
+  /// That of fpu_chain, whose motion it has.
+  std::string kind() const { return in_turn_.kind(); }
 
  private:
   /// use(i, stiff, left, right) for stiff springs i = 0..m-1: its own pull and those of the soft ones on

@@ -14,7 +14,7 @@ system_declaration declare_phi4() {
                         .usual = 16,
                         .meaning = "of the ring",
                         .least = 1,
-                        .most = 1000}};  // the modes of a ring take a full matrix
+                        .most = 10'000'000}};  // a state of some hundred megabytes
   result.make = [](const parameter_values& values, const bath& in, double spread) {
     const auto masses = values.whole("masses");
     const phi4_chain<> chain(masses);
