@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::int64_t fewest_trajectories = 8;
 constexpr std::int64_t fewest_steps = 500;
+/// States of coordinates, among which those that are one in a thousand are met many times over.
+constexpr std::int64_t many_states = 100'000;
 
 struct length {
   std::int64_t trajectories;
@@ -52,17 +54,22 @@ size_trial try_at_size(const model& system, const tabulated& method, double step
   const auto [trajectories, steps] = length_of(system, word, options.steps);
   const auto all = typical_and_energetic_starts(system, starts, options.seed, 0, trajectories);
   size_trial result;
+  const stability_guard guard(system, all, has_rotation(word), steps, std::min(all.size(), plain_starts));
+  const auto objection_of = [&](met which) {
+    return guard.objection(word, method.coefficients(), step, which);
+  };
   // What is met rarely, and lasts for a part of a period, the trial run tells.
-  result.objection = stability_guard(system, all, has_rotation(word), steps)
-                         .objection(word, method.coefficients(), step, met::often);
+  result.objection = objection_of(met::often);
   if (!result.objection.empty()) return result;
   trial_options some = options;
   some.steps = steps;
   result.run = trial_run(system, method, step, starts_of(all, trajectories), some);
-  if (!result.run.passed()) {
-    result.objection = result.run.not_run.empty()
-                           ? result.run.objection()
-                           : fmt::format("no trial run was made: {}", result.run.not_run);
+  if (!result.run.not_run.empty()) {
+    result.objection = fmt::format("no trial run was made: {}", result.run.not_run);
+  } else if (!result.run.passed()) {
+    result.objection = result.run.objection();
+  } else if (result.run.kept() * steps * system.size() < many_states) {
+    result.objection = objection_of(met::ever);
   }
   return result;
 }
