@@ -120,6 +120,7 @@ void take_many(own_functions& functions, const std::shared_ptr<functions_of_pyth
 own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept) {
   own_functions functions{};
   functions.name = name_in(arguments);
+  arguments.take("kind", functions.kind);
   functions.dimension = dimension_in(arguments);
   functions.inverse_masses = inverse_masses_in(arguments, functions.dimension);
   arguments.take("frequency", functions.frequency);

@@ -31,6 +31,7 @@ class own_hamiltonian {
     return functions_->inverse_masses[static_cast<std::size_t>(i)];
   }
   std::string description() const { return functions_->name; }
+  std::string kind() const { return functions_->kind.empty() ? functions_->name : functions_->kind; }
 
  private:
   std::shared_ptr<const own_functions> functions_;

@@ -16,7 +16,7 @@ namespace nysalt::python {
 /// H = sum p_i^2 / (2 m_i) + V(q), known over double alone: derivatives of the force are differences.
 struct own_functions {
   std::string name;
-  std::int64_t dimension;
+  std::int64_t dimension = 0;
   std::vector<double> inverse_masses;
   std::function<double(std::span<const double> q)> potential;
   std::function<void(std::span<const double> q, std::span<double> f)> force;
@@ -25,6 +25,7 @@ struct own_functions {
   std::function<void(std::span<const double> q, std::int64_t count, std::span<double> f)> forces = {};
   /// The start of trajectory n: a function of both numbers alone.
   std::function<void(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p)> start;
+  std::string kind = {};   // the name without the size; empty: the name
   double frequency = 0.0;  // the highest of the motion; 0: not known yet
 };
 

@@ -147,6 +147,7 @@ py::dict facts(const held_system& system) {
   for (const auto& name : described_system.observables()) observables.append(name);
   py::dict all;
   all["description"] = described_system.description();
+  all["kind"] = described_system.kind();
   all["dimension"] = described_system.dimension();
   all["observables"] = observables;
   all["default_observable"] = described_system.default_observable();

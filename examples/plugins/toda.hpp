@@ -38,7 +38,7 @@ struct toda {
 
 // [declaration]
 NYSALT_SYSTEM(toda, "a ring of particles, each bond exp(r) - 1 - r",
-              parameter("particles", &toda::particles, "in the ring").at_least(2).at_most(1000),
+              parameter("particles", &toda::particles, "in the ring").at_least(2).at_most(1000).size(),
               starts([](const toda& ring, double spread) {
                 const Eigen::VectorXd rest = Eigen::VectorXd::Zero(ring.particles);
                 return normal_around<Eigen::Dynamic>({rest, rest}, 0.3 * spread, 0.5 * spread);

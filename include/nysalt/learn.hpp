@@ -119,7 +119,7 @@ learned<F> learn(const F& family, const S& system, const flow_map_data& data, co
   const member<F> found(array_of<parameters_of<F>{}.size()>(theta), family);
   // A covariance loss asks no data, and has seen no energies.
   const auto energies = summary.is_of_data ? data.energies : std::nullopt;
-  return {tuned_method<F>(found, data.step, data.system, energies), summary};
+  return {tuned_method<F>(found, data.step, data.system, energies, kind_of(system)), summary};
 }
 
 }  // namespace nysalt

@@ -60,7 +60,8 @@ class member {
 
 /// A member with the step and the system that it was learned for; it refuses any other. It knows the energies
 /// that it was learned on, too.
-/// `anywhere()` gives the plain member to those who ask for it.
+/// `anywhere()` gives the plain member to those who ask for it; at_size_of() of learning/at_other_size.hpp
+/// tries it at another size of the system.
 template <Family F>
 class tuned_method {
  public:
@@ -70,10 +71,15 @@ class tuned_method {
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
-  /// `system` is what describe() says of it. Without energies, has_seen is true everywhere.
+  /// `system` is what describe() says of it, `kind` what kind_of() does. Without energies, has_seen is true
+  /// everywhere; without a kind, at_size_of() finds no other size of it.
   tuned_method(const member<F>& plain, double step, std::string system,
-               std::optional<energy_range> energies = {})
-      : member_(plain), step_(step), system_(std::move(system)), energies_(energies) {}
+               std::optional<energy_range> energies = {}, std::string kind = {})
+      : member_(plain),
+        step_(step),
+        system_(std::move(system)),
+        kind_(std::move(kind)),
+        energies_(energies) {}
 
   const parameters_of<F>& parameters() const { return member_.parameters(); }
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
@@ -81,6 +87,8 @@ class tuned_method {
   std::string name() const { return "learned:" + member_.name(); }
   double step() const { return step_; }                  ///< at which it was learned
   const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
+  /// Of which kind that system is; empty where that is not known.
+  const std::string& kind() const { return kind_; }
   /// The energies of the trajectories that it was learned from; nothing where nobody told.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
@@ -110,6 +118,7 @@ class tuned_method {
   member<F> member_;
   double step_;
   std::string system_;
+  std::string kind_;
   std::optional<energy_range> energies_;
 };
 

@@ -39,12 +39,17 @@ class model {
     requires(!std::same_as<S, model> && SeparableSystem<S>)
   model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(detail::erased(system)),
-        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))) {
+        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))),
+        kind_alone_(detail::kind_without_bath(system)) {
     detail::library_is_compiled_for<default_lanes>();
   }
 
   Eigen::Index size() const { return facts_->size; }                      ///< degrees of freedom
   const std::string& description() const { return facts_->description; }  ///< the system's
+  /// The description without the size, see kind_of().
+  std::string kind() const {
+    return facts_->in.acts() ? kind_alone_ + " in " + facts_->in.description() : kind_alone_;
+  }
   const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
   /// The system without its bath.
   model alone() const {
@@ -169,6 +174,7 @@ class model {
 
   std::shared_ptr<const detail::any_system> system_;
   std::shared_ptr<const detail::model_facts> facts_;
+  std::string kind_alone_;  // without a bath
   bool is_in_bath_ = true;
   int threads_ = 1;
 };

@@ -35,6 +35,7 @@ struct member_parameter {
     return declared.most = std::min(declared.most, bound), std::move(*this);
   }
   member_parameter positive() && { return declared.is_positive = true, std::move(*this); }
+  member_parameter size() && { return declared.is_size = true, std::move(*this); }
 };
 
 template <class F>
@@ -56,12 +57,16 @@ concept TellsDescription = requires(const S& s) {
   { s.description() } -> std::convertible_to<std::string>;
 };
 
-/// S with a description that names its parameters, which S itself does not give.
+/// S with a description that names the parameters, and a kind that names those that are no size, where S
+/// itself does not give them.
 template <class S>
 struct described : S {
-  described(const S& system, std::string given) : S(system), text(std::move(given)) {}
+  described(const S& system, std::string description, std::string kind)
+      : S(system), text(std::move(description)), text_of_kind(std::move(kind)) {}
   std::string description() const { return text; }
+  std::string kind() const { return text_of_kind; }
   std::string text;
+  std::string text_of_kind;
 };
 
 template <class S>
@@ -114,7 +119,8 @@ inline std::string plugin_stamp() {
 }  // namespace detail
 
 /// A data member as a parameter of the system, usually what a default-constructed system has there. Bounds
-/// follow: parameter(...).at_least(2), .at_most(1000), .positive().
+/// follow: parameter(...).at_least(2), .at_most(1000), .positive(). A parameter that says how many equal
+/// parts the system has is marked by .size(): what was learned at one size may then be tried at another.
 template <class S, class Number>
   requires std::is_arithmetic_v<Number> detail::member_parameter<S> parameter(std::string name,
                                                                               Number S::*member,
@@ -176,11 +182,16 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
                     const parameter_values& values, const bath& in, double spread) {
     S system;
     std::string listed;
+    std::string listed_of_kind;
+    bool has_size = false;
     for (const auto& member : members) {
       const auto& value = values[member.declared.name];
       member.set(system, value);
-      if (!listed.empty()) listed += ", ";
-      listed += member.declared.name + "=" + std::visit([](auto x) { return sentence("{}", x); }, value);
+      const std::string text =
+          member.declared.name + "=" + std::visit([](auto x) { return sentence("{}", x); }, value);
+      listed += (listed.empty() ? "" : ", ") + text;
+      has_size = has_size || member.declared.is_size;
+      if (!member.declared.is_size) listed_of_kind += (listed_of_kind.empty() ? "" : ", ") + text;
     }
     std::vector<named_observable> observables;
     double highest = 0.0;
@@ -197,12 +208,16 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       }
     }
     initial_value_problem made = [&] {
+      constexpr bool tells_kind = requires(const S& s) {
+        { s.kind() } -> std::convertible_to<std::string>;
+      };
       if constexpr (detail::TellsDescription<S>) {
-        return detail::made_of(system, in, law.front(), highest);
-      } else {
-        const std::string text = name + "(" + listed + ")";
-        return detail::made_of(detail::described<S>(system, text), in, law.front(), highest);
+        if (tells_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
       }
+      const std::string text = detail::TellsDescription<S> ? describe(system) : name + "(" + listed + ")";
+      std::string kind = has_size ? name + "(" + listed_of_kind + ")" : text;
+      if constexpr (tells_kind) kind = system.kind();
+      return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";

@@ -22,7 +22,7 @@
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   template <class T> void soft_force(const vector<T, N>& q, vector<T, N>& f) const;
 //                                          that of V less q K q/2, which modes() diagonalises
-//   std::string description() const;
+//   std::string description() const;  std::string kind() const;          the description without the size
 #pragma once
 
 #include <concepts>
@@ -36,12 +36,24 @@
 
 namespace nysalt {
 
+/// An entry of a basis of modes that is not zero.
+struct mode_entry {
+  Eigen::Index coordinate;  ///< row
+  Eigen::Index mode;        ///< column
+  double value;             ///< in mass-weighted coordinates
+};
+
 /// Orthonormal modes of the quadratic part: column k of `basis` in mass-weighted coordinates M^{1/2} q,
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
-  Eigen::MatrixXd basis;        ///< N x N, orthogonal
+  Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` tell it
   Eigen::VectorXd frequencies;  ///< N of them, none negative
+  /// Of many coordinates and modes of a few each: all that is not zero in the basis, row by row.
+  std::vector<mode_entry> entries{};
 };
+
+/// Above this number of coordinates the bundled systems give no full N x N basis: 8 MB.
+inline constexpr Eigen::Index most_for_full_basis = 1000;
 
 /// Angular frequencies, low to high, that the linearised motion has.
 struct frequency_band {
@@ -247,10 +259,16 @@ constexpr bool has_quadratic_kinetic(const S& system) {
   if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_kinetic;
   return NystromSystem<S>;
 }
-/// Whether the modes of its quadratic part are declared.
+/// Whether the modes of its quadratic part are declared. A system whose modes take too much room at some
+/// sizes says so by a member `bool has_modes() const`.
 template <System S>
 constexpr bool has_modes(const S& system) {
   if constexpr (ErasedSystem<S>) return system.facts().has_modes;
+  if constexpr (HasModes<S> && requires {
+                  { system.has_modes() } -> std::same_as<bool>;
+                }) {
+    return system.has_modes();
+  }
   return HasModes<S>;
 }
 /// Whether modes and soft force are declared.
@@ -302,6 +320,20 @@ std::string describe(const S& system) {
     name += std::to_string(size(system));
     name += " degrees of freedom";
     return name;
+  }
+}
+
+/// Of which kind a system is: the description without the size, by a member kind(). A method that was learned
+/// for one size may be tried at another, see learning/at_other_size.hpp. Systems that do not tell have a kind
+/// of their own, the description.
+template <System S>
+std::string kind_of(const S& system) {
+  if constexpr (requires {
+                  { system.kind() } -> std::convertible_to<std::string>;
+                }) {
+    return system.kind();
+  } else {
+    return describe(system);
   }
 }
 

@@ -35,6 +35,7 @@ struct declared_parameter {
   double most = std::numeric_limits<double>::infinity();    ///< the largest that is allowed
   double below = std::numeric_limits<double>::infinity();   ///< this itself is not allowed
   bool is_positive = false;                                 ///< 0 is not allowed, nor is anything below
+  bool is_size = false;  ///< how many parts there are, no property of one: two sizes are of one kind
 
   /// Whether its values are whole numbers.
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }

@@ -88,6 +88,8 @@ class System:
         facts = held.facts()
         #: By which a scheme knows it.
         self.description: str = facts["description"]
+        #: The description without the size, by which a scheme knows other sizes; empty where there is none.
+        self.kind: str = facts["kind"]
         #: Degrees of freedom.
         self.dimension: int = facts["dimension"]
         #: What `run` can sample; "q1..q6" stands for q1, q2, ... q6.
@@ -181,14 +183,16 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
                 force: Callable[[np.ndarray], Any], starts: Callable[[int, int], Tuple[Any, Any]],
                 inverse_mass: Numbers = 1.0, frequency: Optional[float] = None, batched: bool = False,
                 friction: Optional[float] = None, sigma: Optional[float] = None,
-                temperature: Optional[float] = None) -> System:
+                temperature: Optional[float] = None, kind: Optional[str] = None) -> System:
     """H = sum_i inverse_mass_i p_i^2/2 + V(q) of your own, by functions of Python.
 
     potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
     checked against differences of the potential at four starts. starts(seed, n) is the start (q, p) of
     trajectory n: a function of these two numbers alone, such as one of np.random.default_rng([seed, n]).
     `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
-    is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters.
+    is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters. `kind` is
+    the name without the size: a scheme that was learned at another size of the same kind is tried here, and used
+    if it passes.
     The dimension is at most ten million.
 
     With batched=True, potential and force take arrays (trajectories, dimension) and return (trajectories,) and
@@ -237,7 +241,8 @@ class Table(_FromFile):
 class Scheme(_FromFile):
     """A family's parameters that were learned for a system and a step (or a curve of steps).
 
-    It holds there, and is refused elsewhere unless force=True is given.
+    It holds there, and is refused elsewhere unless force=True is given. At another size of the same kind of system
+    (`System.kind`) it is tried first, and a warning says so.
     """
 
     def __init__(self, text: str, name: str, fit: Optional[Dict[str, Any]] = None) -> None:

@@ -51,6 +51,10 @@ export_source plain_source(const method_source& source, const export_request& re
   about.push_back(
       fmt::format("For the system {} at the step {}: at another step or system it promises nothing.",
                   learned.system, step));
+  if (!learned.kind.empty()) {
+    about.push_back(fmt::format(
+        "Other sizes of its kind, {}, need a trial run: nysalt run or compare makes one.", learned.kind));
+  }
   if (!learned.usable) about.push_back(fmt::format("NOT to be used: {}", learned.reason));
   return result;
 }

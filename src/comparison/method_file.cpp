@@ -135,6 +135,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
                   where,
                   theta_curve(steps, thetas),
                   of_system.text("description"),
+                  document.at("system").contains("kind") ? of_system.text("kind") : "",
                   source_of_system(document.at("system")),
                   read.flag("usable"),
                   read.text("reason"),
@@ -233,7 +234,7 @@ std::string scheme::steps() const {
 std::string source_of_system(const json& parameters) {
   if (!parameters.contains("source")) return {};
   json known = parameters;
-  for (const char* other : {"description", "spread", "friction", "sigma"}) known.erase(other);
+  for (const char* other : {"description", "kind", "spread", "friction", "sigma"}) known.erase(other);
   return known.dump();
 }
 

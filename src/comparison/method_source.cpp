@@ -91,12 +91,16 @@ void charge(method_source& source, const prepared_problem& system) {
 
 bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
 
+bool is_of_other_size(const scheme& learned, const prepared_problem& system) {
+  return learned.system != system.description() && !learned.kind.empty() && learned.kind == system.kind();
+}
+
 std::string out_of_place(const scheme& learned, const prepared_problem& system, double step) {
   std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
     reasons.push_back(message("it was learned for {}, not {}", learned.steps(), step));
   }
-  if (learned.system != system.description()) {
+  if (learned.system != system.description() && !is_of_other_size(learned, system)) {
     reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
   }
   if (learned.system == system.description() && learned.source != source_of_system(system.parameters())) {
@@ -121,12 +125,36 @@ tabulated from_scheme(const method_source& source, const prepared_problem& syste
   return method;
 }
 
+/// Refuses a method of another size that fails the trial at this one; without --force.
+void take_at_size(const method_source& source, const tabulated& method, const prepared_problem& system,
+                  double step, bool force, std::vector<std::string>& warnings) {
+  const std::string which =
+      fmt::format("{}: it was learned at another size, for {}", source.typed, source.learned->system);
+  if (force) {
+    warnings.push_back(which + "; it was not tried at this size (--force)");
+    return;
+  }
+  system.require_served(method.letters());
+  const size_trial& tried = system.try_at_size(method, step);
+  if (!tried.passed()) {
+    refuse("{}, and fails the trial for {}: {}; learn it there, take a smaller step, or take --force", which,
+           system.description(), tried.objection);
+  }
+  warnings.push_back(
+      fmt::format("{}; it passed the trial run for {}: {}", which, system.description(), tried.run.report()));
+}
+
 tabulated found_at(const method_source& source, const prepared_problem& system, double step, bool force,
                    std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     const std::string why = out_of_place(*source.learned, system, step);
-    if (why.empty()) return from_scheme(source, system, step, force);
+    if (why.empty()) {
+      const tabulated method = from_scheme(source, system, step, force);
+      if (is_of_other_size(*source.learned, system))
+        take_at_size(source, method, system, step, force, warnings);
+      return method;
+    }
     if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
     warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
     return from_scheme(source, system, step, force);
@@ -181,8 +209,9 @@ tabulated coefficients_at(const method_source& source, const prepared_problem& s
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
-  const bool was_judged =
-      source.learned && source.learned->usable && out_of_place(*source.learned, system, step).empty();
+  const bool was_judged = source.learned && source.learned->usable &&
+                          out_of_place(*source.learned, system, step).empty() &&
+                          !(force && is_of_other_size(*source.learned, system));
   if (was_judged) return method;
   if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;

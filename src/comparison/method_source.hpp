@@ -34,12 +34,16 @@ void charge(method_source& source, const prepared_problem& system);
 /// Whether the step is the scheme's own, to 1e-9 relative, as steps are typed in decimals.
 bool is_at(const scheme& learned, double step);
 
-/// Why a scheme from a file is not valid here; empty if it is.
+/// Whether a scheme was learned for another size of this kind of system.
+bool is_of_other_size(const scheme& learned, const prepared_problem& system);
+
+/// Why a scheme from a file is not valid here; empty if it is, or may be tried as one of another size.
 std::string out_of_place(const scheme& learned, const prepared_problem& system, double step);
 
 /// The coefficients of a source that needs no learning; in a bath with letters O, where `otherwise` says if
-/// source does not. A scheme that is out of place is refused unless `force`; then a warning is added, and
-/// also where the step is not linearly stable for the system, or letters O are left out for want of a bath.
+/// source does not. A scheme that is out of place is refused unless `force`, and so is one of another size
+/// that fails the trial there; a warning says what was used all the same, or tried, and also where the step
+/// is not linearly stable for the system, or letters O are left out for want of a bath.
 tabulated coefficients_at(const method_source& source, const prepared_problem& system, double step,
                           bool force, std::optional<placement> otherwise, std::vector<std::string>& warnings);
 

@@ -2,6 +2,8 @@
 // What a problem is: its system, its starts, and where it is stable.
 #include "prepared_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -37,8 +39,11 @@ std::string to_string(start where) {
 }
 
 prepared_problem::prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
-                                   const surroundings& conditions)
-    : made_(std::move(definition)), parameters_(std::move(parameters)), start_(conditions.start) {
+                                   const surroundings& conditions, std::string source)
+    : made_(std::move(definition)),
+      parameters_(std::move(parameters)),
+      source_of_kind_(std::move(source)),
+      start_(conditions.start) {
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
     refuse("{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
@@ -48,6 +53,12 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
 }
 
 std::string prepared_problem::description() const { return describe(made_.system); }
+
+std::string prepared_problem::kind() const {
+  const std::string kind = made_.system.kind();
+  if (kind == description()) return {};
+  return source_of_kind_.empty() ? kind : kind + "; " + source_of_kind_;
+}
 
 std::int64_t prepared_problem::dimension() const { return size(made_.system); }
 
@@ -185,6 +196,13 @@ trial_result prepared_problem::trial(const tabulated& method, const trajectories
   if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
   return trial_run(made_.system, method, plan.step, repeated_in_bath(made_.system, states),
                    {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
+}
+
+const size_trial& prepared_problem::try_at_size(const tabulated& method, double step) const {
+  const std::string key =
+      fmt::format("{} {} {}", method.letters().letters(), fmt::join(method.coefficients(), " "), step);
+  if (const auto known = tried_.find(key); known != tried_.end()) return known->second;
+  return tried_.emplace(key, nysalt::try_at_size(made_.system, method, step, starts_or_law())).first->second;
 }
 
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }

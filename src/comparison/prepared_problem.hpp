@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
+#include "nysalt/learning/at_other_size.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "nysalt/trial_run.hpp"
 #include "plans.hpp"
@@ -48,9 +50,10 @@ struct surroundings {
 
 class prepared_problem {
  public:
-  /// Throws refusal if there is no law of such starts.
+  /// Throws refusal if there is no law of such starts. `source` is what makes two kinds of one name
+  /// different.
   prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
-                   const surroundings& conditions);
+                   const surroundings& conditions, std::string source = {});
 
   /// What the problem was made of.
   const initial_value_problem& definition() const { return made_; }
@@ -59,6 +62,9 @@ class prepared_problem {
   const initial_states& prepared_starts() const { return *starts_; }
 
   std::string description() const;
+  /// The description without the size, and what else a method that was learned at another size must agree
+  /// with; empty where the system tells no kind.
+  std::string kind() const;
   /// Degrees of freedom.
   std::int64_t dimension() const;
   /// H(q, p), and f = -grad V(q), with dimension() numbers in each of q, p and f. Cost: one evaluation.
@@ -99,6 +105,9 @@ class prepared_problem {
   /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
   /// ones.
   trial_result trial(const tabulated& method, const trajectories_plan& plan) const;
+  /// Tries a method that was learned at another size, see nysalt::try_at_size(). Cost: of a method that was
+  /// tried before none.
+  const size_trial& try_at_size(const tabulated& method, double step) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
   /// Throws refusal for what cannot be learned, before any work is done.
@@ -162,9 +171,11 @@ class prepared_problem {
 
   initial_value_problem made_;
   std::vector<named_value> parameters_;
+  std::string source_of_kind_;
   start start_;
   std::optional<initial_states> starts_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
+  mutable std::map<std::string, size_trial> tried_;  // by letters, coefficients and step
 };
 
 /// Highest angular frequency that the system declares; nothing if it declares none.

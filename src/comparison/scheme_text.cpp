@@ -26,6 +26,7 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const prepar
   const bool is_curve = learned.size() > 1;
   json of_system = system.parameters();
   of_system["description"] = system.description();
+  if (const std::string kind = system.kind(); !kind.empty()) of_system["kind"] = kind;
   // One value, or a list with one for each step.
   const auto at_steps = [&](const auto& value_of) {
     if (!is_curve) return json(value_of(fit));

@@ -36,6 +36,7 @@ struct c_functions {
   std::int64_t dimension;
   std::vector<double> inverse_masses;
   std::string description;
+  std::string kind;  // the description if the library tells none
   std::string file;
 };
 
@@ -103,6 +104,7 @@ class c_hamiltonian {
     return functions().inverse_masses[static_cast<std::size_t>(i)];
   }
   std::string description() const { return functions().description; }
+  std::string kind() const { return functions().kind; }
 
   phase_point<double, Eigen::Dynamic> start(const column& normals) const {
     phase_point<double, Eigen::Dynamic> x{column(size()), column(size())};
@@ -180,6 +182,8 @@ c_functions functions_of(void* library, const std::string& path, const std::stri
   }
   auto* const described = optional_function<decltype(nysalt_description)>(library, "nysalt_description");
   all.description = described != nullptr ? described() : std::filesystem::path(path).stem().string();
+  auto* const kind = optional_function<decltype(nysalt_kind)>(library, "nysalt_kind");
+  all.kind = kind != nullptr ? kind() : all.description;
   return all;
 }
 

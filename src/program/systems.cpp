@@ -125,6 +125,19 @@ void require_options(const system_settings& settings, const std::map<std::string
   if (settings.spread) require("spread");
 }
 
+/// What the kind of a system of the user's own stands for: the source, and all parameters but sizes. A
+/// library of C functions has one size, so that another size is another source: nysalt_kind() alone says of
+/// which kind it is.
+std::string source_of_kind(const system_declaration& declared, const parameter_values& values) {
+  if (declared.identity.empty() || declared.parameters.empty()) return {};
+  std::string text = "source " + declared.identity;
+  for (const auto& parameter : declared.parameters) {
+    if (parameter.is_size || parameter.is_text()) continue;
+    text += fmt::format(", {}={}", parameter.name, text_of(values[parameter.name]));
+  }
+  return text;
+}
+
 }  // namespace
 
 const system_declaration& declaration_of(const std::string& name) {
@@ -182,11 +195,12 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
     }
     return made;
   };
-  if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions);
+  const std::string source = source_of_kind(declared, values);
+  if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions, source);
   try {
     initial_value_problem made = make();
     examine(made, declared.name);
-    return std::make_unique<prepared_problem>(std::move(made), named, conditions);
+    return std::make_unique<prepared_problem>(std::move(made), named, conditions, source);
   } catch (const refusal&) {
     throw;
   } catch (const std::bad_alloc&) {

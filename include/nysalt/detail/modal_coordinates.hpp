@@ -2,6 +2,7 @@
 // Coordinates in which the quadratic part of a Hamiltonian is a sum of harmonic oscillators.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -32,8 +33,14 @@ class modal_coordinates {
   static std::shared_ptr<const modal_coordinates> of(const S& system) {
     const normal_modes modes = system.modes();
     const Eigen::Index n = nysalt::size(system);
-    if (modes.basis.rows() != n || modes.basis.cols() != n || modes.frequencies.size() != n ||
-        !modes.basis.allFinite() || !modes.frequencies.allFinite() ||
+    const bool are_entries = modes.basis.size() == 0 && !modes.entries.empty();
+    const auto is_within = [&](const mode_entry& u) {
+      return 0 <= u.coordinate && u.coordinate < n && 0 <= u.mode && u.mode < n && std::isfinite(u.value);
+    };
+    const bool is_basis = are_entries
+                              ? std::ranges::all_of(modes.entries, is_within)
+                              : modes.basis.rows() == n && modes.basis.cols() == n && modes.basis.allFinite();
+    if (!is_basis || modes.frequencies.size() != n || !modes.frequencies.allFinite() ||
         (modes.frequencies.array() < 0.0).any()) {
       throw std::invalid_argument(
           sentence("the modes of {} must be a finite {} x {} basis with a frequency >= 0 for each",
@@ -41,9 +48,16 @@ class modal_coordinates {
     }
     auto result = std::make_shared<modal_coordinates>();
     result->frequencies_.assign(modes.frequencies.begin(), modes.frequencies.end());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double root = 1.0;
-      if constexpr (HasInverseMass<S>) root = std::sqrt(1.0 / system.inverse_mass(i));
+    const auto root_mass = [&](Eigen::Index i) {
+      if constexpr (HasInverseMass<S>) return std::sqrt(1.0 / system.inverse_mass(i));
+      return i < 0 ? 0.0 : 1.0;
+    };
+    for (const auto& [i, k, u] : modes.entries) {
+      const double root = root_mass(i);
+      result->entries_.push_back({i, k, u * root, u / root});
+    }
+    for (Eigen::Index i = 0; i < modes.basis.rows(); ++i) {
+      const double root = root_mass(i);
       for (Eigen::Index k = 0; k < n; ++k) {
         const double u = modes.basis(i, k);
         if (u != 0.0) result->entries_.push_back({i, k, u * root, u / root});

@@ -312,6 +312,13 @@ std::string letters_served() {
   return result;
 }
 
+/// The kind of the system without its bath.
+template <class S>
+std::string kind_without_bath(const S& system) {
+  if constexpr (HasBath<S> && requires { kind_of(system.alone()); }) return kind_of(system.alone());
+  return kind_of(system);
+}
+
 /// What the concepts say of S, and what the system itself does.
 template <class S>
 model_facts facts_of(const S& system) {
@@ -337,7 +344,7 @@ model_facts facts_of(const S& system) {
   facts.has_differentiable_velocity =
       NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
       (HasKineticEnergy<S, double> && HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
-  facts.has_modes = HasModes<S>;
+  facts.has_modes = has_modes(system);
   facts.has_quadratic_part = HasQuadraticPart<S>;
   facts.has_bands = HasFrequencyBands<S>;
   facts.has_own_kick = HasKick<S, double>;

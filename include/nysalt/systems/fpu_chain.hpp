@@ -187,8 +187,10 @@ class fpu_chain {
   }
 
   /// The paper's x_0 (first m columns, frequency 0) and x_1 (last m, frequency omega), equations (5.2-3).
+  /// Of more than most_for_full_basis masses as entries.
   normal_modes modes() const {
     const double half = std::sqrt(0.5);
+    if (size() > most_for_full_basis) return local_modes(half);
     normal_modes result{Eigen::MatrixXd::Zero(size(), size()), Eigen::VectorXd::Zero(size())};
     for (Eigen::Index i = 0; i < pairs(); ++i) {
       result.basis(2 * i, i) = half;
@@ -211,6 +213,7 @@ class fpu_chain {
     return frequency_bands(std::max(2.0, 12.5 * temperature));
   }
   std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
+  std::string kind() const { return sentence("fpu_chain(omega={})", omega_); }
 
  private:
   /// take(i, stiff, left, right) for stiff springs begin .. end - 1, with the pull of stiff spring i and of
@@ -239,6 +242,18 @@ class fpu_chain {
         take(i, T((q(1, i) - q(0, i)) * k), soft[n], soft[n + 1]);
       }
     }
+  }
+
+  normal_modes local_modes(double half) const {
+    normal_modes result{{}, Eigen::VectorXd::Zero(size())};
+    result.frequencies.tail(pairs()).setConstant(omega_);
+    for (Eigen::Index i = 0; i < pairs(); ++i) {
+      const Eigen::Index stiff = pairs() + i;
+      result.entries.insert(
+          result.entries.end(),
+          {{2 * i, i, half}, {2 * i, stiff, -half}, {2 * i + 1, i, half}, {2 * i + 1, stiff, half}});
+    }
+    return result;
   }
 
   template <class T>

@@ -44,6 +44,11 @@ class in_bath : public S {
     if (!bath_.acts()) return describe(alone());
     return sentence("{} in {}", describe(alone()), bath_.description());
   }
+  /// That of the system, and the bath.
+  std::string kind() const {
+    if (!bath_.acts()) return kind_of(alone());
+    return sentence("{} in {}", kind_of(alone()), bath_.description());
+  }
 
  private:
   nysalt::bath bath_;

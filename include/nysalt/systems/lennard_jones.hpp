@@ -96,6 +96,7 @@ class lennard_jones {
   }
 
   std::string description() const { return sentence("lennard_jones(space={}, atoms={})", space(), atoms()); }
+  std::string kind() const { return sentence("lennard_jones(space={})", space()); }
 
  private:
   /// Calls f(first, second, d, 1/r^2) for each pair of atoms: where the coordinates of each begin, and the

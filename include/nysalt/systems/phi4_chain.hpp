@@ -94,6 +94,8 @@ class phi4_chain {
 
   /// Modes of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of
   /// each but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
+  /// A full basis: has_modes() is false of a chain for which it is too large.
+  bool has_modes() const { return size() <= most_for_full_basis; }
   normal_modes modes() const {
     const Eigen::Index n = size();
     normal_modes result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};
@@ -124,6 +126,7 @@ class phi4_chain {
     return frequency_bands(std::max(usual_well_energy, 12.5 * temperature));
   }
   std::string description() const { return sentence("phi4_chain(masses={})", size()); }
+  std::string kind() const { return "phi4_chain()"; }
 
  private:
   template <class T>

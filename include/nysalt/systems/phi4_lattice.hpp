@@ -106,6 +106,9 @@ class phi4_lattice {
   std::string description() const {
     return sentence("phi4_lattice(side={}, mass_squared={}, coupling={})", side_, mass_squared_, coupling_);
   }
+  std::string kind() const {
+    return sentence("phi4_lattice(mass_squared={}, coupling={})", mass_squared_, coupling_);
+  }
 
  private:
   /// body(row, above, below) with the first coordinates of these rows.

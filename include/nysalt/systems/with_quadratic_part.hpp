@@ -29,6 +29,7 @@ class with_quadratic_part : public S {
 
   const S& alone() const { return *this; }  ///< as it was given
   normal_modes modes() const { return modes_; }
+  bool has_modes() const { return true; }  ///< whatever S says of its own
 
   /// The rest of the force, f + K q. Cost: a force and N^2 products.
   template <class T>
@@ -46,6 +47,8 @@ class with_quadratic_part : public S {
     return sentence("{} with a quadratic part of frequencies up to {}", describe(alone()),
                     modes_.frequencies.maxCoeff());
   }
+  /// One of its own: the quadratic part at another size is another.
+  std::string kind() const { return description(); }
 
  private:
   Eigen::MatrixXd stiffness_;

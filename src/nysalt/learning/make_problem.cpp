@@ -18,6 +18,8 @@
 
 #include "facts_of_data.hpp"
 #include "losses_of_problem.hpp"
+#include "nysalt/derivatives/frequencies_at.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/learning/fit.hpp"
@@ -30,10 +32,18 @@ namespace nysalt {
 
 namespace {
 
-/// Those that were asked for; else the energy coordinates where the loss is of them and they exist, else qp.
+/// Whether a change to modes costs a pass over the coordinates, and no product with a full matrix.
+bool has_cheap_modes(const model& system) {
+  if (!has_modes(system)) return false;
+  const auto each = std::ssize(modal_coordinates::of(system)->entries()) / size(system);
+  return each <= most_for_all_frequencies;
+}
+
+/// Those that were asked for; else the energy coordinates where the loss is of them and they are cheap, else
+/// qp.
 coordinates coordinates_of(const model& system, const fit_options& options, bool is_of_energy_norm) {
   if (options.coordinates) return *options.coordinates;
-  return is_of_energy_norm && has_modes(system) ? coordinates::energy : coordinates::qp;
+  return is_of_energy_norm && has_cheap_modes(system) ? coordinates::energy : coordinates::qp;
 }
 
 /// A summary must not take one loss for another, and names it in a line.

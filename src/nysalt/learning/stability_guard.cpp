@@ -203,8 +203,9 @@ void stability_guard::extend(const frequencies_along& along, std::size_t typical
     }
   }
   // A band from zero is a bound: how much of it is met often is known where all frequencies of the states
-  // are.
-  for (std::size_t k = 0; k < declared.size() && along.are_complete; ++k) {
+  // are, and of a single band where the highest are.
+  const bool are_known = along.are_complete || declared.size() == 1;
+  for (std::size_t k = 0; k < declared.size() && are_known; ++k) {
     if (declared[k].low > 0.0 || often_[k].high > declared[k].high) continue;
     of_states inside;
     for (std::size_t state = 0; state < typical; ++state) {

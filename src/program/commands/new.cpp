@@ -90,7 +90,7 @@ inline auto starts_of(const NAME& system, double spread) {
 inline auto first_bond(const NAME&, const auto& x) { return x.q[0]; }
 
 NYSALT_SYSTEM(NAME, "masses between walls, joined by Morse bonds",
-              parameter("masses", &NAME::masses, "in the chain").at_least(1).at_most(1000),
+              parameter("masses", &NAME::masses, "in the chain").at_least(1).at_most(1000).size(),
               parameter("depth", &NAME::depth, "of each bond").positive(),
               parameter("width", &NAME::width, "of each bond, an inverse length").positive(),
               starts([](const NAME& system, double spread) { return starts_of(system, spread); }),

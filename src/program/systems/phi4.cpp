@@ -10,12 +10,11 @@ namespace nysalt::program {
 system_declaration declare_phi4() {
   system_declaration result{.name = "phi4",
                             .title = "masses in wells q^4/4, a ring joined by linear springs"};
-  result.parameters = {
-      {.name = "masses",
-       .usual = 16,
-       .meaning = "of the ring",
-       .least = 1,
-       .most = 10'000'000}};  // a run takes some gigabytes; where modes are asked for, a full matrix
+  result.parameters = {{.name = "masses",
+                        .usual = 16,
+                        .meaning = "of the ring",
+                        .least = 1,
+                        .most = 10'000'000}};  // a state of some hundred megabytes
   result.make = [](const parameter_values& values, const bath& in, double spread) {
     const auto masses = values.whole("masses");
     const phi4_chain<> chain(masses);

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSL-1.0
+// Schemes at another size than they were learned for: tried, used or refused, and what is said.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "../support/document.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+const std::string learn_small =
+    "learn --step 0.02 --trajectories 8 --horizon 0.4 --loss state:1 --effort quick ";
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The only warning that holds the words.
+std::string warning_in(const json& document, const std::string& words) {
+  std::string found;
+  for (const std::string text : document["warnings"]) {
+    if (says(text, words)) found = text;
+  }
+  return found;
+}
+
+/// One line of standard error that says all of these; nothing else was done.
+void require_refused(const finished& done, std::initializer_list<const char*> words) {
+  BOOST_TEST(done.code == 2, done.err);
+  BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
+  for (const char* part : words) BOOST_TEST(says(done.err, part), part << " is missing in " << done.err);
+}
+
+/// Quartic wells whose stiffness grows with their number to a power, from their bottoms.
+constexpr const char* wells_source = R"(#include <nysalt/plugin.hpp>
+#include <cmath>
+struct wells {
+  static constexpr int dimension = Eigen::Dynamic;
+  int number = 1;
+  double power = 0.0;
+  Eigen::Index size() const { return number; }
+  template <class T> T potential(const nysalt::vector<T, dimension>& q) const {
+    const double k = std::pow(number, power);
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < q.size(); ++i) sum += q[i] * q[i] * q[i] * q[i] * (0.25 * k);
+    return sum;
+  }
+};
+NYSALT_SYSTEM(wells, "quartic wells", parameter("number", &wells::number, "of wells").at_least(1).size(),
+              parameter("power", &wells::power, "by which wells stiffen with their number"),
+              starts([](const wells& s) {
+                const Eigen::VectorXd rest = Eigen::VectorXd::Zero(s.number);
+                return normal_around<Eigen::Dynamic>({rest, rest}, 0.0, 1.0);
+              }),
+              frequency([](const wells&) { return 3.0; }));
+)";
+
+/// A scheme that was written before systems told their kind.
+const std::string old_scheme = NYSALT_SOURCE_DIR "/tests/inputs/scheme_without_kind.json";
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_scheme_of_a_small_chain_runs_a_large_one_once_it_was_tried) {
+  const scratch folder("other_size");
+  BOOST_REQUIRE(run(folder, learn_small + "--family nystrom --output small.json").code == 0);
+  std::ifstream file(folder / "small.json");
+  BOOST_TEST(json::parse(file)["system"]["kind"] == "fpu_chain(omega=50)");
+
+  const std::string what = "--step 0.02 --horizon 0.2 --trajectories 4 ";
+  const auto there = document("run --method small.json " + what, folder);
+  BOOST_TEST(warning_in(there, "another size").empty());
+  const auto large = document("run --method small.json --pairs 40 " + what, folder);
+  const std::string told = warning_in(large, "it was learned at another size");
+  for (const char* part : {"small.json", "fpu_chain(pairs=3, omega=50)", "passed the trial run",
+                           "fpu_chain(pairs=40, omega=50)", "none diverged"}) {
+    BOOST_TEST(says(told, part), part << " is missing in " << told);
+  }
+  // As text, and the same bits as by --force, which tries nothing.
+  const auto text = run(folder, "run --method small.json --pairs 40 --output tried.csv " + what);
+  BOOST_TEST(text.code == 0);
+  BOOST_TEST(says(text.err, "passed the trial run"), text.err);
+  const auto forced = run(folder, "run --method small.json --pairs 40 --force --output forced.csv " + what);
+  BOOST_TEST(says(forced.err, "it was not tried at this size (--force)"), forced.err);
+  BOOST_TEST(shell(folder, "cmp tried.csv forced.csv").code == 0);
+
+  const auto compared = document(
+      "compare --pairs 40 --steps 0.02 --methods small.json,verlet --trajectories 8 --horizon 0.2", folder);
+  BOOST_TEST(!warning_in(compared, "passed the trial run").empty());
+  BOOST_TEST(compared["rows"].size() == 2U);
+  BOOST_REQUIRE(run(folder, learn_small + "--family aba4 --output symmetric.json").code == 0);
+  const auto sampled =
+      run(folder,
+          "sample --method symmetric.json --pairs 5 --step 0.02 --length 0.1 --draws 20 --burn-in 10 "
+          "--chains 2");
+  BOOST_TEST(sampled.code == 0, sampled.err);
+  BOOST_TEST(says(sampled.err, "passed the trial run"), sampled.err);
+  const auto exported = run(folder, "export small.json --to c");
+  BOOST_TEST(says(exported.out, "fpu_chain(omega=50)"));
+}
+
+BOOST_AUTO_TEST_CASE(what_else_differs_is_refused) {
+  const scratch folder("other_size_refused");
+  BOOST_REQUIRE(run(folder, learn_small + "--family nystrom --output small.json").code == 0);
+  const std::string method = "run --method small.json --step 0.02 --horizon 0.2 ";
+  require_refused(run(folder, method + "--pairs 40 --omega 51"),
+                  {"it was learned for fpu_chain(pairs=3, omega=50), not fpu_chain(pairs=40, omega=51)"});
+  require_refused(run(folder, method + "--pairs 40 --friction 0.1 --temperature 1 --start law"),
+                  {"it was learned for fpu_chain(pairs=3, omega=50), not"});
+  require_refused(run(folder, method + "--system phi4"), {"not phi4_chain(masses=16)"});
+  require_refused(run(folder, "run --method small.json --pairs 40 --step 0.03 --horizon 0.3"), {"not 0.03"});
+}
+
+BOOST_AUTO_TEST_CASE(a_file_without_a_kind_is_of_its_system_alone) {
+  const scratch folder("other_size_old");
+  const std::string method = "run --method " + old_scheme + " --step 0.02 --horizon 0.2 ";
+  BOOST_TEST(run(folder, method).code == 0);
+  require_refused(run(folder, method + "--pairs 4"),
+                  {"it was learned for fpu_chain(pairs=3, omega=50), not fpu_chain(pairs=4, omega=50)"});
+}
+
+BOOST_AUTO_TEST_CASE(a_plugin_marks_its_size_and_the_trial_refuses_what_diverges) {
+  const scratch folder("other_size_plugin");
+  std::ofstream(folder / "wells.hpp") << wells_source;
+  BOOST_REQUIRE(run(folder, "build wells.hpp").code == 0);
+  const std::string system = "--system ./wells.so ";
+  const std::string learn =
+      "learn --family nystrom --step 0.3 --trajectories 8 --horizon 6 --loss state:1 --effort quick " +
+      system;
+  BOOST_REQUIRE(run(folder, learn + "--output alike.json").code == 0);
+  BOOST_REQUIRE(run(folder, learn + "--power 4 --output stiffening.json").code == 0);
+  const std::string horizon = "--step 0.3 --horizon 3 " + system;
+  const auto many = document("run --method alike.json --number 12 " + horizon, folder);
+  BOOST_TEST(says(warning_in(many, "another size"), "wells(number=12, power=0)"));
+  // k = 12^4, where wells of the energy 1/2 have frequencies up to sqrt(3 sqrt(2 k)) = 25, and z = 7.4; at
+  // their bottoms, where the guard looks, there is none.
+  require_refused(
+      run(folder, "run --method stiffening.json --number 12 --power 4 " + horizon),
+      {"stiffening.json: it was learned at another size, for wells(number=1, power=4), and fails the "
+       "trial for wells(number=12, power=4): in a trial run of",
+       "diverge", "--force"});
+  require_refused(run(folder, "run --method alike.json --number 12 --power 1 " + horizon),
+                  {"it was learned for wells(number=1, power=0), not wells(number=12, power=1)"});
+  // The kind of another source is another.
+  std::string text(wells_source);
+  std::ofstream(folder / "wells.hpp") << text.replace(text.find("0.25 * k"), 8, "0.26 * k");
+  BOOST_REQUIRE(run(folder, "build wells.hpp").code == 0);
+  require_refused(run(folder, "run --method alike.json --number 12 " + horizon), {"it was learned for"});
+}
+
+BOOST_AUTO_TEST_CASE(a_library_of_c_functions_may_tell_its_kind) {
+  const scratch folder("other_size_c");
+  const std::string include = NYSALT_SOURCE_DIR "/include";
+  for (const std::string size : {"1", "5"}) {
+    for (const std::string kind : {"told", "silent"}) {
+      std::ofstream source(folder / "c.c");
+      source << "#include \"nysalt/c_force.h\"\nint64_t nysalt_dimension(void) { return " << size << "; }\n"
+             << R"(
+void nysalt_force(int64_t n, const double* q, double* f, void* data) {
+  (void)data;
+  for (int64_t i = 0; i < n; ++i) f[i] = -q[i] - q[i] * q[i] * q[i];
+}
+double nysalt_potential(int64_t n, const double* q, void* data) {
+  (void)data;
+  double v = 0.0;
+  for (int64_t i = 0; i < n; ++i) v += q[i] * q[i] * (0.5 + 0.25 * q[i] * q[i]);
+  return v;
+}
+void nysalt_start(int64_t n, const double* normals, double* q, double* p, void* data) {
+  (void)data;
+  for (int64_t i = 0; i < n; ++i) q[i] = 0.5 * normals[i], p[i] = normals[n + i];
+}
+)";
+      if (kind == "told") source << "const char* nysalt_kind(void) { return \"duffing()\"; }\n";
+      source.close();
+      BOOST_REQUIRE(
+          shell(folder, "gcc -O2 -shared -fPIC -I '" + include + "' c.c -o " + kind + size + ".so").code ==
+          0);
+    }
+  }
+  for (const std::string kind : {"told", "silent"}) {
+    BOOST_REQUIRE(
+        run(folder,
+            "learn --family nystrom --step 0.3 --trajectories 8 --horizon 6 --loss state:1 --effort quick "
+            "--system ./" +
+                kind + "1.so --output " + kind + ".json")
+            .code == 0);
+  }
+  const auto many = document("run --method told.json --step 0.3 --horizon 3 --system ./told5.so", folder);
+  BOOST_TEST(!warning_in(many, "passed the trial run").empty());
+  require_refused(run(folder, "run --method silent.json --step 0.3 --horizon 3 --system ./silent5.so"),
+                  {"it was learned for silent1, not silent5"});
+}
