@@ -66,4 +66,4 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # t =    0  H = 0.0088
 # t =  600  H = 0.0088
 # t = 1200  H = 0.0088
-# A tie: learned:fg_chin and chin4a cannot be told apart (the ratio of their errors is 0.983, 95 %: 0.717 to 2.12). The latter needs no learning: --method chin4a --step 0.75. ~
+# A tie: learned:fg_chin and chin4a do not differ significantly (the ratio of their errors is 0.983, 95 %: 0.717 to 2.12). The latter needs no learning: --method chin4a --step 0.75. ~

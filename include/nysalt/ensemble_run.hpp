@@ -123,7 +123,8 @@ class ensemble_run {
   void begin(const auto& ensemble, std::uint64_t seed, int threads, const make_runs& make) {
     if (count_ < 1 || first_ < 0) {
       throw std::invalid_argument(
-          sentence("ensemble_run: {} trajectories from {} on: cannot be", count_, first_));
+          sentence("ensemble_run: trajectories must be >= 1 and first >= 0, got trajectories {} and first {}",
+                   count_, first_));
     }
     const std::int64_t blocks = (count_ - 1) / width + 1;
     blocks_.resize(static_cast<std::size_t>(blocks));

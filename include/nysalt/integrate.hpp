@@ -39,7 +39,8 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       std::int64_t steps, Observer&& observer, std::int64_t every,
                                       std::uint64_t trajectory = 0) {
   if (steps < 0 || every < 1) {
-    throw std::invalid_argument(sentence("integrate: {} steps, observed every {}: cannot be", steps, every));
+    throw std::invalid_argument(
+        sentence("integrate: steps must be >= 0 and every >= 1, got steps {} and every {}", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");

@@ -110,9 +110,10 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
   if (options.trajectories < 1 || options.trajectories > most || options.first < 0 ||
       options.first > most - options.trajectories || options.steps < 0 || options.every < 1) {
-    throw std::invalid_argument(
-        sentence("integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
-                 options.trajectories, options.first, options.steps, options.every));
+    throw std::invalid_argument(sentence(
+        "integrate_ensemble: trajectories must be >= 1, first and steps >= 0, every >= 1, and first + "
+        "trajectories <= 2^48, got trajectories {}, first {}, steps {} and every {}",
+        options.trajectories, options.first, options.steps, options.every));
   }
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);

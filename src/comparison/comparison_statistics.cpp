@@ -78,7 +78,8 @@ void comparison::require_sound_statistics() const {
   const bath& heat_bath = system_->heat_bath();
   const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
   if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
-    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", of_law->name);
+    refuse("the metric {} needs a temperature above 0, got 0: friction without noise stops all motion",
+           of_law->name);
   }
   if (heat_bath.acts() && !heat_bath.has_temperature()) {
     refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",

@@ -41,8 +41,10 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
     : made_(std::move(definition)), parameters_(std::move(parameters)), start_(conditions.start) {
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
-    refuse("{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
-           description());
+    refuse(
+        "{}: the frequencies have no bound, so the motion in a bath has no stationary distribution; take "
+        "--start law",
+        description());
   }
   if (start_ == start::law) starts_.emplace(made_.starts);
 }

@@ -79,7 +79,7 @@ contest recommendation::at_equal_seconds(double seconds_per_time, const contest*
     candidate contender = planned;
     const double of_steps = seconds_per_time - seconds_of_processing(contender);
     if (of_steps <= 0.0) {
-      contender.reason = "its processor alone takes longer";
+      contender.reason = "the processor without the kernel takes longer";
       result.all.push_back(std::move(contender));
       continue;
     }

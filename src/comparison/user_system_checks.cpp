@@ -64,8 +64,10 @@ double frequency_of(const initial_value_problem& made, const std::string& name) 
   const auto stiffness = stiffness_along(made.system, starts);
   const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
   if (found > 0.0 && std::isfinite(found)) return found;
-  refuse("{}: the force is the same at all starts, which tells no frequency: declare it by frequency(...)",
-         name);
+  refuse(
+      "{}: the force must differ between initial states for a frequency to be estimated; declare "
+      "frequency(...)",
+      name);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace nysalt::program {
 
 std::vector<std::string> command_names(const CLI::App& app);
 std::vector<std::string> option_names(const CLI::App& command);
-/// "nysalt learn --help tells what it takes"
+/// "nysalt learn --help lists the options"
 std::string help_of(const CLI::App& command);
 
 /// The value of `system` in a file of options, for a command; empty if there is none.

@@ -105,8 +105,8 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
       std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
   if (!is_ranked_at_all) {
     report.text(
-        "**No row is ranked**: none has a value of all trajectories within the time for which paths can "
-        "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
+        "**No row is ranked**: none has a value of all trajectories within the time for which paths are "
+        "predictable. Compare distributions (`distribution`, `acf`), or take a shorter horizon.");
     return;
   }
   if (table beside = equal_cost_table(all, m); !beside.empty()) {
@@ -234,23 +234,20 @@ page report_of(const comparison& all) {
   report.heading("How it was measured");
   std::vector<std::string> notes{
       "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
-      "one "
-      "included",
+      "one included",
       "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "
       "interleaved rounds; `median +` says how much more the median of the rounds is; an error of a cost in "
-      "seconds is that of the errors alone",
-      "standard errors are over trajectories, which all methods share; those of laws over groups of "
+      "seconds is that of the errors without that of the times",
+      "standard errors are over trajectories, which all methods share; those of distributions over groups of "
       "trajectories; those of gains are of the differences trajectory by trajectory",
       fmt::format(
           "errors along paths are means over [0, {:g}], the same for all rows; of paths, exchange and "
           "energies relative to a mean over all trajectories",
           all.horizon()),
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
-      "dearest "
-      "fit of the method took, against the cheapest of the others at the same error",
+      "dearest fit of the method took, against the cheapest of the others at the same error",
       "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
-      "that "
-      "the starts are known to meet, as a share of the window; `-` for words with rotations",
+      "that the starts are known to meet, as a share of the window; `-` for words with rotations",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};

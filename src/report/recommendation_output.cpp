@@ -66,11 +66,11 @@ std::string recommendation::advice_of(const contest& among) const {
   }
   if (learned == nullptr) {
     return fmt::format(
-        "A classical method wins: {}{}. None that was learned stands; there is no scheme to write.",
+        "A classical method wins: {}{}. No learned method is accepted; there is no scheme to write.",
         as_options(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
-    return fmt::format("Take {} at step {:.12g}{}: no classical method stands.", learned->source.typed,
+    return fmt::format("Take {} at step {:.12g}{}: no classical method is accepted.", learned->source.typed,
                        learned->step, bound_of(among, *learned));
   }
   const candidate* best = among.winner();
@@ -81,7 +81,7 @@ std::string recommendation::advice_of(const contest& among) const {
             ? std::string()
             : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
                           ratio.low, ratio.high);
-    return fmt::format("A tie: {} and {} cannot be told apart{}. The latter needs no learning: {}{}.",
+    return fmt::format("A tie: {} and {} do not differ significantly{}. The latter needs no learning: {}{}.",
                        learned->source.typed, classical->source.typed, within, as_options(*classical),
                        bound_of(among, *classical));
   }
@@ -132,7 +132,8 @@ std::string recommendation::advice_on_looks() const {
   const candidate* best = taken(asked());
   if (best == nullptr || best->source.evaluations_to_look == 0) return {};
   return fmt::format(
-      " {} is counted with {} look{} at each trajectory (--looks): every further one takes {} evaluations.",
+      " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
+      "evaluations.",
       best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", best->source.evaluations_to_look);
 }
 

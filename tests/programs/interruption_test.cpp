@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(links_and_devices) {
   for (const std::string device : {"/dev/stdout", "/dev/null", "/proc/self/fd/1", "/dev/../dev/stdout"}) {
     const auto done = run(folder, short_run + "--output " + device);
     BOOST_TEST(done.code == 2, device);
-    BOOST_TEST(done.err.find("no ordinary file") != std::string::npos, done.err);
+    BOOST_TEST(done.err.find("not a regular file") != std::string::npos, done.err);
   }
   const auto done = shell(
       folder, "mkfifo c.next.part; \"$nysalt\" " + short_run + "--output a.csv --checkpoint c --every 64");

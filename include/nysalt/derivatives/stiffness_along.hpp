@@ -74,7 +74,8 @@ template <field F = field::whole, NystromSystem S>
       ++found.states;
       start = chance + ends.lowest_direction + ends.highest_direction;
     }
-    if (found.states == 0) throw std::invalid_argument("stiffness_along: there are no states to look at");
+    if (found.states == 0)
+      throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
     return found;
   }
 

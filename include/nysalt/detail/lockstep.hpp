@@ -61,8 +61,7 @@ class lockstep {
   /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, Take&& take) {
-    if (every < 1)
-      throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
+    if (every < 1) throw std::invalid_argument(sentence("lockstep: every must be >= 1, got {}", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     const auto advance = [&](std::int64_t next) {
       T* here = seen_.data();

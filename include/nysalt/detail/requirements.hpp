@@ -75,9 +75,10 @@ constexpr void require_suited() {
   static_assert(HasVelocity<S, double> || !detail::MentionsVelocity<S>,
                 "nysalt: velocity is not of the form `template <class T> void velocity(p, v) const`");
   static_assert(!HasVelocity<S, double> || HasVelocity<S, D>,
-                "nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template");
-  static_assert(!HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
-                "nysalt: a kinetic_energy(p) over double alone cannot be differentiated; make it a template");
+                "nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template");
+  static_assert(
+      !HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
+      "nysalt: kinetic_energy(p) must be differentiable, and takes double only; make it a template");
   static_assert(detail::CanDifferentiateForce<S, double> || !detail::MentionsForceDerivative<S>,
                 "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
   static_assert(detail::CanKick<S, double, double> || !detail::MentionsKick<S>,

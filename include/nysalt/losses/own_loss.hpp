@@ -59,9 +59,9 @@ void write_residuals(const T& one, std::size_t, T* r) {
 template <class Several, class T>
 void write_residuals(const Several& all, std::size_t count, T* r) {
   if (static_cast<std::size_t>(all.size()) != count) {
-    throw std::invalid_argument("an own loss returns " + std::to_string(count) +
-                                " residuals for one stretch, and " + std::to_string(all.size()) +
-                                " for another: return as many for each");
+    throw std::invalid_argument(
+        "own_loss: the number of residuals must be the same for every pair of states, got " +
+        std::to_string(count) + " and " + std::to_string(all.size()));
   }
   std::copy(all.begin(), all.end(), r);
 }

@@ -73,7 +73,7 @@ class stationary_covariance {
     }
     if (multiplicity_of_.empty()) {
       throw std::invalid_argument(sentence(
-          "{} has no mode of a frequency above zero, hence none with a law of its own", describe(system)));
+          "covariance loss: {} must have a mode of a frequency above 0, and has none", describe(system)));
     }
     require_served<S, double>(word, system);
     split_at_bath();

@@ -55,7 +55,7 @@ class tabulated : public method_properties {
     if constexpr (TypeLevelWord<typename M::word>) {
       static_assert(
           are_known_letters<typename M::word>(),
-          "nysalt: a table knows the letters of known_letters alone, in nysalt/run_time_word.hpp; step "
+          "nysalt: a table must have letters of known_letters only, in nysalt/run_time_word.hpp; step "
           "the word as a type, or add the letter there");
     }
     static_assert(

@@ -44,9 +44,9 @@ void require_name(const std::string& name) {
   if (!name.empty() && !is_taken && name.find_first_of("\n\r") == std::string::npos) return;
   const auto last = taken.back();
   taken.pop_back();
-  throw std::invalid_argument(fmt::format(
-      "learn: an own loss cannot be called '{}': take a name of one line that is none of {} and {}", name,
-      fmt::join(taken, ", "), last));
+  throw std::invalid_argument(
+      fmt::format("learn: the name of an own loss must be one line and none of {1} and {2}, got '{0}'", name,
+                  fmt::join(taken, ", "), last));
 }
 
 /// Where a word has its letters O; nothing if it has none, or not as placement says.

@@ -83,7 +83,7 @@ int compare(const compare_command& command, const common_settings& common) {
   warn_of_threads(common);
   const std::filesystem::path folder(command.output);
   if (command.output.empty()) {
-    if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");
+    if (command.resume) refuse("--resume continues a comparison in a folder: name it as --output");
     journal nowhere;
     all.learn_and_measure(nowhere);
   } else {

@@ -36,8 +36,8 @@ void require_name(const std::string& name) {
       "write",     "open",      "close",     "link",      "main",       "std"};
   if (!is_plain_name(name) || taken.contains(name)) {
     refuse(
-        "a system cannot be called '{}': take lower-case letters, digits and _, a letter first, and no word "
-        "of C++",
+        "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++, "
+        "got '{}'",
         name);
   }
 }

@@ -70,7 +70,7 @@ void require_files(const run_command& command) {
   }
   if (!command.every) refuse("--checkpoint needs --every: after how many steps is one made?");
   require_at_least_one("--every", *command.every);
-  if (command.output.empty()) refuse("--checkpoint needs --output: what was printed cannot be gone on with");
+  if (command.output.empty()) refuse("--checkpoint needs --output: printed results cannot be continued");
   require_writable(command.checkpoint);
   std::vector<std::string> others{command.method, command.output};
   for (const char* beside : {".part", ".new.part", ".sorted.part", ".manifest.json"})

@@ -254,8 +254,7 @@ int stability(const stability_command& command, const common_settings& common) {
   const subject target = subject_of(command, system.get(), common.force, warnings);
   const bool rotates = has_rotation(target.method.letters());
   if (rotates && !command.output.empty()) {
-    refuse("{} rotates: its trace/2 is cos z, and there is nothing to draw; leave --output away",
-           target.name);
+    refuse("{} rotates, so trace/2 is cos z and there is nothing to draw; leave out --output", target.name);
   }
   const stability_chart chart = rotates ? stability_chart() : chart_of(target.method);
   answer result = about(target, chart);
