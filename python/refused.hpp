@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is refused, as Python tells it.
+// Refusals as exceptions of Python.
 #pragma once
 
 #include <string>

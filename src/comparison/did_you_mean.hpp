@@ -8,7 +8,7 @@
 
 namespace nysalt::program {
 
-/// The known name nearest to what was typed, whatever the case of its letters; empty if none is near. Near is
+/// The known name nearest to what was typed, ignoring case; empty if none is near. Near is
 /// a name that begins with the text, of three letters at least; or one that a mistake (a letter missing, too
 /// many, wrong, or two exchanged) in three letters turns it into.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& known);

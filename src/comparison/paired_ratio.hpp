@@ -17,14 +17,14 @@ struct error_statistic {
 
   double operator()(std::vector<double> scores) const;
   /// What the error of all trajectories is below with 97.7 % confidence: the mean and two standard errors; of
-  /// a quantile the score with as many below it as the binomial law has with two standard deviations, and of
-  /// too few trajectories the largest. NaN of the mean of one trajectory.
+  /// a quantile the score with as many below it as the binomial distribution has with two standard
+  /// deviations, and of too few trajectories the largest. NaN of the mean of one trajectory.
   double upper_bound(std::vector<double> scores) const;
   /// The same from below.
   double lower_bound(std::vector<double> scores) const;
 };
 
-/// A ratio and its interval of 95 %; NaN where too few trajectories tell it.
+/// A ratio and its interval of 95 %; NaN where trajectories are too few.
 struct ratio_estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN();

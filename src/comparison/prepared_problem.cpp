@@ -142,7 +142,7 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
     }
     try {
       return stiffness_along(made_.system, states).highest_frequency();
-    } catch (const std::invalid_argument&) {  // the force is not finite there: the run will tell
+    } catch (const std::invalid_argument&) {  // the force is not finite there: the run will show it
       return std::nullopt;
     }
   }
@@ -169,7 +169,7 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
   }
   try {
     if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
-  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will tell
+  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
   }
   if (bands.size() == 1) bands.clear();
   return bands;

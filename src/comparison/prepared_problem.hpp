@@ -28,7 +28,7 @@ class run_time_family;
 
 namespace nysalt::program {
 
-struct learnable;       // learnable.hpp: what it takes is dear to compile
+struct learnable;       // learnable.hpp, which is expensive to compile
 class model_reference;  // model_reference.hpp
 
 /// Name or parameter of a system, as scheme files hold it.
@@ -43,12 +43,12 @@ std::string to_string(start where);
 struct surroundings {
   nysalt::bath bath;
   program::start start;
-  double spread = 1.0;  // of the law of starts: its deviations are multiplied by it
+  double spread = 1.0;  // factor of the standard deviations of the initial distribution
 };
 
 class prepared_problem {
  public:
-  /// Throws refusal if there is no law of such starts.
+  /// Throws refusal if there is no such initial distribution.
   prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
                    const surroundings& conditions);
 
@@ -94,7 +94,7 @@ class prepared_problem {
   /// fastest motion from some starts, where they lie far apart; else none. Cost: 4 10^5 evaluations at the
   /// first call.
   const std::vector<frequency_band>& bands_along_motion() const;
-  /// Of its bands, or of the frequencies along some starts by its law.
+  /// Of its bands, or of the frequencies along some states of the initial distribution.
   stability_guard guard(bool rotations) const;
   /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
   /// ones.
@@ -144,10 +144,12 @@ class prepared_problem {
   /// step after them costs the same.
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const;
 
-  /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.
+  /// The steps only, on this thread, for timing: nothing is observed, and what diverges runs on. Refers to
+  /// this.
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const;
 
-  /// Highest angular frequency that motion from its law of starts may meet, rare starts included.
+  /// Highest angular frequency that motion from the initial distribution may meet, rare initial states
+  /// included.
   double frequency_of_law() const;
   /// Highest angular frequency along the first `count` starts of a seed, to a relative accuracy of 1 %;
   /// nothing for more than a thousand coordinates, and for a kinetic energy that is not quadratic.

@@ -73,7 +73,7 @@ void recommendation::rank_at_one_error() {
   }
 }
 
-/// What has no error yet is prepared and measured; then the best are looked at until they are confirmed.
+/// What has no error yet is prepared and measured; then the best are examined until they are confirmed.
 void recommendation::run(contest& among) {
   std::vector<candidate*> fresh;
   for (auto& contender : among.all) {

@@ -21,7 +21,7 @@ tabulated first_member(const std::string& family, std::optional<placement> where
 
 }  // namespace
 
-/// Of the steps alone, far from where a method diverges: what they cost does not depend on the coefficients,
+/// Of the steps only, far from where a method diverges: what they cost does not depend on the coefficients,
 /// so that a family is timed before it is learned.
 void recommendation::time_steps() {
   shown_.part("timing");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Bad input, told in one line.
+// Bad input, refused in one line.
 #pragma once
 
 #include <fmt/format.h>

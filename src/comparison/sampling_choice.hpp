@@ -39,7 +39,7 @@ struct sampling_ratio {
 
 class sampling_choice {
  public:
-  /// Plans who takes part. Throws refusal for whatever cannot be, before any work is done.
+  /// Plans who takes part. Throws refusal for bad options, before any work is done.
   sampling_choice(std::unique_ptr<prepared_problem> system, sampling_options asked, common_settings common);
 
   void learn_and_rank();
@@ -78,8 +78,8 @@ class sampling_choice {
   std::unique_ptr<prepared_problem> system_;
   std::vector<sampling_candidate> all_;                        // after the work the best first
   std::vector<std::pair<std::string, std::string>> left_out_;  // name and reason
-  std::optional<initial_states> states_;                       // of the law, on which words are judged
-  double guess_ = 0.0;                                         // of a step per evaluation, on the safe side
+  std::optional<initial_states> states_;  // of the distribution, on which words are judged
+  double guess_ = 0.0;                    // of a step per evaluation, on the safe side
   std::vector<std::string> warnings_;
   progress shown_;
 };

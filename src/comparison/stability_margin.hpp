@@ -44,7 +44,7 @@ struct known_frequencies {
 };
 /// What is known with little work.
 known_frequencies frequencies_of(const prepared_problem& system);
-/// And along so many of its starts, if that is not dear.
+/// And along that number of initial states, if that is not expensive.
 known_frequencies frequencies_along_starts(const prepared_problem& system, std::uint64_t seed,
                                            std::uint64_t count);
 
@@ -85,7 +85,7 @@ std::optional<double> safe_step(const tabulated& method, const prepared_problem&
 json to_json(const trial_result& trial);
 
 /// One sentence where linear windows say nothing, of a word that rotates or where frequencies have no bound,
-/// and a trial run fails. Cost: that of a trial run of at most so many steps.
+/// and a trial run fails. Cost: that of a trial run of at most that number of steps.
 std::optional<std::string> failed_trial(const std::string& name, const tabulated& method,
                                         const prepared_problem& system, double step, std::int64_t steps,
                                         std::uint64_t seed, int threads);
@@ -96,9 +96,9 @@ std::optional<std::string> instability(const std::string& name, const tabulated&
                                        const prepared_problem& system, double step);
 
 /// One sentence where it is stable on that, but near the end of a window, on frequencies where two touch, or,
-/// over so many steps, near a resonance; or not stable any more on those of the first starts of a seed. Cost:
-/// where there are at most a thousand coordinates, some hundred force evaluations for each of 16 starts; else
-/// nothing.
+/// over that number of steps, near a resonance; or not stable any more on those of the first starts of a
+/// seed. Cost: where there are at most a thousand coordinates, some hundred force evaluations for each of 16
+/// starts; else nothing.
 std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
                                              const prepared_problem& system, double step, std::int64_t steps,
                                              std::uint64_t seed);

@@ -52,7 +52,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   if (!found.passed()) refuse("{}: {}", name, found.report());
 }
 
-/// Of a system that does not tell how fast its motion is: the highest frequency, or rate at which motions
+/// Of a system that declares no frequency: the highest frequency, or rate at which motions
 /// part, along 64 starts.
 double frequency_of(const initial_value_problem& made, const std::string& name) {
   constexpr Eigen::Index most = 1000;  // coordinates

@@ -182,7 +182,7 @@ std::string first_error(const std::string& messages) {
   return first.empty() ? "the compiler says no more" : first;
 }
 
-/// Files that are removed whatever happens.
+/// Files that are removed in any case.
 struct temporary {
   fs::path path;
   ~temporary() {

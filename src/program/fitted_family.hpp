@@ -15,7 +15,7 @@ namespace nysalt::program {
 
 class fitted_family {
  public:
-  /// Throws refusal for whatever cannot be, before any work is done.
+  /// Throws refusal for bad options, before any work is done.
   fitted_family(const learn_command& command, const common_settings& common);
 
   void learn();

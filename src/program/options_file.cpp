@@ -102,7 +102,7 @@ std::string plain_toml(std::istream& input) {
 std::string system_in_options_file(const std::string& file, const std::string& command) {
   std::ifstream input(file);
   note_input(file);
-  if (!input) return {};  // told where options are read
+  if (!input) return {};  // reported where options are read
   std::istringstream text(plain_toml(input));
   std::string of_all;
   for (const auto& item : CLI::ConfigTOML().from_config(text)) {

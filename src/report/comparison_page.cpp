@@ -57,8 +57,8 @@ std::string text_of(const threshold_crossing& crossing, double unit) {
   return {};
 }
 
-/// How many times dearer the cheapest classical method is: nothing is known where it is above all its rows,
-/// and only a bound where its rows stay below, or lose the level between two.
+/// The factor by which the cheapest classical method is more expensive: nothing is known where it is above
+/// all its rows, and only a bound where its rows stay below, or lose the level between two.
 std::string against_classical(const cost_at_level& cost, const std::vector<cost_at_level>& all) {
   const auto best = std::ranges::find_if(all, [](const cost_at_level& other) {
     return !other.is_learned && other.evaluations.kind != crossing_kind::above_from_first;
@@ -69,7 +69,7 @@ std::string against_classical(const cost_at_level& cost, const std::vector<cost_
 }
 
 /// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
-/// classical method at the same error; the dearest of the method's fits counts.
+/// classical method at the same error; the most expensive fit of the method counts.
 std::string repaid_after(const comparison& all, const cost_at_level& cost,
                          const std::vector<cost_at_level>& costs) {
   const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
@@ -245,7 +245,7 @@ page report_of(const comparison& all) {
           "energies relative to a mean over all trajectories",
           all.horizon()),
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
-      "dearest fit of the method took, against the cheapest of the others at the same error",
+      "most expensive fit of the method took, against the cheapest of the others at the same error",
       "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
       "that the starts are known to meet, as a share of the window; `-` for words with rotations",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),

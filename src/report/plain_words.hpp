@@ -17,7 +17,7 @@ struct styled_words {
   std::string address{};  ///< of a link
 };
 
-/// The runs of words of a sentence. A mark that nothing closes stands for itself; marks do not nest.
+/// The runs of words of a sentence. A mark that nothing closes means itself; marks do not nest.
 std::vector<styled_words> plain_words(std::string_view text);
 
 }  // namespace nysalt

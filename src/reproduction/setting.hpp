@@ -46,7 +46,7 @@ class setting {
   mutable std::map<std::tuple<std::string, double, placement>, tabulated> learned_;
 };
 
-/// The chain of the paper, alone. The spread multiplies the deviation 1/omega of its starts.
+/// The chain of the paper, without a bath. The spread multiplies the deviation 1/omega of its starts.
 std::unique_ptr<prepared_problem> chain(double frequency = omega, double spread = 1.0);
 /// Starts of which the soft springs hold omega^2, half of it moving and half of it stretched.
 std::unique_ptr<prepared_problem> soft_dominated_chain();
@@ -59,12 +59,12 @@ struct learning_setup {
   std::optional<double> fine_step{};
   std::uint64_t repetition = 0;
 };
-/// M = 100, the paper's for the chain alone.
+/// M = 100, the paper's for the chain without a bath.
 learning_setup usual_learning_setup(const setting& setup);
 learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step,
                         const learning_setup& how);
 
-/// (b1, beta1) with the standard errors that the fit tells.
+/// (b1, beta1) with the standard errors of the fit.
 std::vector<estimate> theta_with_errors(const learned_scheme& learned);
 
 tabulated classical(const std::string& name, const prepared_problem& system);

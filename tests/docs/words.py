@@ -91,10 +91,11 @@ def words_not_used(page):
     section = re.search(r"^## Words that are not used\n(.*?)(?=^## |\Z)", page, re.DOTALL | re.MULTILINE)
     if not section:
         raise ValueError("docs/notation.md has no section `Words that are not used`")
+    gap = r"\s+(?:///?<?\s+|\*\s+|#\s+)?"  # the marks of a comment may be between two words
     found = {}
     for row in re.findall(r"^\| (`.*?) \|", section[1], re.MULTILINE):
         forms = re.findall(r"`([^`]+)`", row)
-        expression = r"(?i)\b(?:" + "|".join(re.escape(form).replace(r"\ ", r"\s+") for form in forms) + r")\b"
+        expression = r"(?i)(?<![-\w])(?:" + "|".join(gap.join(map(re.escape, form.split())) for form in forms) + r")(?![-\w])"
         if forms == ["cannot be"]:
             expression += r"(?=\s*(?:[.,:;?!)\"]|$|of\b|at\b))"
         found[forms[0]] = re.compile(expression)

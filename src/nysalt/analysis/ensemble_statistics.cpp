@@ -9,7 +9,7 @@
 namespace nysalt {
 
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
   if (options.trajectories < 1 || options.trajectories > most || options.first < 0 || options.steps < 0 ||
       options.every < 1 || wanted.from < 0 || wanted.from > options.steps) {
     throw std::invalid_argument(fmt::format(

@@ -10,10 +10,10 @@
 
 namespace nysalt {
 
-/// Several measures that look at the same states: the numbers of all lie one after the other.
+/// Several measures that read the same states: the numbers of all lie one after the other.
 class joined_measures {
  public:
-  /// All of them, or those alone that need a reference: of the others then nothing is read.
+  /// All of them, or only those that need a reference: of the others then nothing is read.
   enum class which { all, of_reference };
 
   /// Refers to the measures.

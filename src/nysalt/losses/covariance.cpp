@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// covariance, of a thermostatted word that of its stationary law: no data are asked.
+// covariance, the loss of the stationary distribution of a thermostatted word: no data are needed.
 #include <stdexcept>
 
 #include "data_loss.hpp"

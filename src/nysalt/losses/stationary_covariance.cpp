@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far the law that a thermostatted word keeps is from the Gibbs law.
+// The distance of the stationary distribution of a thermostatted word from the Gibbs distribution.
 #include "nysalt/losses/stationary_covariance.hpp"
 
 #include <fmt/format.h>

@@ -57,7 +57,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
   } catch (const json::exception&) {
     refuse("{} is not whole, or was edited: remove it to begin anew", (folder / journal_name).string());
   } catch (...) {
-    if (kept.is_empty()) {  // on rank 0 alone there is something to remove
+    if (kept.is_empty()) {  // only rank 0 has something to remove
       kept.remove();
       std::error_code ignored;
       for (auto path = made.rbegin(); path != made.rend(); ++path) std::filesystem::remove(*path, ignored);

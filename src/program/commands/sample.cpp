@@ -68,7 +68,7 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
   return options;
 }
 
-/// Throws refusal for what cannot be of files, before any work.
+/// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false, command.method);
   if (command.checkpoint.empty()) {

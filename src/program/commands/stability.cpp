@@ -205,7 +205,7 @@ void add_rotation(answer& result, const tabulated& method, const prepared_proble
   document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
   result.text +=
       fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
-                  stable ? "linearly stable on what was looked at" : "NOT stable", guard.description());
+                  stable ? "linearly stable on what was examined" : "NOT stable", guard.description());
   if (worst.frequency > 0.0) {
     result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
                                worst.frequency, worst.factor, guard.steps());
@@ -264,7 +264,8 @@ int stability(const stability_command& command, const common_settings& common) {
     result.document["step"] = *command.step;
     progress shown;
     warn_of_threads(common);
-    prepare_starts(*system, common, shown);  // a bath drives the starts to where its law is
+    prepare_starts(*system, common,
+                   shown);  // a bath drives the initial states to its stationary distribution
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);
     if (rotates) {
