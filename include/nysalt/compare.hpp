@@ -50,11 +50,11 @@ class comparison {
   std::shared_ptr<const measurement> found_;
 };
 
-/// Errors and costs of methods on a system from starts by its law; in a warm bath of systems with frequency
-/// bands, from the law in the bath. Where the frequency is 0 it is found along 64 starts. The force is
-/// checked against the potential first. Progress is shown on a terminal. Throws std::invalid_argument, naming
-/// the option, for what cannot be, before any work is done. Cost: that of the trajectories, of a reference
-/// some ten times finer, and of a fit for each learned method and step.
+/// Errors and costs of methods on a system from its initial distribution; in a warm bath of systems with
+/// frequency bands, from the stationary distribution in the bath. Where the frequency is 0 it is found along
+/// 64 starts. The force is checked against the potential first. Progress is shown on a terminal. Throws
+/// std::invalid_argument, naming the option, for bad input, before any work is done. Cost: that of the
+/// trajectories, of a reference some ten times finer, and of a fit for each learned method and step.
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution = {});
 

@@ -22,7 +22,7 @@ struct no_room {};
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {
   flow_room() = default;
-  /// For so many degrees of freedom.
+  /// For a number of degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
   vector<T, N> x;  ///< of a rotation, M^-1 f of a gradient kick, or the displaced q
   vector<T, N> y;  ///< of a rotation, f'(q) M^-1 f, or the force at the displaced q
@@ -40,7 +40,7 @@ concept QuadraticFlow = requires {
   requires L::reads_modes;
 };
 
-/// What the words that a letter stands in split H into; `any` of a letter that belongs to all of them.
+/// What the words with this letter split H into; `any` of a letter that belongs to all of them.
 enum class splitting {
   any,
   kinetic_and_potential,   ///< K and V: A, B, D, G

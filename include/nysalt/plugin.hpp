@@ -132,8 +132,8 @@ template <class S, class Number>
             }};
   }
 
-/// The law of starts: an ensemble, such as normal_around, from law(system), or from law(system, spread),
-/// where deviations are to be multiplied by the spread.
+/// The initial distribution: an ensemble, such as normal_around, from law(system), or from law(system,
+/// spread), where deviations are to be multiplied by the spread.
 template <class F>
 detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};

@@ -50,8 +50,8 @@ consteval bool are_known_letters() {
   (std::make_index_sequence<W::length>());
 }
 
-/// What word<...> knows at compile time, found when it is made: which letters merge, where the force is at
-/// hand, and how many evaluations that leaves.
+/// What word<...> knows at compile time, found when it is made: which letters merge, where the force is
+/// known, and how many evaluations that leaves.
 class run_time_word {
  public:
   /// One for each slot; C is double or the scalar of the states.
@@ -63,7 +63,7 @@ class run_time_word {
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
   /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
-  /// those of the kernel, and what is looked at is a copy on which P(-h) has acted.
+  /// those of the kernel, and what is observed is a copy on which P(-h) has acted.
   /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
   /// split H in one way and some in the other, or if a processor is not made of letters A and B in turn, or
   /// belongs to a kernel with letters O or R.
@@ -162,8 +162,8 @@ class run_time_word {
   int stochastic_letters;         ///< how many letters are of the bath
   int evaluations_per_step;       ///< force evaluations of a step of an open run
   int evaluations_to_open;        ///< force evaluations to open a run, those of P(h)^-1 among them
-  int evaluations_to_look = 0;    ///< force evaluations of P(-h), for each time that a run is looked at
-  int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
+  int evaluations_to_look = 0;    ///< force evaluations of P(-h), for each time that a run is observed
+  int evaluations_of_plain_step;  ///< force evaluations of a step from only q and p
 
  private:
   void take_processor() {
@@ -226,7 +226,7 @@ std::vector<C> pre_processor_coefficients(const run_time_word& word, const std::
   for (std::size_t i = word.slots; i-- > word.kernel_slots;) result.push_back(C(-all[i]));
   return result;
 }
-/// What acts on a copy that is looked at, P(-h).
+/// What acts on a copy that is observed, P(-h).
 inline run_time_word post_processor(const run_time_word& word) { return run_time_word(word.processor()); }
 /// The coefficients of P(-h) from those of the whole word.
 template <class C>

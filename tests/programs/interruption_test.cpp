@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "../support/program.hpp"
@@ -11,11 +10,6 @@
 using namespace nysalt::test;
 
 namespace {
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 const std::string long_run =
     "run --method verlet --step 0.001 --horizon 1e5 --trajectories 3 --sample-every 100000 ";

@@ -39,7 +39,7 @@ struct error_measure {
   std::string no_scale = {};  ///< the sentence that is thrown where there is no scale
   /// What errors are relative to, >= 0 and in the units of `error`, from the numbers of the reference: the
   /// mean error is divided by the mean of this over all trajectories and times, which is a property of their
-  /// law, and positive unless all is 0 (`no_scale` then). Not given: absolute.
+  /// distribution, and positive unless all is 0 (`no_scale` then). Not given: absolute.
   detail::over_scalars<detail::of_sample> relative_to = {};
   Eigen::Index dimension = 0;  ///< degrees of freedom of the systems that it can measure; 0: any
 

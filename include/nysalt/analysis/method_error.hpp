@@ -14,11 +14,11 @@
 
 namespace nysalt {
 
-/// The quantiles that are told of errors.
+/// The quantiles of errors that are reported.
 inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 
 /// How the errors of single trajectories lie about the one number that is made of them: each is the error
-/// that this trajectory would have alone, in the unit of the whole.
+/// that this trajectory would have without the others, in the unit of the whole.
 struct distribution_of_errors {
   tail largest{};                                          ///< of the scores, whose mean the error is
   estimate median{};                                       ///< with its standard error

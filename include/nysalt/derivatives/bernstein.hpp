@@ -57,9 +57,9 @@ class bernstein_polynomial {
   std::vector<double> c_;
 };
 
-/// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are told by their
-/// coefficients; those that cannot be told after 40 halvings only touch the bound.
-/// A polynomial that is not a number exceeds every bound.
+/// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are decided by
+/// their coefficients; those that are undecided after 40 halvings only touch the bound. A polynomial that is
+/// not a number exceeds every bound.
 std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40);
 
 }  // namespace nysalt

@@ -12,14 +12,14 @@ namespace nysalt {
 /// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
 struct force_check {
   double gradient_defect = 0.0;      ///< of force = -grad V
-  Eigen::Index coordinate = 0;       ///< where that is worst, from 0; -1: looked along directions at random
+  Eigen::Index coordinate = 0;       ///< where that is worst, from 0; -1: checked along directions at random
   double derivative_defect = 0.0;    ///< of force_derivative, against differences of the force
   double kick_defect = 0.0;          ///< of a kick of the system's own, p += c force(q)
   Eigen::Index kick_coordinate = 0;  ///< where that is worst
-  double soft_defect = 0.0;          ///< of soft_force = force + K q, K the quadratic part that modes() tell
-  Eigen::Index soft_coordinate = 0;  ///< where that is worst
-  double asymmetry = 0.0;            ///< of the Jacobian of the force: a gradient's is symmetric
-  double velocity_defect = 0.0;      ///< of velocity = grad K
+  double soft_defect = 0.0;  ///< of soft_force = force + K q, K the quadratic part that modes() declare
+  Eigen::Index soft_coordinate = 0;      ///< where that is worst
+  double asymmetry = 0.0;                ///< of the Jacobian of the force: a gradient's is symmetric
+  double velocity_defect = 0.0;          ///< of velocity = grad K
   Eigen::Index velocity_coordinate = 0;  ///< where that is worst
   double velocity_asymmetry = 0.0;       ///< of the Jacobian of a velocity without a kinetic energy
   double tolerance = 0.0;                ///< of the gradient: what the derivatives used can be off by
@@ -28,9 +28,9 @@ struct force_check {
   double kick_tolerance = 0.0;        ///< of the kick and of the soft force
   double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences
   double velocity_tolerance = 0.0;    ///< of the velocity and of its Jacobian's asymmetry
-  bool has_potential = false;         ///< whether there was a V to compare with; else only the symmetry tells
-  bool finite = true;                 ///< whether all functions and their derivatives are, at all points
-  bool passes_beside = false;         ///< whether it fails at the points, but not a little beside them
+  bool has_potential = false;  ///< whether there was a V to compare with; else only the symmetry is checked
+  bool finite = true;          ///< whether all functions and their derivatives are, at all points
+  bool passes_beside = false;  ///< whether it fails at the points, but not a little beside them
 
   /// Whether everything is finite and every defect within its tolerance.
   bool passed() const {

@@ -25,7 +25,7 @@ struct stiffness_range {
   /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
   std::vector<double> highest_of_state;  ///< largest eigenvalue of each state
-  std::int64_t states = 0;               ///< how many were looked at
+  std::int64_t states = 0;               ///< how many were examined
   std::int64_t evaluations = 0;          ///< of f'(q) v
 
   /// sqrt(highest), 0 if that is negative.

@@ -11,7 +11,7 @@ namespace nysalt {
 
 namespace detail {
 
-// There is something of that name, const or not, whatever it returns.
+// There is a member of that name, const or not, with any result.
 template <class S, class V = vector<double, S::dimension>>
 concept MentionsInverseMass = requires {
   &S::inverse_mass;
@@ -57,7 +57,7 @@ concept MentionsBath = requires {
 }  // namespace detail
 
 /// Compiles if S can be stepped by methods of M's kind (a method or a family), and every optional member
-/// that it has is one that the library will use; else a sentence tells.
+/// that it has is one that the library will use; else a static assertion says what is wrong.
 template <class M, class S>
 constexpr void require_suited() {
   static_assert(System<S>,

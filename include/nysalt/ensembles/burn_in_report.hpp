@@ -43,7 +43,7 @@ struct discrepancy {
 
 /// How long chains are burned in, with what, and what the pilots showed.
 struct burn_in_report {
-  double friction = 0.0;   ///< of the chains, to which the law of q is indifferent
+  double friction = 0.0;   ///< of the chains; the distribution of q does not depend on it
   double step = 0.0;       ///< h of BAOAB
   std::int64_t steps = 0;  ///< of every chain
   double length = 0.0;     ///< steps * step

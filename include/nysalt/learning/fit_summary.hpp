@@ -44,7 +44,7 @@ struct fit_summary {
   std::uint64_t held_out_seed = 0;  ///< of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
   std::string loss_name;            ///< see loss_choice
-  int loss_steps = 1;               ///< of the longest stretch that the loss looks at
+  int loss_steps = 1;               ///< of the longest window of the loss
   int trajectory_steps = 1;         ///< of the shortest trajectory of the data
   bool follows = true;     ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
   bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
@@ -89,7 +89,7 @@ struct fit_summary {
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
   trial_result trial{};  ///< of the parameters that are handed out, from held-out and further starts
-  double highest_frequency = 0.0;  ///< along the states that the guard looked at; 0: not known
+  double highest_frequency = 0.0;  ///< along the states that the guard examined; 0: not known
   /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
   /// nothing is gained over it, it withstands a trial run. Empty if there is none.
   std::string rival;
@@ -128,7 +128,7 @@ struct fit_summary {
   /// A sentence about expected_excess.
   std::string uncertainty() const;
 
-  /// Whether the method follows the data to the end, as far as the loss tells.
+  /// Whether the method follows the data to the end, as far as the loss measures it.
   bool follows_to_the_end() const { return follows && loss_steps >= trajectory_steps; }
 
   /// For how many steps the method follows the data, in words; empty where it follows them to the end.

@@ -35,8 +35,8 @@ struct fit_options {
   nysalt::effort effort = nysalt::effort::normal;  ///< of a search in stages
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
-  /// How many steps a run with the method will take at most: so long is a trial run, and over so many, up to
-  /// 10,000, the guard looks at growth. A proposal of Hybrid Monte Carlo takes few.
+  /// How many steps a run with the method will take at most: the length of a trial run, and the steps, up to
+  /// 10,000, over which the guard examines growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
   bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
   std::uint64_t seed = 1;    ///< of the random starts
@@ -72,8 +72,8 @@ struct learning_problem {
   /// loss.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
-  /// Whether the method stays near the data over all steps that the loss looks at: with an error below a
-  /// twentieth of the motion. Where it does not, phases are lost, and the loss tells little. Empty: the loss
+  /// Whether the method stays near the data over all steps of the loss: with an error below a
+  /// twentieth of the motion. Where it does not, phases are lost, and the loss means little. Empty: the loss
   /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
   std::shared_ptr<learning_problem> shorter{};  ///< the same over a quarter of the steps; null: there is none

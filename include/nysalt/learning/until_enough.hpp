@@ -35,7 +35,7 @@ struct enough_course {
 /// Learns with M = first, 2 first, ... trajectories until fit_summary::excess_share() is at most the share
 /// asked for, or M is the most that may be. The excess falls as 1/M [li_lu_tao_ye_2023, theorem 3.1], so that
 /// M ends between enough and twice that. It is an estimate itself, off by a fifth from 50 trajectories: begin
-/// with some tens. Where it rests on less than ten of them it does not count. Where it cannot be told, as
+/// with some tens. Where it rests on less than ten of them it does not count. Where it has no estimate, as
 /// where the guard holds the parameters, it stops at once. Throws std::invalid_argument unless 0 < share, and
 /// 2 <= first <= most. Cost: twice that of the last fit.
 enough_course until_enough(std::int64_t first, const enough_options& options,

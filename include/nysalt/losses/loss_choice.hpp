@@ -23,8 +23,8 @@ struct loss_choice {
 };
 
 /// What is minimised where no loss is asked for: that of trajectories; in a bath that of one step, as
-/// friction and noise make an end of phases, and what trajectories gain in phase they lose in the law of
-/// energies.
+/// friction and noise make an end of phases, and what trajectories gain in phase they lose in the
+/// distribution of energies.
 loss_choice usual_loss(const bath& around);
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss as the sum of squares that it is: what a pass over the data tells.
+// A loss as the sum of squares that it is: the result of a pass over the data.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
 }
 
-/// A loss as a function of theta alone: whoever searches need not know what is behind it.
+/// A loss as a function of theta only: a search need not know what is behind it.
 using objective = std::function<squares(const Eigen::VectorXd& theta)>;
 
 namespace detail {
@@ -106,7 +106,7 @@ squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
   const auto sum = loss.share().sum(by_trajectory, zero);
   return detail::from_column(sum, loss.parameters());
 }
-/// A loss over data as a function of theta alone. Refers to the loss.
+/// A loss over data as a function of theta only. Refers to the loss.
 template <class Loss>
 objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };

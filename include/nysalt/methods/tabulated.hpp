@@ -20,7 +20,7 @@ struct method_properties {
   bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
 
-/// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
+/// A method as data: letters, coefficients and what it promises. A method from a file is one, and any
 /// other method can be made one, so that a program need not be compiled for each.
 /// A step costs what that of the type-level method does, and one decision a letter.
 class tabulated : public method_properties {
