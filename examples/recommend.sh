@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
 # Which method for my system? `recommend` learns some families, races them with the classical methods on
-# trajectories that nobody has seen, and says who wins by how much, or that nobody does.
+# trajectories that were not learned from, and says which wins by how much, or that none does.
 set -eu
 
 # [recommend]
