@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a system is coupled to: friction, and the noise that goes with it.
+// A bath: friction, and the noise that belongs to it.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How to learn, to compare and to recommend: plain values, judged when they are used.
+// Options of learning, comparing and recommending: plain values, checked when they are used.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where trajectories start.
+// Distributions of initial states.
 #pragma once
 
 #include <cmath>

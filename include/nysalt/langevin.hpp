@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the letters O go in a word that has none.
+// Placements of the letters O in a word that has none.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the noise of a bath comes from.
+// Sources of the noise of a bath.
 #pragma once
 
 #include <concepts>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a number must do so that a step can be taken with it.
+// Requirements on a number type with which steps are taken.
 #pragma once
 
 #include <concepts>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What trajectories are judged by.
+// Metrics by which trajectories are judged.
 #pragma once
 
 #include <span>

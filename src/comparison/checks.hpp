@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What every command asks of its numbers.
+// Checks of numbers that all commands share.
 #pragma once
 
 #include <cmath>

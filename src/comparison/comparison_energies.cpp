@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a report says of stability: the margin of each step, and energies and survivors along time.
+// Stability in a report: the margin of each step, and energies and survivors along time.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a long computation has finished, so that it can go on where it was stopped.
+// Journal of the finished parts of a long computation, from which it is resumed.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a comparison finds: plain numbers, which a journal keeps and a report shows.
+// Results of a comparison: plain numbers, which a journal keeps and a report shows.
 #pragma once
 
 #include <cstdint>

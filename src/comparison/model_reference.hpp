@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a bundled system is compared with: its exact flow, or small steps, in a bath along paths.
+// References of bundled systems: the exact flow, or small steps, in a bath along paths.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many times smaller one error is than another, from trajectories that both methods ran.
+// Ratio of two errors, from trajectories that both methods ran.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is asked of a problem: trajectories, and what is learned, gathered or measured along them.
+// Plans for a problem: trajectories, and what is learned, gathered or measured along them.
 #pragma once
 
 #include <any>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a problem is: its system, its starts, and where it is stable.
+// A problem: its system, its initial states, and its stability.
 #include "prepared_problem.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a problem makes of a plan to learn.
+// Learning on a problem.
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is measured of methods on a problem: errors, acceptance, statistics and costs.
+// Measurements of methods on a problem: errors, acceptance, statistics and costs.
 #include <fmt/format.h>
 
 #include <algorithm>

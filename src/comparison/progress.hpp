@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a long computation is: a line on a terminal, nothing in a pipe.
+// Progress of a long computation: a line on a terminal, nothing in a pipe.
 #pragma once
 
 #include <atomic>

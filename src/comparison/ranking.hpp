@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What may be said of the rows of a comparison: which count, who wins at which cost.
+// Ranking of the rows of a comparison: which count, and which wins at which cost.
 #pragma once
 
 #include <optional>

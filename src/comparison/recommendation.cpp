@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who takes part, at which steps, and how far each errs.
+// Candidates of a recommendation, their steps, and their errors.
 #include "recommendation.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which method to take: learned families and classical methods at one cost, or at one error.
+// Recommendation of a method: learned families and classical methods at one cost, or at one error.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who takes part in a recommendation.
+// Candidates of a recommendation.
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which words take part, the states on which they are judged, and what is learned.
+// Candidates for sampling, the states on which they are judged, and what is learned.
 #include "sampling_choice.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which word Hybrid Monte Carlo takes for a system, and at which step.
+// Choice of a word, and of a step, for Hybrid Monte Carlo on a system.
 #pragma once
 
 #include <memory>

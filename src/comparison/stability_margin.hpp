@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a step is from being unstable for a system, as far as its frequencies are known.
+// Stability margin of a step for a system, as far as its frequencies are known.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which works a set-up rests on.
+// Works to cite for a set-up.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a comparison found: a document for machines, text and tables for people.
+// Results of a comparison: a JSON document, text and tables.
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a picture shows.
+// Contents of a picture.
 #pragma once
 
 #include <string>

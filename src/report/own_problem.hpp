@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a caller of the library hands over, made ready as the program makes its systems ready.
+// A problem of a caller of the library, prepared as the program prepares its systems.
 #pragma once
 
 #include <memory>

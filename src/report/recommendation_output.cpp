@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who wins, for machines and for people.
+// Results of a recommendation, as JSON and as text.
 #include <algorithm>
 #include <cmath>
 

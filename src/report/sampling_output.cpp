@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which word to sample with, for machines and for people.
+// Results of a recommendation for sampling, as JSON and as text.
 #include <cmath>
 
 #include "comparison/learned_row.hpp"

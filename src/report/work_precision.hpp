@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a method costs beside how far it errs: always together.
+// Cost and error of a method: always together.
 #pragma once
 
 #include <cstddef>

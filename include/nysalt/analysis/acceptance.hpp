@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often a trajectory would be accepted as a proposal of Hybrid Monte Carlo.
+// Acceptance of trajectories as proposals of Hybrid Monte Carlo.
 #pragma once
 
 #include <vector>

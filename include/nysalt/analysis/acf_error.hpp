@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far one autocovariance is from another.
+// The distance between two autocovariances.
 #pragma once
 
 #include "nysalt/analysis/autocovariance.hpp"

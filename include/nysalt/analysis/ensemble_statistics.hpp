@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What an ensemble of trajectories shows in the mean, none of them kept.
+// Statistics of an ensemble of trajectories, none of which is kept.
 #pragma once
 
 #include <cmath>

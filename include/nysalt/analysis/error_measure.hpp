@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What "how far off is a trajectory" may mean.
+// Measures of the error of a trajectory.
 #pragma once
 
 #include <cstddef>

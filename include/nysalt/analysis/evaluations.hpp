@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a trajectory costs.
+// Force evaluations of a trajectory.
 #pragma once
 
 #include <cstdint>

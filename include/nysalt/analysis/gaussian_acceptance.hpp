@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often proposals of Hybrid Monte Carlo are accepted where forces are linear: known without a run.
+// Acceptance of Hybrid Monte Carlo where forces are linear, in closed form.
 #pragma once
 
 #include <span>

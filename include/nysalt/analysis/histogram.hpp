@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often a number fell where.
+// Histogram of a number over equal bins.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many samples count for one.
+// Integrated autocorrelation time: the number of samples that count for one.
 #pragma once
 
 #include <cstddef>

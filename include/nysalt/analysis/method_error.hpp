@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the runs of one method come to.
+// Errors of the runs of one method.
 #pragma once
 
 #include <array>

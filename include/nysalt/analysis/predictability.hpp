@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How long a trajectory is predictable: until a slightly wrong start is hardly better than no model.
+// Horizon of predictability: until a slightly wrong start is hardly better than no model.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How much each sample of a trajectory counts in a mean over time.
+// Weights of the samples of a trajectory in a mean over time.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is gathered along trajectories side by side, and what of each is kept.
+// Statistics along trajectories in lanes, and the part of each that is kept.
 #pragma once
 
 #include <array>

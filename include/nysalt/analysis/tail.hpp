@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether a mean over trajectories, and its standard error, rest on few of them.
+// Heavy tails: means over trajectories, and standard errors, that rest on few of them.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where an error crosses a level.
+// The cost or step at which an error crosses a level.
 #pragma once
 
 #include <limits>

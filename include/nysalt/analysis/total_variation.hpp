@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far apart two distributions are, and how far two samples of one would be.
+// Total variation between two distributions, and its expectation for two samples of one.
 #pragma once
 
 #include <span>

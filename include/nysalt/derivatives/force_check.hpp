@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a check of a force found, and the sentence that it makes.
+// Result of a check of a force, and the sentence that reports it.
 #pragma once
 
 #include <Eigen/Core>

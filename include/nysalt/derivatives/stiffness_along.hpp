@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How stiff, and how unstable, the forces on a system are along its motion.
+// Extreme eigenvalues of the Hessian along the motion: stiffness and instability.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where a letter O ends one step and another begins the next.
+// Merged half steps of letters O: where one ends a step and another begins the next.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a word does to the harmonic oscillator, letter by letter.
+// The step of a word on the harmonic oscillator, letter by letter.
 #pragma once
 
 #include <cstddef>

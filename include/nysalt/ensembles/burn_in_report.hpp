@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How chains are burned in, and what was found about it.
+// Options and report of a burn-in.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether starts are beyond the energies that a method was learned on, or outside by chance.
+// A test whether starts are beyond the energies that a method was learned on, or outside by chance.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What there is to know of a fit.
+// Summary of a fit.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many trajectories are enough: until what is still uncertain hardly matters.
+// The number of trajectories that is enough: until the uncertainty hardly matters.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which loss to learn with.
+// Choice of a loss to learn with.
 #pragma once
 
 #include <optional>

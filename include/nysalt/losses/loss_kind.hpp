@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the library and the program know of a loss.
+// Facts about a loss for the library and the program.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is left of trajectories that were compared.
+// Scores of all trajectories by one measure, gathered over the ranks.
 #pragma once
 
 #include <cstddef>

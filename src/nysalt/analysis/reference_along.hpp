@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What measures read along a reference.
+// Readings of measures along a reference.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How long, with what friction and what step chains must run until they have forgotten their starts.
+// Burn-in of chains: length, friction and step with which they forget their starts.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What `run` is asked, when all of it can be: a system, a method, and steps.
+// Plan of a `run`, checked as a whole: a system, a method, and steps.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the samples of a run go.
+// Output of the samples of a run.
 #pragma once
 
 #include <cstdint>
