@@ -47,7 +47,7 @@ class bath {
   /// Whether there is friction or noise; else a system in it moves as without it.
   bool acts() const { return friction_ > 0.0 || sigma_ > 0.0; }
 
-  /// What is left of a momentum after a time: e^{-gamma t}.
+  /// The damping factor of a momentum over a time: e^{-gamma t}.
   template <Scalar T>
   T decay(const T& time) const {
     using std::exp;

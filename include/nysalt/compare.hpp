@@ -27,7 +27,7 @@ struct compared_method {
   std::string reason;     ///< why there is no value; else empty
 };
 
-/// What compare() found.
+/// Result of compare().
 class comparison {
  public:
   class measurement;  ///< how the library holds what was found
@@ -40,7 +40,7 @@ class comparison {
   std::string text() const;
   /// A JSON document of all that was found: what `nysalt compare --json` prints.
   std::string json() const;
-  /// What should be known before the numbers are used, a sentence each.
+  /// Warnings to read before the numbers are used, a sentence each.
   std::vector<std::string> warnings() const;
   /// Writes report.html, report.md, report.json, rows.csv, and pictures where gnuplot is installed. The
   /// folder is made if it is not there. Throws std::runtime_error if it cannot be written.

@@ -11,14 +11,14 @@
 
 namespace nysalt {
 
-/// How work is done, for any work.
+/// Options of all computations.
 struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
   bool force = false;      ///< a scheme is taken at another step or system than it was learned for
 };
 
-/// How a family is learned at a step that is given elsewhere.
+/// Options of learning at a step that is given elsewhere.
 struct learning_options {
   std::optional<double> fine_step{};  ///< of the reference; must divide the step. None: by the frequency
   std::int64_t trajectories = 100;    ///< to learn from, and as many to judge by

@@ -90,7 +90,8 @@ class ensemble_run {
     starts_.clear();
   }
 
-  /// What a later ensemble_run of the same trajectories takes up. Between two calls of go_on().
+  /// The state from which a later ensemble_run of the same trajectories resumes. Between two calls of
+  /// go_on().
   saved_runs save() const {
     const auto each = static_cast<std::size_t>(3 * size(stepper_->system()));
     saved_runs result{step_, {}, {}};

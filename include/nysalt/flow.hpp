@@ -9,7 +9,8 @@
 
 namespace nysalt {
 
-/// What a letter acts on: q and p, and f, which holds the force that its word reads, where it is known.
+/// The state that a letter acts on: q and p, and f, which holds the force that its word reads, where it is
+/// known.
 template <Scalar T, int N>
 struct flow_state : phase_point<T, N> {
   vector<T, N> f;  ///< the force, as its word needs it
@@ -40,7 +41,7 @@ concept QuadraticFlow = requires {
   requires L::reads_modes;
 };
 
-/// What the words with this letter split H into; `any` of a letter that belongs to all of them.
+/// The splitting of H by the words with this letter; `any` of a letter that belongs to all of them.
 enum class splitting {
   any,
   kinetic_and_potential,   ///< K and V: A, B, D, G
@@ -75,7 +76,7 @@ constexpr splitting splitting_of() {
   }
 }
 
-/// How many forces at displaced points a letter evaluates itself; 0 where it declares none.
+/// Number of forces at displaced points that a letter evaluates itself; 0 where it declares none.
 template <class L>
 constexpr int displaced_forces_of() {
   if constexpr (requires { L::displaced_forces; }) {
@@ -95,7 +96,7 @@ constexpr bool is_symplectic() {
   }
 }
 
-/// What R, S and H need of a system, for refusals while running and while compiling.
+/// Requirements of R, S and H on a system, for refusals while running and while compiling.
 inline constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
     "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "

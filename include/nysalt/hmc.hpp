@@ -25,7 +25,7 @@ struct hmc_state {
   std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` only to read
 };
 
-/// How chains are run.
+/// Options of chains.
 struct hmc_options {
   double step;    ///< h of a whole word; a first guess where `acceptance` is asked for
   double length;  ///< mean duration of a trajectory: durations are uniform between 0 and twice that
@@ -58,7 +58,7 @@ struct hmc_draw {
   double potential;          ///< V(q)
 };
 
-/// How chains went.
+/// Result of chains.
 struct hmc_result {
   double step = 0.0;                ///< h that the draws were made with
   estimate acceptance;              ///< mean over chains of the probability to be accepted
@@ -93,8 +93,9 @@ hmc_result hmc(const model& system, const tabulated& method, const initial_state
 /// std::invalid_argument unless all chains are of one length.
 double potential_scale_reduction(const std::vector<std::vector<double>>& chains);
 
-/// How many independent draws would give the mean of a scalar the error that chains give: all draws, over the
-/// integrated autocorrelation time of the chains together. NaN where chains are too short.
+/// Effective number of independent draws, which would give the mean of a scalar the error that chains give:
+/// all draws, over the integrated autocorrelation time of the chains together. NaN where chains are too
+/// short.
 double effective_draws(const std::vector<std::vector<double>>& chains);
 
 }  // namespace nysalt

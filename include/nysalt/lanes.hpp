@@ -51,7 +51,7 @@ inline constexpr int lanes_in = 1;
 template <int W>
 inline constexpr int lanes_in<pack<double, W>> = W;  ///< its lanes
 
-/// What comparing two T gives: a bool, or a mask of lanes.
+/// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
 

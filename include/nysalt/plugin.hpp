@@ -104,7 +104,7 @@ consteval bool takes_spread(const starts_of_system<F>*) {
   return std::invocable<const F&, const S&, double>;
 }
 
-/// What a plug-in and the program that loads it must have alike.
+/// Facts in which a plug-in and the program that loads it must agree.
 inline std::string plugin_stamp() {
   return sentence("nysalt {}; compiler {}; {} lanes; Eigen {}.{}.{}, aligned to {}; sizes {}, {}", version,
                   __VERSION__, default_lanes, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,

@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What recommend() found.
+/// Result of recommend().
 class recommendation {
  public:
   class contest_result;  ///< how the library holds what was found
@@ -36,7 +36,7 @@ class recommendation {
   /// The winner's scheme, as scheme files hold it and comparison_options::held takes it; nothing if none that
   /// is learned wins.
   std::optional<std::string> scheme() const;
-  /// What should be known before the advice is taken, a sentence each.
+  /// Warnings to read before the advice is taken, a sentence each.
   std::vector<std::string> warnings() const;
 
  private:

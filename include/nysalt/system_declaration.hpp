@@ -26,7 +26,7 @@ namespace nysalt {
 /// A whole or a real number, or a text, such as the name of a file.
 using parameter_value = std::variant<std::int64_t, double, std::string>;
 
-/// What a system is made of, a number or a text, as options, help, files and Python name it.
+/// A parameter of a system, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _: the option is --name
   parameter_value usual;  ///< where none is given; it says whether it is a text, or the number is whole

@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// How long a trial lasts.
+/// Length of a trial.
 struct trial_options {
   std::int64_t steps = 20'000;  ///< of each trajectory
   std::uint64_t seed = 1;       ///< of the noise, in a bath
@@ -65,7 +65,7 @@ struct trial_result {
   /// One sentence on why it failed; empty if it passed or was not run.
   std::string objection() const;
 
-  /// What was tried and what came of it, in one line.
+  /// The trial and its result, in one line.
   std::string report() const;
 };
 

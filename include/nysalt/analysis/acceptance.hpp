@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// How often proposals are accepted, and what they cost.
+/// Acceptance of proposals, and their cost.
 struct acceptance_result {
   estimate probability;                          ///< mean over all trajectories
   std::vector<double> of_each;                   ///< probability of each trajectory; 0 if it diverged

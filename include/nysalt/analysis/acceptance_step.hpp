@@ -25,7 +25,7 @@ struct proposal_options {
   const communicator* ranks = &alone;  ///< who share the states; changes no bit
 };
 
-/// How often proposals of a step are accepted.
+/// Acceptance of proposals at a step.
 struct proposal_acceptance {
   estimate probability;         ///< over all states and durations
   std::vector<double> of_each;  ///< what each state says of it: their mean is the probability

@@ -8,10 +8,10 @@
 
 namespace nysalt {
 
-/// What Metropolis' rule accepts where the energy error of proposals, over kT, is normal with the mean mu:
-/// erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has the
-/// mean 1 the variance is 2 mu. That is the limit of many dimensions; of one oscillator the distribution is
-/// another.
+/// The acceptance of Metropolis' rule where the energy error of proposals, over kT, is normal with the mean
+/// mu: erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has
+/// the mean 1 the variance is 2 mu. That is the limit of many dimensions; of one oscillator the distribution
+/// is another.
 double acceptance_at(double energy_error);
 
 /// The mean energy error of an acceptance: the inverse of acceptance_at(). Throws std::invalid_argument

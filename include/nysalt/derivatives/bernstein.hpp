@@ -27,7 +27,7 @@ class bernstein_polynomial {
     const auto [least, most] = std::minmax_element(c_.begin(), c_.end());
     return {*least, *most};
   }
-  /// How often the differences of neighbouring coefficients change sign: the derivative has as many roots
+  /// Number of sign changes of the differences of neighbouring coefficients: the derivative has as many roots
   /// inside the interval, or fewer by an even number [farouki_2012]. Differences within `rounding` of the
   /// larger of both coefficients are left out.
   int turns(double rounding) const;

@@ -65,7 +65,7 @@ class gibbs {
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
       : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
 
-  /// How chains are burned in, and what was checked.
+  /// The burn-in of the chains, and what was checked.
   const burn_in_report& report() const { return chains_->report(); }
 
   /// The start of trajectory n. Throws std::runtime_error if its chain diverges.

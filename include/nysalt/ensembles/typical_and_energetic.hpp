@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-/// How many of typical_and_energetic_starts() come first, as the ensemble gives them.
+/// Number of the typical starts, which come first in typical_and_energetic_starts().
 inline constexpr std::size_t plain_starts = 128;
 
 /// Starts of an ensemble from number `first` on: 128 in its order and the 64 most energetic of 896 that come

@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What to do with a fit. nothing_gained: it may be used, but a classical method that costs as much is as
+/// Verdict on a fit. nothing_gained: it may be used, but a classical method that costs as much is as
 /// good.
 enum class verdict { usable, nothing_gained, not_usable };
 
@@ -50,7 +50,8 @@ struct fit_summary {
   bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
-  /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
+  /// The loss that was minimised, at theta; one-step: mean over pairs of the sum over coordinates of
+  /// r^2/Sigma.
   double loss = 0.0;
   double held_out_loss = 0.0;        ///< the same on data that was not learned from
   double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
@@ -59,7 +60,7 @@ struct fit_summary {
   std::size_t trajectories = 0;      ///< number of trajectories of the data
   std::size_t held_out_samples = 0;  ///< number of pairs of the held-out data
 
-  /// What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single
+  /// The mean contribution of the parameters' uncertainty to the loss on new data. NaN from a single
   /// trajectory, and where the guard holds them.
   double expected_excess = 0.0;
   double deciding_trajectories = 0.0;  ///< on how many that and the standard errors rest
@@ -112,7 +113,7 @@ struct fit_summary {
   }
   /// The verdict in words, with the reason or with what to take instead.
   std::string verdict_in_words() const;
-  /// What to take where nothing is gained, in words: a method with its step, or what the rival is.
+  /// The method to take where nothing is gained, in words: a method with its step, or what the rival is.
   std::string what_to_take() const;
   /// Of the held-out losses of the rival and of this: how many times smaller this is.
   double gain() const { return rival_loss / held_out_loss; }

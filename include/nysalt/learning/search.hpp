@@ -65,7 +65,7 @@ Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd thet
 /// The theta nearest to this one that lies in all ranges.
 Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
 
-/// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
+/// Result of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
   candidate best;                      ///< what is to be used
   std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it

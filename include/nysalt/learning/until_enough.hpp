@@ -17,7 +17,7 @@ struct enough_options {
   std::int64_t most = 100'000;  ///< number of trajectories beyond which it does not go
 };
 
-/// How a fit came to its number of trajectories.
+/// The steps by which a fit came to its number of trajectories.
 struct enough_course {
   /// One fit on the way.
   struct stop {

@@ -40,7 +40,8 @@ struct residuals_of_stretch {
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
 };
 
-/// What is made of them: as many terms as were asked for. Called from several threads at a time.
+/// The terms that are made of the residuals: as many as were asked for. Called from several threads at a
+/// time.
 template <Scalar R>
 using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
 
@@ -49,8 +50,8 @@ using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, st
 ///
 /// Windows of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// windows; neither its lanes nor the threads change a bit of a sum.
-/// What a loss over data offers the learner: scalar, parameters(), share(), residuals(), and sums(theta,
-/// with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
+/// The interface of a loss over data to the learner: scalar, parameters(), share(), residuals(), and
+/// sums(theta, with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
 template <Scalar R = detail::lanes>
 class after_steps {
   using C = dual<R, directions_at_a_time>;

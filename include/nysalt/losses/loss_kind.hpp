@@ -18,9 +18,9 @@ struct data_loss;    // in src/nysalt/losses/data_loss.hpp
 struct loss_inputs;  // there, too
 }  // namespace detail
 
-/// What is least for the best of several minima: the loss on held-out data; the state's error at the ends of
-/// held-out trajectories; or the loss on the data that were learned from, so that held-out data choose
-/// nothing.
+/// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
+/// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
+/// data choose nothing.
 enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
 
 /// The error after K steps, from four states of each trajectory first, then from each.

@@ -42,7 +42,7 @@ own_loss(std::string, int, Error) -> own_loss<Error>;
 
 namespace detail {
 
-/// How many residuals over T a result holds: Eigen::Dynamic if it has a size(), 0 if it is none.
+/// Number of residuals over T in a result: Eigen::Dynamic if it has a size(), 0 if it is none.
 template <class Result, class T>
 inline constexpr int residuals_in = 0;
 template <class T>

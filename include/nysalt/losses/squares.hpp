@@ -68,7 +68,7 @@ std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen
 
 }  // namespace detail
 
-/// What each trajectory of this rank adds to the loss. Cost: one pass over the data.
+/// The contribution of each trajectory of this rank to the loss. Cost: one pass over the data.
 template <class Loss>
 std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
@@ -87,8 +87,8 @@ double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
   return loss.share().sum(trajectory_losses(loss, theta));
 }
 
-/// What each trajectory of this rank adds to the gradient of the loss. Cost: a pass with derivatives, as for
-/// all below.
+/// The contribution of each trajectory of this rank to the gradient of the loss. Cost: a pass with
+/// derivatives, as for all below.
 template <class Loss>
 std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   std::vector<Eigen::VectorXd> result;
@@ -125,7 +125,7 @@ Eigen::VectorXd residual_squares(const Loss& loss, const Eigen::VectorXd& theta)
   return loss.share().sum(by_trajectory, zero);
 }
 
-/// What each trajectory of this rank adds to the gradient of the loss, by residual: a column each.
+/// The contribution of each trajectory of this rank to the gradient of the loss, by residual: a column each.
 template <class Loss>
 std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;

@@ -133,7 +133,7 @@ class stationary_covariance {
     return discrete_lyapunov(M, R);
   }
 
-  /// What letters without O make of (x, y), as the stepper does it.
+  /// The map of (x, y) by letters without O, as the stepper does it.
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
     const detail::mode_alone mode{omega};

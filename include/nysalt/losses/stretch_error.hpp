@@ -9,7 +9,7 @@
 
 namespace nysalt {
 
-/// What a loss over data squares and adds up, of whatever kind: state_error(), energy_error(), own_error().
+/// Residuals of a loss over data, of any kind: state_error(), energy_error(), own_error().
 /// The kind is no part of the type, as a pass over the data is expensive to compile: one serves all kinds. It
 /// calls `of` once for each pack of windows and each two parameters, which costs little beside their steps.
 template <Scalar R = detail::lanes>

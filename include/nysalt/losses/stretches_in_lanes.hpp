@@ -55,7 +55,7 @@ struct noise_of_entries {
   }
 };
 
-/// What the letters O of a word need of the noise in data.
+/// The noise in data that the letters O of a word need.
 struct wanted_noise {
   noise_intervals intervals;   ///< in the parts of the data
   double damping_of_part = 0;  ///< gamma times the length of a part

@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What a method promises beside its coefficients.
+/// Declared properties of a method beside its coefficients.
 struct method_properties {
   int order;                        ///< in h, as declared
   bool symmetric;                   ///< whether a step back undoes a step

@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// What a random number is for, so that no two uses share one.
+/// The purpose of a random number, so that no two uses share one.
 enum class noise_purpose : std::uint8_t {
   initial_state = 1,   ///< of a trajectory
   bath = 2,            ///< of a run
