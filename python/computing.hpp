@@ -20,7 +20,7 @@ void compute(bool calls_python, const std::function<void()>& work);
 /// Work of moments that calls no function of Python: here, without the lock.
 void without_lock(const std::function<void()>& work);
 
-/// What a function of Python returns. Throws what it raises.
+/// The result of a function of Python. Throws what it raises.
 pybind11::object called(const pybind11::object& function, const pybind11::tuple& arguments);
 
 /// Throws what a signal handler raises, if there is a signal.

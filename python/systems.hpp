@@ -23,7 +23,7 @@ struct held_system {
   bool calls_python() const { return functions != nullptr; }
 };
 
-/// How many states of the system an array holds. Throws refusal unless its shape is (dimension,) or
+/// Number of states of the system in an array. Throws refusal unless its shape is (dimension,) or
 /// (trajectories, dimension).
 std::int64_t states_in(const held_system& system, const std::vector<std::int64_t>& shape, const char* name);
 

@@ -49,7 +49,7 @@ class comparison {
   /// Plans the rows. Throws refusal for bad options, before any work is done.
   comparison(std::unique_ptr<prepared_problem> system, comparison_options asked, common_settings common);
 
-  /// What is asked, without how it is computed: two comparisons of one question have the same results to the
+  /// The question, without how it is computed: two comparisons of one question have the same results to the
   /// bit.
   const json& question() const { return question_; }
   void learn_and_measure(journal& kept);

@@ -139,8 +139,8 @@ std::vector<asked_metric> comparison::along_paths() const {
   return result;
 }
 
-/// How many times finer the reference should be for its error to be a hundred times below those of the rows,
-/// as that falls with the sixth power of its step.
+/// The factor by which the reference should be finer for its error to be a hundred times below those of the
+/// rows, as that falls with the sixth power of its step.
 double comparison::refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const {
   constexpr double share = 0.01;
   constexpr double order = 6.0;

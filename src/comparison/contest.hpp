@@ -26,7 +26,7 @@ struct bracket {
   std::map<int, std::vector<double>> thetas;  // that were learned
 };
 
-/// What a method's errors on some trajectories are.
+/// Errors of a method on some trajectories.
 struct measured_error {
   estimate mean{};
   std::vector<double> scores{};  // of each trajectory

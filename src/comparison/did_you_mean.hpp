@@ -13,7 +13,7 @@ namespace nysalt::program {
 /// many, wrong, or two exchanged) in three letters turns it into.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& known);
 
-/// How a sentence on an unknown name goes on: "did you mean fg4?"; if no name is near "it is one of a, b" of
+/// The end of a sentence on an unknown name: "did you mean fg4?"; if no name is near "it is one of a, b" of
 /// a few names, and of more what is said `otherwise`.
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& known,
                          std::string_view otherwise = "nysalt list shows all");

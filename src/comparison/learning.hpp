@@ -24,7 +24,7 @@ learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan
 std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_plan plan,
                                         std::vector<double> steps, progress& shown);
 
-/// What was found, in the order of the family's parameters.
+/// The fitted values, in the order of the family's parameters.
 std::vector<double> theta_of(const fit_summary& fit);
 
 /// Training and held-out seeds are the roles of the user's.

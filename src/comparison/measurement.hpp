@@ -28,7 +28,7 @@ struct drawn_law {
 };
 drawn_law drawn(const gathered_statistics& found);
 
-/// What one method at one step came to, by one metric.
+/// Result of one method at one step, by one metric.
 struct measurement {
   estimate value{};         // an error; of the metric acceptance that
   std::string reason = {};  // why there is none
@@ -57,7 +57,8 @@ struct energy_course {
   std::vector<double> surviving;  // share of the trajectories
 };
 
-/// What the measurements at one step are seen against, by one metric. What a metric has not is left out.
+/// Reference, null model and floor of the measurements at one step, by one metric. What a metric has not is
+/// left out.
 struct baseline {
   std::string reference = {};                 // description of the reference
   std::optional<double> reference_error{};    // the error of the reference itself

@@ -37,7 +37,7 @@ struct named_value {
   std::variant<std::int64_t, double, std::string> value;
 };
 
-/// What a system is in, and where its trajectories start.
+/// The bath of a system, and the initial distribution.
 enum class start { law, gibbs, trajectory };
 std::string to_string(start where);
 struct surroundings {
@@ -52,7 +52,7 @@ class prepared_problem {
   prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
                    const surroundings& conditions);
 
-  /// What the problem was made of.
+  /// The definition of the problem.
   const initial_value_problem& definition() const { return made_; }
   start start_law() const { return start_; }
   /// The starts, once they are prepared.
@@ -132,7 +132,7 @@ class prepared_problem {
                                  const std::string& observable, const counter& progress) const;
   gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                            std::optional<double> fine_step, const counter& progress) const;
-  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  /// The rate of the fastest motion that the reference resolves: an angular frequency or the friction.
   double fastest_rate() const;
   /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
   std::optional<double> fine_step_for_ranking(double step) const;

@@ -12,11 +12,11 @@
 
 namespace nysalt::program {
 
-/// Who computes with us as with a library: wants no line, and may want the work to end before it is done.
+/// A caller that uses the program as a library: no line is printed, and the caller may end the work early.
 struct quiet_caller {
   std::atomic<bool> wants_an_end = false;
 };
-/// What a counter throws then.
+/// The exception that a counter throws then.
 class ended_early : public std::exception {
  public:
   const char* what() const noexcept override { return "the work was ended before it was done"; }

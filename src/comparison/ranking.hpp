@@ -26,7 +26,7 @@ enum class mark {
 std::string to_string(mark which);
 std::string meaning(mark which);
 
-/// What a row is seen against; empty where nothing was measured.
+/// The reference of a row; empty where nothing was measured.
 const baseline& baseline_of(const comparison& all, std::size_t metric, const row& line);
 
 /// The marks of one finding; none where there is no value.
@@ -51,10 +51,10 @@ struct at_equal_cost {
 };
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metric);
 
-/// How many times smaller the error of the learned one is; of acceptances, what is rejected. Its standard
-/// error is that of the differences trajectory by trajectory, which both share; of medians and distributions
-/// that of independent numbers, which is too large where what is shared makes both err alike. NaN where
-/// nothing is rejected.
+/// The factor by which the error of the learned one is smaller; of acceptances, that of what is rejected. Its
+/// standard error is that of the differences trajectory by trajectory, which both share; of medians and
+/// distributions that of independent numbers, which is too large where what is shared makes both err alike.
+/// NaN where nothing is rejected.
 estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
 
 /// Rows that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are

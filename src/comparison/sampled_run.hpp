@@ -26,7 +26,7 @@ struct record {
 /// Called with further samples of a trajectory, by the number of the trajectory.
 using record_taker = std::function<void(std::int64_t, const record&)>;
 
-/// How far a run is: trajectories before `first` are finished; those after it are as they were saved, and if
+/// Progress of a run: trajectories before `first` are finished; those after it are as they were saved, and if
 /// none were, they have not begun.
 struct run_progress {
   std::int64_t first = 0;
@@ -35,7 +35,7 @@ struct run_progress {
   bool is_new() const { return first == 0 && batch.diverged_at.empty(); }
 };
 
-/// What is sampled along the trajectories of a plan.
+/// Samples along the trajectories of a plan.
 struct sampled_plan {
   trajectories_plan trajectories;
   std::vector<std::string> observables;

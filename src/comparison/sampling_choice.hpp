@@ -29,7 +29,7 @@ struct sampling_candidate {
   double step_of_evaluation() const { return found->step / source.evaluations_per_step; }
 };
 
-/// How many times larger one number is than another, with its standard error.
+/// Ratio of two numbers, with its standard error.
 struct sampling_ratio {
   double value;
   double standard_error;
@@ -45,7 +45,7 @@ class sampling_choice {
   void learn_and_rank();
 
   bool has_result() const { return best_of(true) != nullptr || best_of(false) != nullptr; }
-  /// What is to be taken: the best, and of a tie the one that needs no learning; null if there is none.
+  /// The candidate to take: the best, and of a tie the one that needs no learning; null if there is none.
   const sampling_candidate* taken() const;
   /// "learned", "classical", "tie" or "none"
   std::string verdict() const;

@@ -13,18 +13,18 @@
 
 namespace nysalt::program {
 
-/// What a step should leave to the end of its window, as nonlinear systems leave it earlier. Under Verlet, of
-/// 256 trajectories to t = 2000, phi4, lennard_jones and henon_heiles lose 3, 8 and 1 just below the end, and
-/// none at four fifths of it.
+/// The relative distance that a step should keep from the end of its window, as nonlinear systems leave it
+/// earlier. Under Verlet, of 256 trajectories to t = 2000, phi4, lennard_jones and henon_heiles lose 3, 8 and
+/// 1 just below the end, and none at four fifths of it.
 inline constexpr double wanted_margin = 0.2;
-/// What linear_step leaves to the first end, or to a quarter of a turn of the fastest oscillation, whichever
-/// comes first: nonlinear motion is lost at the resonances of low order, where a step turns by a half, a
-/// third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
+/// The relative distance of linear_step from the first end, or to a quarter of a turn of the fastest
+/// oscillation, whichever comes first: nonlinear motion is lost at the resonances of low order, where a step
+/// turns by a half, a third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
 inline constexpr double linear_margin = 0.3;
 inline constexpr double turn_margin = 0.05;
-/// What a safe step leaves to the largest step at which a trial run passed. The pendulum under Verlet is the
-/// standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just beyond, momenta
-/// diffuse too slowly for a trial run to see.
+/// The relative distance of a safe step from the largest step at which a trial run passed. The pendulum under
+/// Verlet is the standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just
+/// beyond, momenta diffuse too slowly for a trial run to see.
 inline constexpr double tried_margin = 0.2;
 
 /// Angular frequencies that a system is asked to be stable for: its bands; where it declares none those that
@@ -42,7 +42,7 @@ struct known_frequencies {
   /// "declared", or else.
   std::string source() const;
 };
-/// What is known with little work.
+/// Facts that cost little work.
 known_frequencies frequencies_of(const prepared_problem& system);
 /// And along that number of initial states, if that is not expensive.
 known_frequencies frequencies_along_starts(const prepared_problem& system, std::uint64_t seed,

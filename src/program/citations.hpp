@@ -7,7 +7,7 @@
 
 namespace nysalt::program {
 
-/// What is run, as far as it decides what to cite. What is empty is not part of it.
+/// The parts of a run that decide what to cite. Empty ones are not part of it.
 struct cited_setup {
   std::string system;                 // a name of `list`
   std::vector<std::string> methods;   // classical names of `list`

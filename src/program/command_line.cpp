@@ -35,7 +35,7 @@ constexpr const char* three_commands =
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
     "nysalt --help lists all commands.\n";
 
-/// What follows a name on the command line, or the name and an =; the last if there are several.
+/// The text after a name on the command line, or the name and an =; the last if there are several.
 std::string typed_after(const std::string& name, int argc, char** argv) {
   std::string value;
   for (int i = 1; i < argc; ++i) {

@@ -28,7 +28,7 @@ class fitted_family {
   /// The first that is not usable; null if all are.
   const learned_scheme* unusable() const;
 
-  /// What was learned, for machines.
+  /// The fit, as JSON.
   json document() const;
   /// The scheme file.
   std::string scheme() const;

@@ -38,7 +38,7 @@ cited_setup setup_of(const scheme& learned) {
   return setup;
 }
 
-/// What `recommend` ranks: all families if none are named, and what is classical.
+/// The methods that `recommend` ranks: all families if none are named, and what is classical.
 void add_candidates(const recorded_options& given, cited_setup& to) {
   to.learned = given.of("families");
   if (to.learned.empty()) to.learned = family_names();

@@ -6,7 +6,7 @@
 
 namespace nysalt::program {
 
-/// What the work returns, or bad_input after an exception was reported. Throws nothing.
+/// The exit code of the work, or bad_input after an exception was reported. Throws nothing.
 int exit_code_of(const std::function<int()>& work);
 
 /// The exit code: done, bad_input, no_result or not_written of commands.hpp, or 128 and the number of the

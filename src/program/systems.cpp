@@ -82,7 +82,7 @@ surroundings surroundings_of(const system_settings& settings) {
   return {heat_bath, where, spread_of(settings.spread, where)};
 }
 
-/// What was typed for a parameter, as its declaration has it.
+/// The typed value of a parameter, as its declaration has it.
 parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
   const std::string option = "--" + parameter.name;
   if (parameter.is_text()) return text;

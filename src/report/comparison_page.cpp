@@ -84,7 +84,7 @@ std::string repaid_after(const comparison& all, const cost_at_level& cost,
   return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
 }
 
-/// What it costs to come to a level.
+/// Costs to reach a level.
 table level_table(const comparison& all, std::size_t m, double level) {
   const auto costs = costs_at(all, m, level);
   const bool is_learned = std::ranges::any_of(costs, &cost_at_level::is_learned);

@@ -117,7 +117,7 @@ std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m)
 
 namespace {
 
-/// What rows of one reference are seen against: the worst of it over their steps.
+/// The context of rows of one reference: the worst of it over their steps.
 struct span_of_steps {
   double from;
   double to;

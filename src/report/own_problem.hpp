@@ -23,7 +23,7 @@ common_settings settings_of(const execution_options& execution);
 /// Warnings in terms of C++.
 std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings);
 
-/// What work() returns; a refusal becomes std::invalid_argument, in terms of C++.
+/// The result of work(); a refusal becomes std::invalid_argument, in terms of C++.
 auto with_cpp_messages(const auto& work) {
   try {
     return work();

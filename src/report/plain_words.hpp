@@ -10,7 +10,7 @@ namespace nysalt {
 
 /// Words of one style.
 struct styled_words {
-  /// How words are set.
+  /// The style of words.
   enum class kind { plain, code, bold, link };
   kind is = kind::plain;  ///< their style
   std::string text;       ///< the words, without marks

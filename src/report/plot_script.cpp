@@ -46,7 +46,7 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
 /// More than six entries would hide points: then the key is beside the panel.
 bool has_key_beside(const panel& plot) { return plot.curves.size() > 6; }
 
-/// What a key beside the panel takes, in pixels: a sample of 60, and some 7.5 a character.
+/// The width of a key beside the panel, in pixels: a sample of 60, and some 7.5 a character.
 int key_width(const figure& f) {
   double width = 0.0;
   for (const auto& panel : f.panels) {

@@ -12,7 +12,7 @@ namespace nysalt::program {
 
 namespace {
 
-/// What is to be taken; of a tie the one that needs no learning.
+/// The candidate to take; of a tie the one that needs no learning.
 const candidate* taken(const contest& among) {
   const candidate* winner = among.winner();
   return winner != nullptr ? winner : among.best_of(false);
@@ -38,7 +38,7 @@ std::string recommendation::as_options(const candidate& contender) const {
   return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
 }
 
-/// What one costs beside the other: "as many evaluations and 1.3 times the seconds".
+/// The cost of one relative to the other: "as many evaluations and 1.3 times the seconds".
 std::string recommendation::costs(const candidate& contender, const candidate& other) const {
   constexpr double start_up = 0.05;  // a start costs one evaluation, of twenty at least
   const double noise = noise_of(contender, other);
@@ -127,7 +127,7 @@ std::string recommendation::advice_on_seconds() const {
       fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
 }
 
-/// What a processed method pays for, where one is advised.
+/// The cost of observations of a processed method, where one is advised.
 std::string recommendation::advice_on_looks() const {
   const candidate* best = taken(asked());
   if (best == nullptr || best->source.evaluations_to_look == 0) return {};

@@ -19,7 +19,7 @@ std::string in_words(const sampling_ratio& ratio) {
 
 }  // namespace
 
-/// What two stages gain on one: a first sign of whether any word will help.
+/// The gain of two stages over one: a first sign of whether any word will help.
 std::string sampling_choice::diagnostic() const {
   const auto* verlet = named("verlet");
   const auto* two = named("mclachlan2v");

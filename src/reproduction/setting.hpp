@@ -21,7 +21,7 @@ namespace nysalt::program::paper {
 inline constexpr double omega = 50.0;
 inline constexpr double gap_step = 1e-4;  // the paper's fine step: a step is gap times it
 
-/// How much is computed: all that is needed, or (quick) only so much that everything runs once.
+/// The amount of computation: all that is needed, or (quick) only so much that everything runs once.
 class setting {
  public:
   const common_settings& common;
@@ -38,7 +38,7 @@ class setting {
   /// The chain in the paper's bath, gamma = .01 and sigma = .05, with starts `gibbs` or `trajectory`, which
   /// are prepared once.
   const prepared_problem& in_bath(const std::string& start) const;
-  /// What the paper learns there (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
+  /// The fits of the paper (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
   const tabulated& learned_in_bath(const std::string& start, double gap, placement where) const;
 
  private:

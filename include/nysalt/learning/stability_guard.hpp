@@ -94,7 +94,7 @@ class stability_guard {
  private:
   void declare(const std::vector<frequency_band>& bands);
 
-  /// The motion along a number of states: of each state its frequencies, where they are known.
+  /// Takes in the frequencies along a number of states, where they are known.
   void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
 

@@ -16,7 +16,7 @@
 
 namespace nysalt {
 
-/// How far methods may share noise with a reference: in how many parts of a step, and of which reference.
+/// The noise that methods share with a reference: in how many parts of a step, and of which reference.
 struct shared_noise {
   int parts = 0;           ///< 0: there is none
   std::uint64_t seed = 0;  ///< of the noise

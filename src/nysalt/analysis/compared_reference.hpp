@@ -25,9 +25,9 @@ struct reference_checks {
   bool null_model = false;                  ///< whether that is compared too, on all trajectories
 };
 
-/// What measures expect along trajectories side by side: the numbers of the reference, or those at the start.
-/// Beside them go the reference's finer self, one from perturbed starts on the same noise, and the null model
-/// in which all stays as it was at the start; each only as far as it is wanted.
+/// Expected values of measures along trajectories in lanes: the numbers of the reference, or those at the
+/// start. Beside them go the reference's finer self, one from perturbed starts on the same noise, and the
+/// null model in which all stays as it was at the start; each only as far as it is wanted.
 template <class T>
 class compared_reference {
  public:
@@ -82,7 +82,7 @@ class compared_reference {
     }
   }
 
-  /// What measure i expects at sample n of the last interval.
+  /// The expected values of measure i at sample n of the last interval.
   std::span<const T> expected(std::size_t i, std::int64_t n) const {
     return measures_.reads(i) ? seen_by(*reference_, i, n) : std::span<const T>(at_start_[i]);
   }

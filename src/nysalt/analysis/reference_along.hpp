@@ -19,8 +19,8 @@
 
 namespace nysalt {
 
-/// What measures read along a reference, an interval of samples at a time; one trajectory in each lane. In a
-/// bath the noise of that interval is kept for the methods that follow.
+/// Readings of measures along a reference, an interval of samples at a time; one trajectory in each lane. In
+/// a bath the noise of that interval is kept for the methods that follow.
 template <class T>
 class reference_along {
  public:

@@ -22,15 +22,15 @@ struct exported_letters {
   std::string letters;               ///< A, B, D and O
   std::vector<double> coefficients;  ///< one for A, B and O; b and c for D
 
-  /// How many of them are `letter`.
+  /// Number of letters `letter`.
   std::size_t count(char letter) const;
 };
 
 /// The kernel that is stepped.
 exported_letters kernel_of(const exported_method& method);
-/// What acts before the first step; empty without a processor.
+/// The word before the first step; empty without a processor.
 exported_letters start_of(const exported_method& method);
-/// What acts on a copy of the state that is observed; empty without a processor.
+/// The word on a copy of the state that is observed; empty without a processor.
 exported_letters finish_of(const exported_method& method);
 
 /// Whether the method has letters O, of a bath.

@@ -36,9 +36,10 @@ struct data_loss {
   std::function<std::vector<double>(const run_time_family& method)> by_trajectory_of;
 };
 
-/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
-/// those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger
-/// by some part counts less by that part. Without this the standard errors are two to three times too small.
+/// The contribution of each trajectory to the gradient of the loss, by its residuals and by its part in the
+/// weights: those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out
+/// larger by some part counts less by that part. Without this the standard errors are two to three times too
+/// small.
 template <class Loss>
 trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
   const Eigen::MatrixXd* deviations = loss.error().weight_deviations;

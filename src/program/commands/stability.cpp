@@ -54,7 +54,7 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
          *source.family);
 }
 
-/// What is found, for programs and for people.
+/// The findings, as JSON and as text.
 struct answer {
   json document;
   std::string text;

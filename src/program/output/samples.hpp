@@ -50,7 +50,7 @@ class sample_writer {
   virtual void lay_out(unfinished_file&) {}
   /// Goes on in a file that was left by another run; false if it is not as that one wrote it.
   virtual bool go_on(unfinished_file& file, const file_sum& written) = 0;
-  /// What a checkpoint knows of a file of such samples, finished or not; nothing if it is none.
+  /// The record in a checkpoint of a file of such samples, finished or not; nothing if it is none.
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
   /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
   virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;

@@ -16,7 +16,7 @@
 
 namespace nysalt::program {
 
-/// What a file is known by: its length and CRC-32.
+/// The identity of a file: length and CRC-32.
 struct file_sum {
   std::uint64_t length = 0;
   std::uint32_t crc = 0;
