@@ -38,7 +38,7 @@ template <class T>
 using coefficient_of = std::conditional_t<is_dual<T>, T, double>;
 
 /// A system's functions over T. What a system does not serve throws std::logic_error: the facts of a model
-/// tell beforehand.
+/// say so beforehand.
 template <class T>
 class kernels {
  public:
@@ -46,7 +46,8 @@ class kernels {
   using program = step_program<coefficient_of<T>>;
 
   virtual ~kernels() = default;
-  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and looks.
+  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and
+  /// observations.
   virtual void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                        const program& letters, std::int64_t steps, const callback& other,
                        const watch<T>& watched) const = 0;
@@ -98,7 +99,7 @@ class any_system {
       kernels_;
 };
 
-/// What is known of a system while running; concepts tell the same of its type.
+/// What is known of a system while running; concepts say the same of the type.
 struct model_facts {
   Eigen::Index size = 0;
   std::string description{};

@@ -64,7 +64,7 @@ stability_guard guard_along(const model& system, const flow_map_data& data, cons
                             bool rotations, const fit_options& options) {
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
-  // Over ten thousand steps, as at first: what grows more slowly a trial run tells.
+  // Over ten thousand steps, as at first: what grows more slowly a trial run shows.
   constexpr std::int64_t most_steps = 10'000;
   return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
 }
