@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The exact flow, as nearly as it is to be had, with its error known.
+// Accurate reference flows with a measured error.
 #pragma once
 
 #include <algorithm>
