@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """Plain words: words.py [--record | --where WORD] [ROOT].
 
-docs/notation.md lists words that are not used. This script finds them in comments and texts of the sources, and in the
-pages. tests/docs/words_left.txt records how many are left, by folder and word; a count may only fall. --record writes
+docs/notation.md lists words that are not used. This script finds them in comments, texts and names of the sources, and in
+the pages. tests/docs/words_left.txt records how many are left, by folder and word; a count may only fall. --record writes
 the counts of now, --where WORD lists where one is. Two rules have no exception: `its` is not an identifier, and no
 message ends in "cannot be".
 """
@@ -122,9 +122,9 @@ def folder_of(root, path):
 
 
 def found_in(root):
-    """[(path, line, folder, word)] of the words, and sentences on what has no exception."""
+    """[(path, line, folder, word)] of the words, also as parts of names, and sentences on what has no exception."""
     words = words_not_used((root / "docs/notation.md").read_text())
-    places, wrong = [], []
+    places, wrong, names = [], [], set()  # a name counts once in a folder
     for path in files(root):
         name = path.relative_to(root).as_posix()
         text_of_file = path.read_text()
@@ -134,6 +134,10 @@ def found_in(root):
             if kind == "name":
                 if text == "its":
                     wrong.append(f"{name}:{line}: `its` is not an identifier; name what it is")
+                for word, expression in words.items():
+                    if expression.search(text.replace("_", " ")) and (folder_of(root, path), text) not in names:
+                        names.add((folder_of(root, path), text))
+                        places.append((name, line, folder_of(root, path), f"{word} (names)"))
                 continue
             if kind == "text" and re.search(r"cannot be\s*(?:[.:;,]|$)", text):
                 wrong.append(f"{name}:{line}: \"{text[:60]}\": write `WHO: PARAMETER must CONDITION, got VALUE; REMEDY`")

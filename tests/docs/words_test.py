@@ -101,7 +101,7 @@ class InACopy(unittest.TestCase):
                 rose, _ = self.judged()
                 self.assertEqual(len(rose), 1)
                 self.assertIn("1 times, 0 are recorded", rose[0])
-        self.write("src/b.cpp", '#include "alone.hpp"\nint told = 1;  // it cannot be written\n')
+        self.write("src/b.cpp", '#include "alone.hpp"\nint reported = 1;  // it cannot be written\n')
         self.assertEqual(self.judged()[0], [])
         for name in ("README.md", "python/b.py", "docs/site/b.py"):
             (self.root / name).parent.mkdir(exist_ok=True)
@@ -109,6 +109,13 @@ class InACopy(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(len(self.judged()[0]), 1)
             self.write(name, "")
+
+    def test_a_name_counts_once_in_a_folder(self):
+        self.write("src/b.cpp", "int is_told = 1;\nint f() { return is_told; }\n")
+        self.write("src/c.cpp", "int g() { return is_told; }\n")
+        rose, _ = self.judged()
+        self.assertEqual(len(rose), 1)
+        self.assertIn("'told (names)' 1 times, 0 are recorded", rose[0])
 
     def test_a_count_may_only_fall(self):
         self.write("include/b.hpp", "// The second alone.\n")
