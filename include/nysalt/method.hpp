@@ -81,10 +81,10 @@ class tuned_method {
   std::string name() const { return "learned:" + member_.name(); }
   double step() const { return step_; }                  ///< at which it was learned
   const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
-  /// The energies of the trajectories that it was learned from; empty if unknown.
+  /// The energies of the trajectories that it was learned from; nothing where nobody told.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
-  /// of many starts learning/energies_outside.hpp tests whether that is chance.
+  /// of many starts learning/energies_outside.hpp tells whether that is chance.
   template <HasEnergy<double> S>
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !energies_ || energies_->contains(energy<double>(system, state));

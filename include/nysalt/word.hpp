@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A method's letters in the order in which they act, and what follows from that order only.
+// A method's letters in the order in which they act, and what follows from that order alone.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace nysalt {
 
-/// What a letter does about force(q) before it acts: nothing, as it does not read it or finds it known; or
-/// it evaluates it, for itself only, so that it need not be stored, or for later letters too.
+/// What a letter does about force(q) before it acts: nothing, as it does not read it or finds it at hand; or
+/// it evaluates it, for itself alone, so that it need not be stored, or for later letters too.
 enum class evaluation { none, alone, shared };
 
 namespace detail {
@@ -24,10 +24,10 @@ namespace detail {
 /// The evaluations of all letters, known at compile time or at run time: an array or a vector of evaluations.
 template <class Evaluations>
 struct evaluation_plan {
-  Evaluations in_step;              // a plain step, which starts from only q and p
+  Evaluations in_step;              // a plain step, which starts from q and p alone
   Evaluations in_loop;              // a step of an open run, if another one follows; from letter `first` on
-  Evaluations in_last;              // the same, if the run may be observed then
-  bool is_known_when_open = false;  // the force, whenever a run may be observed
+  Evaluations in_last;              // the same, if the run may be looked at then
+  bool is_known_when_open = false;  // the force, whenever a run may be looked at
 
   constexpr evaluation_plan() = default;
   /// reads[i]: letter i reads the force; moves[i]: it is stale afterwards.
@@ -51,8 +51,7 @@ struct evaluation_plan {
   }
 
  private:
-  /// A letter that does not find the force known evaluates it. Returns whether it is known after the last
-  /// letter.
+  /// Whoever does not find the force known evaluates it. Returns whether it is known after the last letter.
   static constexpr bool find_known(const auto& reads, const auto& moves, Evaluations& found,
                                    std::size_t first, bool known) {
     for (std::size_t i = first; i < reads.size(); ++i) {
@@ -102,7 +101,7 @@ struct word {
 
   /// The force that its letters read.
   static constexpr field reads = std::max({L::reads...});
-  /// One of its letters is only of this splitting of H.
+  /// One of its letters is of this splitting of H alone.
   static constexpr bool holds(splitting of_h) { return ((detail::splitting_of<L>() == of_h) || ...); }
   /// Its letters are those of a quadratic part and the rest, R, S or H.
   static constexpr bool rotates() { return holds(splitting::quadratic_part_and_rest); }
@@ -149,7 +148,7 @@ struct word {
   /// Force evaluations of a step of an open run.
   static constexpr int evaluations_per_step = plan.count(plan.in_loop) + force_derivatives + displaced_forces;
   static constexpr int evaluations_to_open = plan.is_known_when_open ? 1 : 0;  ///< those to open a run
-  /// Those of a plain step, which begins with only q and p.
+  /// Those of a plain step, which begins with q and p alone.
   static constexpr int evaluations_of_plain_step =
       plan.count(plan.in_step) + force_derivatives + displaced_forces;
 };
@@ -161,7 +160,7 @@ template <class... L>
 inline constexpr bool is_word<word<L...>> = true;
 }  // namespace detail
 
-/// Letters known at compile time: what a family's coefficients are for. See also run_time_word.
+/// Letters known at compile time: what a family's coefficients are for. Beside it stands run_time_word.
 template <class W>
 concept TypeLevelWord = detail::is_word<W>;
 

@@ -55,7 +55,7 @@ class phi4_chain {
     }
   }
 
-  /// The force of the wells only, -q_i^3.
+  /// The force of the wells alone, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
