@@ -3,7 +3,7 @@
 //
 // It is wrapped in ten lines and learned for as it is. What a template would give is missing: derivatives are
 // taken by central differences of the force, and trajectories go one by one, not side by side. That is
-// slower, and as exact as learning needs. The library looks whether the force belongs to the energy; a wrong
+// slower, and as exact as learning needs. The library checks that the force belongs to the energy; a wrong
 // sign is refused.
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 usage: families_tables.py FOLDER CASE...        each CASE is a folder of FOLDER with the rows.csv of a comparison
 
 Twice: at equal force evaluations, as compared; and at equal seconds, where a classical method that takes less time takes
-smaller steps instead. What these gain is told by the order that the method has between its two rows of that comparison.
+smaller steps instead. What these gain follows from the order that the method has between its two rows of that comparison.
 """
 import csv
 import math

@@ -3,10 +3,10 @@
 // errors.
 //
 // A proposal is the end of a trajectory with fresh momenta; Metropolis' rule accepts it by its error of the
-// energy, so that exp(-V/kT) is sampled exactly whatever the step. That asks for a map that keeps volume and
+// energy, so that exp(-V/kT) is sampled exactly at any step. That asks for a map that keeps volume and
 // is reversible: we learn in a family of symmetric words, and ask it for the least error of the energy over
-// the whole trajectory, as this alone decides who is rejected. Equipartition tells what must come out:
-// <q . grad V> is kT for each coordinate, whatever V.
+// the whole trajectory, as only this decides what is rejected. Equipartition gives the expected result:
+// <q . grad V> is kT for each coordinate and any V.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -124,7 +124,7 @@ int main() {
                v.standard_error);
   };
   for (const auto& each : methods) report(each, false);
-  fmt::print("without Metropolis' rule the law is another:\n");
+  fmt::print("without Metropolis' rule the distribution is another:\n");
   report(methods.back(), true);
 }
 
@@ -135,5 +135,5 @@ int main() {
 // mclachlan2   0.9166 +- 0.0009    4.002 +- 0.030
 // bcss2        0.9508 +- 0.0007    3.992 +- 0.028
 // verlet_2x    0.8712 +- 0.0011    3.988 +- 0.027
-// without Metropolis' rule the law is another:
+// without Metropolis' rule the distribution is another:
 // verlet_2x    1.0000 +- 0.0000    4.843 +- 0.029

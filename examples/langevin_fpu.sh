@@ -1,5 +1,5 @@
 #!/bin/sh
-# The FPU chain in a bath, as in Li, Lu, Tao, Ye 2023: what is learned beside BAOAB, along paths and in law.
+# The FPU chain in a bath, as in Li, Lu, Tao, Ye 2023: what is learned beside BAOAB, along paths and in distribution.
 # usage: langevin_fpu.sh PROGRAM FOLDER
 set -eu
 nysalt=$1

@@ -2,7 +2,7 @@
 // What is the best two-stage method for q'' = -omega^2 q at the step h, and how far does it stay stable?
 //
 // On a linear system both questions have closed answers. The one-step error is |e^{A h} - B|^2 with the
-// method's matrix B, a function of b1, beta1 and z = h omega alone if it is measured in the energy norm.
+// method's matrix B, a function of b1, beta1 and z = h omega only if it is measured in the energy norm.
 // Learning sees only data, two pairs of states, and must find the same minimum. And the method is stable
 // as long as |trace B| <= 2, which a long run must confirm on both sides of the limit.
 #include <fmt/format.h>

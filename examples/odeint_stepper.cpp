@@ -2,7 +2,7 @@
 // Boost.Odeint both ways: our methods as its steppers, and its step control as our reference.
 //
 // A pendulum swings for twenty units of time. First odeint drives one of our methods, with its own
-// integrate_const and an observer. Then odeint's Runge-Kutta-Fehlberg 7(8) tells how far that was from
+// integrate_const and an observer. Then odeint's Runge-Kutta-Fehlberg 7(8) shows how far that was from
 // the exact motion, and how the same step fares in our own loop, where kicks are merged.
 #include "nysalt/references/odeint_stepper.hpp"
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
 # Which method for my system? `recommend` learns some families, races them with the classical methods on
-# trajectories that nobody has seen, and says who wins by how much, or that nobody does.
+# trajectories that were not learned from, and says which wins by how much, or that none does.
 set -eu
 
 # [recommend]
@@ -66,4 +66,4 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # t =    0  H = 0.0088
 # t =  600  H = 0.0088
 # t = 1200  H = 0.0088
-# A tie: learned:fg_chin and chin4a cannot be told apart (the ratio of their errors is 0.983, 95 %: 0.717 to 2.12). The latter needs no learning: --method chin4a --step 0.75. ~
+# A tie: learned:fg_chin and chin4a do not differ significantly (the ratio of their errors is 0.983, 95 %: 0.717 to 2.12). The latter needs no learning: --method chin4a --step 0.75. ~

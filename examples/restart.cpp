@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Put away and taken up: a hundred trajectories go on from a file as if nothing had happened, noise included.
+// Saved and resumed: a hundred trajectories go on from a file as if nothing had happened, noise included.
 //
 // Pendulums in a bath are run to the end at once, and a second time in two parts with a file between them:
 // the second part by other threads, one trajectory at a time instead of side by side. Noise is a function of

@@ -29,7 +29,7 @@ class argument_reader {
   /// Of those that are not None.
   std::vector<std::string> names() const;
 
-  // Each throws refusal, naming the argument, for what is of another kind. A list may be one thing alone.
+  // Each throws refusal, naming the argument, for what is of another kind. A list may be a single value.
   // True is no number.
   void take(const char* name, double& to) const;
   void take(const char* name, std::int64_t& to) const;

@@ -24,8 +24,8 @@ std::vector<std::int64_t> shape_of(const pybind11::array& array);
 std::span<double> writable(const pybind11::handle& array, const std::string& name,
                            const std::vector<std::int64_t>& shape);
 
-/// What is given as an array, a list or a number: it itself where it is an array of float64 already, else a
-/// copy. Throws refusal unless it holds real numbers: complex ones, text, dates and objects are none.
+/// The argument, an array, a list or a number, as an array: itself where it is an array of float64 already,
+/// else a copy. Throws refusal unless it holds real numbers: complex ones, text, dates and objects are none.
 numbers_array numbers_of(const pybind11::handle& given, const std::string& name);
 
 /// To read.

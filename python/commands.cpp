@@ -93,7 +93,7 @@ py::tuple recommend_for_sampling(const held_system& system, const py::dict& argu
   });
 }
 
-/// What a file of a method says, and whether it is one. Of a scheme at a step, or at that with which it
+/// The contents of a file of a method, and whether it is one. Of a scheme at a step, or at that with which it
 /// begins.
 py::dict method(const std::string& text, const std::string& name, const py::object& step) {
   const auto file = program::method_file_in(text, name);

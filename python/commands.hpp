@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the program's commands do, for Python: by the same functions, hence with the same numbers.
+// The program's commands for Python: by the same functions, hence with the same numbers.
 #pragma once
 
 #include <pybind11/pybind11.h>

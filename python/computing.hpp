@@ -13,14 +13,14 @@ namespace nysalt::python {
 /// Work that calls no function of Python is done on a thread of its own, without the interpreter's lock:
 /// other threads of Python run, and this one asks for signals fifty times a second. What a signal handler
 /// raises (KeyboardInterrupt) is raised when the work has come to a place where it can end: the next block of
-/// trajectories, stretch of steps, or pass over the data. A signal that comes meanwhile waits.
+/// trajectories, interval of steps, or pass over the data. A signal that comes meanwhile waits.
 /// Work that does call Python is done here, with the lock; its functions ask for signals.
 void compute(bool calls_python, const std::function<void()>& work);
 
 /// Work of moments that calls no function of Python: here, without the lock.
 void without_lock(const std::function<void()>& work);
 
-/// What a function of Python returns. Throws what it raises.
+/// The result of a function of Python. Throws what it raises.
 pybind11::object called(const pybind11::object& function, const pybind11::tuple& arguments);
 
 /// Throws what a signal handler raises, if there is a signal.

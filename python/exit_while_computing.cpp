@@ -30,7 +30,7 @@ under_way::~under_way() { --computations; }
 void leave_from_computations() {
   // The handler that is registered last is called first: before the destructors of static objects that were
   // constructed during a call. Hence this late, when Python has ended.
-  const auto register_the_last = [] { on_exit(leave, nullptr); };  // glibc's: atexit tells no status
+  const auto register_the_last = [] { on_exit(leave, nullptr); };  // glibc's: atexit passes no status
   if (Py_AtExit(register_the_last) != 0) {
     throw pybind11::import_error("Python takes no more functions for its end (Py_AtExit)");
   }

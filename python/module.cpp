@@ -6,7 +6,8 @@
 #include "refused.hpp"
 #include "systems.hpp"
 
-/// What nysalt/__init__.py is made of. Its arguments are those of the program, in a dict; documents are JSON.
+/// The functions on which nysalt/__init__.py is built. Its arguments are those of the program, in a dict;
+/// documents are JSON.
 PYBIND11_MODULE(_nysalt, module) {
   nysalt::python::leave_from_computations();
   nysalt::python::tell_refusals();

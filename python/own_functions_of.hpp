@@ -7,7 +7,7 @@
 
 namespace nysalt::python {
 
-/// Held by one alone, who shows them to Python's collector: they may hold the system in turn.
+/// Held by one owner only, which shows them to Python's collector: they may hold the system in turn.
 struct functions_of_python {
   pybind11::object potential;
   pybind11::object force;
@@ -15,7 +15,7 @@ struct functions_of_python {
 };
 
 /// Of the arguments name, dimension, potential, force, starts, inverse_mass and frequency. Throws refusal for
-/// what cannot be. What the functions raise is raised by whoever calls them, and what they return in another
+/// bad values. What the functions raise is raised by their caller, and what they return in another
 /// shape, or what is no real number, is refused.
 own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept);
 

@@ -76,7 +76,7 @@ std::unique_ptr<program::prepared_problem> make_own(std::shared_ptr<const own_fu
                                                     const program::surroundings& in) {
   initial_value_problem made =
       detail::made_of(own_hamiltonian(functions), in.bath, own_starts(functions), functions->frequency);
-  made.fine_angle = 0.05;  // calls of Python are dear, and the error of that angle is measured
+  made.fine_angle = 0.05;  // calls of Python are expensive, and the error of that angle is measured
   return std::make_unique<program::prepared_problem>(
       std::move(made), std::vector<program::named_value>{{"name", functions->name}}, in);
 }

@@ -16,14 +16,14 @@ std::string in_words_of_python(const std::string& text) {
 }
 
 void tell_refusals() {
-  // Of this module alone: others' exceptions are told by others.
+  // Of this module only: other modules translate their own exceptions.
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
     const auto tell = [](PyObject* kind, const std::exception& problem) {
       PyErr_SetString(kind, in_words_of_python(problem.what()).c_str());
     };
     try {
       std::rethrow_exception(thrown);
-    } catch (const pybind11::builtin_exception&) {  // and others of pybind11 are told by it
+    } catch (const pybind11::builtin_exception&) {  // pybind11 translates its other exceptions
       throw;
     } catch (const program::refusal& problem) {
       tell(PyExc_ValueError, problem);

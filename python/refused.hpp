@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is refused, as Python tells it.
+// Refusals as exceptions of Python.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace nysalt::python {
 /// and --force becomes force=True. A command line that a sentence proposes stays.
 std::string in_words_of_python(const std::string& text);
 
-/// What the library and the program refuse is a ValueError, once this was called; what fails on the way is a
+/// Refusals of the library and the program are a ValueError, once this was called; what fails on the way is a
 /// RuntimeError.
 void tell_refusals();
 

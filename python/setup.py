@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """The wheel: the compiled module for any x86-64 and for those with AVX2, and the libraries that it needs, in one file.
 
-The libraries are those of this machine, under names of their own, beside the module, which looks for them there alone.
+The libraries are those of this machine, under names of their own, beside the module, which searches for them only there.
 """
 import hashlib
 import os

@@ -15,7 +15,7 @@ namespace nysalt::python {
 
 struct held_system {
   program::system_settings settings;  // of which each command makes its own
-  // For what Python asks of the system alone; the starts of the model are not prepared.
+  // For what Python asks of the system without starts; the starts of the model are not prepared.
   std::unique_ptr<program::prepared_problem> model;
   std::shared_ptr<functions_of_python> functions;  // null of a bundled one
   std::shared_ptr<const own_functions> own;        // that call them; null of a bundled one
@@ -23,7 +23,7 @@ struct held_system {
   bool calls_python() const { return functions != nullptr; }
 };
 
-/// How many states of the system an array holds. Throws refusal unless its shape is (dimension,) or
+/// Number of states of the system in an array. Throws refusal unless its shape is (dimension,) or
 /// (trajectories, dimension).
 std::int64_t states_in(const held_system& system, const std::vector<std::int64_t>& shape, const char* name);
 

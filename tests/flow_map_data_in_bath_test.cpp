@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
   BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "no letter O"}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"no noise", "take fine_paths"}));
   BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in 5 equal parts", "fine step 0.001"}));
-  BOOST_TEST(refused(chain, fine_paths(fine), -1, {"noise in -1 parts"}));
+  BOOST_TEST(refused(chain, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
   BOOST_TEST(refused(chain, fine_paths(0.005), 1, {"0.012 in 1 equal parts", "fine step 0.005"}));
 }
 

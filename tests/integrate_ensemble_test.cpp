@@ -133,12 +133,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
         [&] { integrate_ensemble(galaxy, verlet(), 0.1, law, options, first_coordinate, nobody); },
         {words...});
   };
-  BOOST_TEST(refused({.trajectories = 0}, "0 trajectories"));
+  BOOST_TEST(refused({.trajectories = 0}, "trajectories 0"));
   BOOST_TEST(refused({.trajectories = std::int64_t{1} << 60}, "trajectories"));
   ensemble_options before_the_first;
   before_the_first.first = -3;
-  BOOST_TEST(refused(before_the_first, "from -3 on"));
-  BOOST_TEST(refused({.steps = -1}, "-1 steps"));
+  BOOST_TEST(refused(before_the_first, "first -3"));
+  BOOST_TEST(refused({.steps = -1}, "steps -1"));
   BOOST_TEST(refused({.every = 0}, "every 0"));
   BOOST_TEST(refused({.threads = 0}, "thread"));
   const listed<2> states({{{0.0, 0.0}, {0.0, 0.0}}, {{NAN, 0.0}, {0.0, 0.0}}});

@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto run = [&](const point& x, std::int64_t steps, std::int64_t every) {
     integrate(system, verlet(), 0.1, x, steps, nobody, every);
   };
-  BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), -1, 1); }, {"integrate", "-1 steps"}));
+  BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), -1, 1); }, {"integrate", "steps -1"}));
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), 10, 0); }, {"integrate", "every 0"}));
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), 10, -3); }, {"integrate", "every -3"}));
   BOOST_TEST(refuses<wrong>([&] { run(at(not_a_number, 0), 10, 1); }, {"start", "finite", "dimension"}));

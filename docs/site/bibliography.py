@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """docs/bibliography.md is made from docs/bibliography.bib: bibliography.py --check | --update.
 
---check also refuses a cited key that is not in the .bib, and an entry of it that nobody cites.
+--check also refuses a cited key that is not in the .bib, and an entry of it that is not cited.
 """
 import re
 import sys
@@ -120,7 +120,7 @@ def mistakes():
         everywhere |= here
         found += [f"{file.relative_to(root)} cites {key}, which docs/bibliography.bib does not have"
                   for key in sorted(here - known)]
-    found += [f"nobody cites {key} of docs/bibliography.bib" for key in sorted(known - everywhere)]
+    found += [f"{key} of docs/bibliography.bib is not cited" for key in sorted(known - everywhere)]
     if not page.exists() or page.read_text() != written(text):
         found.append("docs/bibliography.md is not that of the .bib: python3 docs/site/bibliography.py --update")
     return found

@@ -45,7 +45,7 @@ def behind(text, opening, closing):
 
 
 def without_template(head):
-    """`template <...> requires(...) int f()` without what stands before the type."""
+    """`template <...> requires(...) int f()` without what precedes the type."""
     head = head.strip()
     if head.startswith("template"):
         return without_template(behind(head, "<", ">"))
@@ -103,7 +103,7 @@ def is_table(line):
 
 
 def staged_line(line, keys, pages):
-    """A line of a comment, which is text alone; keys are those of the bibliography, pages {docs/NAME.md: address}."""
+    """A line of a comment, which is only text; keys are those of the bibliography, pages {docs/NAME.md: address}."""
     if line == " @file":
         return line
     for page in set(re.findall(r"\bdocs/[\w/-]+\.md\b", line)) & set(pages):
@@ -119,7 +119,7 @@ def staged_comment(lines, indent, keys, pages):
         out[0] = f" &zwj;{out[0].lstrip()}"  # or Doxygen would begin a formula with a capital
     if not any(tables):
         return [f"{indent}///{line}" for line in out]
-    # Doxygen keeps what stands between its marks as it is, in a comment of this kind without its slashes.
+    # Doxygen keeps the text between its marks as it is, in a comment of this kind without its slashes.
     begins = [i for i, table in enumerate(tables) if table and not (i and tables[i - 1])]
     ends = [i for i, table in enumerate(tables) if table and not any(tables[i + 1:i + 2])]
     for i in begins:
@@ -186,7 +186,7 @@ def staged(text, path, members, keys=(), pages=()):
 
 
 def unexplained(text):
-    """(line, name) of each public concept whose comment does not begin with a sentence: Doxygen does not look."""
+    """(line, name) of each public concept whose comment does not begin with a sentence: Doxygen does not check."""
     lines = text.split("\n")
     for first, _, declaration in statements(lines):
         found = re.match(r"concept\s+(\w+)", without_template(declaration))

@@ -167,7 +167,7 @@ def staged(text, label, target_of, keys):
     found = headings(text)
     anchors = iter(found)
     out = []
-    table = []  # the lines of the table at hand
+    table = []  # the lines of the present table
     for line, is_code in [*lines_with_code(text), ("", False)]:
         if not is_code and line.startswith("|"):
             table.append(line)

@@ -4,7 +4,7 @@
 
     <!-- quote examples/first_steps.cpp readme -->
     ```cpp
-    what stands there between the lines `// [readme]` and `// [/readme]`, outdented
+    the text between the lines `// [readme]` and `// [/readme]`, outdented
     ```
 
 Without a name the whole file is quoted. In files where a comment begins with # the marks are `# [NAME]` and

@@ -16,8 +16,8 @@ def entry(title, url):
 
 
 def group(title, entries, url=None):
-    its_page = f' url="{xml(url)}"' if url else ""
-    return [f'<tab type="usergroup" visible="yes"{its_page} title="{xml(title)}">', *entries, "</tab>"]
+    page_url = f' url="{xml(url)}"' if url else ""
+    return [f'<tab type="usergroup" visible="yes"{page_url} title="{xml(title)}">', *entries, "</tab>"]
 
 
 def sections(text):
@@ -55,7 +55,7 @@ def tabs_of_link(site, index, title, address):
         target = (path.parent / link.group(3)).resolve()
         if target.is_relative_to(path.parent) and target in has_page:
             below.setdefault(target, title_of(target) or markdown.plain(link.group(2)))
-    return group(title, [entry(its, f"{has_page[target]}.html") for target, its in below.items()], url)
+    return group(title, [entry(name, f"{has_page[target]}.html") for target, name in below.items()], url)
 
 
 def layout(site):

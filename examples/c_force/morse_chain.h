@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSL-1.0 */
-/* A force as it stands in many programs: C, pointers, lengths, and parameters in a struct. */
+/* A force as it is in many programs: C, pointers, lengths, and parameters in a struct. */
 #ifndef MORSE_CHAIN_H
 #define MORSE_CHAIN_H
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
-# The tutorial with the program: learn for the stiff chain, look whether it is stable, compare, run.
+# The tutorial with the program: learn for the stiff chain, check that it is stable, compare, run.
 set -eu
 
 # [learn]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a system is coupled to: friction, and the noise that goes with it.
+// A bath: friction, and the noise that belongs to it.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,9 @@
 
 namespace nysalt {
 
-/// Friction gamma and noise sigma: dp = force(q) dt - gamma p dt + sigma M^{1/2} dW, whose invariant law is
-/// exp(-H/kT) with kT = sigma^2/(2 gamma) for any masses. Noise without friction is allowed; then there is no
-/// temperature.
+/// Friction gamma and noise sigma: dp = force(q) dt - gamma p dt + sigma M^{1/2} dW, whose invariant density
+/// is exp(-H/kT) with kT = sigma^2/(2 gamma) for any masses. Noise without friction is allowed; then there is
+/// no temperature.
 class bath {
  public:
   /// From friction and sigma; there is a kT where there is friction. Throws std::invalid_argument unless both
@@ -44,10 +44,10 @@ class bath {
         "a bath with sigma = {} and no friction has no temperature: kT = sigma^2/(2 friction)", sigma_));
   }
 
-  /// Whether there is friction or noise; else a system in it moves as if it were alone.
+  /// Whether there is friction or noise; else a system in it moves as without it.
   bool acts() const { return friction_ > 0.0 || sigma_ > 0.0; }
 
-  /// What is left of a momentum after a time: e^{-gamma t}.
+  /// The damping factor of a momentum over a time: e^{-gamma t}.
   template <Scalar T>
   T decay(const T& time) const {
     using std::exp;

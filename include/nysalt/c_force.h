@@ -26,7 +26,7 @@ void nysalt_start(int64_t n, const double *normals, double *q, double *p, void *
 
 /* These may be missing. */
 double nysalt_inverse_mass(int64_t i);     /* 1/m_i; missing: all are 1 */
-double nysalt_frequency(void);             /* the highest angular frequency of the motion; missing: looked for */
+double nysalt_frequency(void);             /* the highest angular frequency of the motion; missing: estimated */
 const char *nysalt_description(void);      /* one line with all parameters; missing: the name of the file */
 const char *nysalt_kind(void);             /* the same without the size; missing: no other file is of its kind */
 void *nysalt_open(void);                   /* what the functions get as data; null where it cannot be had */

@@ -15,7 +15,7 @@ namespace nysalt {
 /// One of several processes that run the same program, as it sees the others: rank r of size(). All that is
 /// not send() and receive() is collective: every rank calls it, in the same order. A message has the length
 /// that its receiver expects. A rank that leaves a collective function by an exception which the others do
-/// not throw, as when it alone is out of memory, leaves them waiting: it must end the job.
+/// not throw, as when only that rank is out of memory, leaves them waiting: it must end the job.
 class communicator {
  public:
   virtual ~communicator() = default;
@@ -48,7 +48,7 @@ template <class T>
 void broadcast(const communicator& ranks, T& value, int from = 0) {
   ranks.broadcast(std::as_writable_bytes(std::span(&value, 1)), from);
 }
-/// A text or list, whatever length it has at the others.
+/// A text or list, which may have another length at the others.
 template <class List>
   requires std::is_trivially_copyable_v<typename List::value_type>
 void broadcast(const communicator& ranks, List& values, int from = 0) {

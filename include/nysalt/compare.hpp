@@ -27,7 +27,7 @@ struct compared_method {
   std::string reason;     ///< why there is no value; else empty
 };
 
-/// What compare() found.
+/// Result of compare().
 class comparison {
  public:
   class measurement;  ///< how the library holds what was found
@@ -40,7 +40,7 @@ class comparison {
   std::string text() const;
   /// A JSON document of all that was found: what `nysalt compare --json` prints.
   std::string json() const;
-  /// What should be known before the numbers are used, a sentence each.
+  /// Warnings to read before the numbers are used, a sentence each.
   std::vector<std::string> warnings() const;
   /// Writes report.html, report.md, report.json, rows.csv, and pictures where gnuplot is installed. The
   /// folder is made if it is not there. Throws std::runtime_error if it cannot be written.
@@ -50,11 +50,11 @@ class comparison {
   std::shared_ptr<const measurement> found_;
 };
 
-/// Errors and costs of methods on a system from starts by its law; in a warm bath of systems with frequency
-/// bands, from the law in the bath. Where the frequency is 0 it is found along 64 starts. The force is
-/// checked against the potential first. Progress is shown on a terminal. Throws std::invalid_argument, naming
-/// the option, for what cannot be, before any work is done. Cost: that of the trajectories, of a reference
-/// some ten times finer, and of a fit for each learned method and step.
+/// Errors and costs of methods on a system from its initial distribution; in a warm bath of systems with
+/// frequency bands, from the stationary distribution in the bath. Where the frequency is 0 it is found along
+/// 64 starts. The force is checked against the potential first. Progress is shown on a terminal. Throws
+/// std::invalid_argument, naming the option, for bad input, before any work is done. Cost: that of the
+/// trajectories, of a reference some ten times finer, and of a fit for each learned method and step.
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How to learn, to compare and to recommend: plain values, judged when they are used.
+// Options of learning, comparing and recommending: plain values, checked when they are used.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace nysalt {
 
-/// How work is done, whatever the work is.
+/// Options of all computations.
 struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
   bool force = false;      ///< a scheme is taken at another step or system than it was learned for
 };
 
-/// How a family is learned at a step that is given elsewhere.
+/// Options of learning at a step that is given elsewhere.
 struct learning_options {
   std::optional<double> fine_step{};  ///< of the reference; must divide the step. None: by the frequency
   std::int64_t trajectories = 100;    ///< to learn from, and as many to judge by
@@ -75,7 +75,7 @@ struct recommendation_options {
   learning_options learning{.effort = "quick"};  ///< of these
   std::string placement{};                       ///< of the letters O in a bath: end, symmetric or middle
   double hmc_temperature = 1.0;                  ///< kT of the acceptance, an energy
-  bool reversible = false;                       ///< symmetric methods alone
+  bool reversible = false;                       ///< symmetric methods only
   std::int64_t looks = 1;  ///< at each trajectory of later runs: processed methods pay for each
 };
 
@@ -86,7 +86,7 @@ struct sampling_options {
   double acceptance = 0.9;    ///< at which the steps of words are compared
   double temperature = 1.0;   ///< kT, an energy: exp(-V/kT) is sampled
   double times_larger = 1.0;  ///< how many times larger than the system is the one that will be sampled:
-                              ///< energy errors add up, so that a small lattice tells of a large one
+                              ///< energy errors add up, so that a small lattice predicts a large one
   std::int64_t trajectories = 100;               ///< to judge words by
   std::vector<std::string> families{};           ///< to learn. Empty: bab3 to bab6, and fd_chin
   learning_options learning{.effort = "quick"};  ///< of these. Its loss is acceptance where none is named

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What steps, and what can be said of it without data: it needs Eigen and the standard library alone.
+// Systems, methods and stepping, without data: it needs only Eigen and the standard library.
 #pragma once
 
 #include "nysalt/bath.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where trajectories start.
+// Distributions of initial states.
 #pragma once
 
 #include <cmath>
@@ -15,15 +15,15 @@
 namespace nysalt {
 
 /// ensemble(seed, n) is the start of trajectory n: a pure function, so that any trajectory can be made
-/// alone, in any order. `description()` says what it is, for provenance.
+/// without the others, in any order. `description()` says what it is, for provenance.
 template <class E, class S>
 concept Ensemble = requires(const E& ensemble, std::uint64_t seed, std::uint64_t n) {
   { ensemble(seed, n) } -> std::same_as<phase_point<double, S::dimension>>;
   { ensemble.description() } -> std::convertible_to<std::string>;
 };
 
-/// An ensemble whose states are dear may make those of `count` trajectories at a time, one in each lane of T,
-/// with the same bits: block<T>(seed, first, count).
+/// An ensemble whose states are expensive may make those of `count` trajectories at a time, one in each lane
+/// of T, with the same bits: block<T>(seed, first, count).
 template <class E, class S, class T>
 concept MakesBlocks = Ensemble<E, S> &&
     requires(const E& ensemble, std::uint64_t seed, std::int64_t first, int count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Many trajectories under way: they can be put away between two steps, and taken up later.
+// Many trajectories that can be saved between two steps, and resumed later.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 
 namespace nysalt {
 
-/// What is needed to go on with trajectories of a known ensemble, all at one step: their open runs, whatever
-/// lanes and threads they were stepped in.
+/// The state from which trajectories of a known ensemble are resumed, all at one step: their open runs,
+/// independent of the lanes and threads that they were stepped in.
 struct saved_runs {
   std::int64_t step = 0;        ///< steps that every trajectory has done
   std::vector<double> numbers;  ///< q, p and f of one trajectory after the other; 0 of those that diverged
@@ -68,7 +68,7 @@ class ensemble_run {
   }
 
   /// Goes on to step `end`. At steps n that `every` divides, beyond step() and at 0 before the first step,
-  /// read(x, numbers) and take(m, n, numbers) are called as by integrate_ensemble(). Divergence is looked for
+  /// read(x, numbers) and take(m, n, numbers) are called as by integrate_ensemble(). Divergence is checked
   /// at `end` too: cut a run at multiples of steps_between_checks, and it is as if uncut.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width_of_numbers, const Read& read,
@@ -90,7 +90,8 @@ class ensemble_run {
     starts_.clear();
   }
 
-  /// What a later ensemble_run of the same trajectories takes up. Between two calls of go_on().
+  /// The state from which a later ensemble_run of the same trajectories resumes. Between two calls of
+  /// go_on().
   saved_runs save() const {
     const auto each = static_cast<std::size_t>(3 * size(stepper_->system()));
     saved_runs result{step_, {}, {}};
@@ -123,7 +124,8 @@ class ensemble_run {
   void begin(const auto& ensemble, std::uint64_t seed, int threads, const make_runs& make) {
     if (count_ < 1 || first_ < 0) {
       throw std::invalid_argument(
-          sentence("ensemble_run: {} trajectories from {} on: cannot be", count_, first_));
+          sentence("ensemble_run: trajectories must be >= 1 and first >= 0, got trajectories {} and first {}",
+                   count_, first_));
     }
     const std::int64_t blocks = (count_ - 1) / width + 1;
     blocks_.resize(static_cast<std::size_t>(blocks));
@@ -167,7 +169,7 @@ class ensemble_run {
     return runs(stepper_of(block), start, count, std::move(run), lost);
   }
 
-  /// Of a black box, whose force may have memory: a copy of the system that one block alone uses.
+  /// Of a black box, whose force may have memory: a copy of the system that only one block uses.
   struct own_system {
     explicit own_system(const Stepper& of)
         : system(of.system().separate()), stepper(of.with_system(system)) {}
@@ -194,7 +196,7 @@ class ensemble_run {
   std::vector<std::unique_ptr<own_system>>
       own_;  // before the runs that refer to it; empty but for black boxes
   std::vector<std::optional<runs>> blocks_;
-  std::vector<state> starts_;  // until they were looked at
+  std::vector<state> starts_;  // until they were observed
 };
 
 }  // namespace nysalt

@@ -20,7 +20,7 @@ struct export_host {
 /// All hosts, in the order of docs/how-to/take_it_with_you.md.
 std::vector<export_host> export_hosts();
 
-/// How a method is exported.
+/// Options of an export.
 struct export_options {
   /// Identifier in the text; empty: from the method's name.
   std::string name = {};

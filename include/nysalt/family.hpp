@@ -51,7 +51,7 @@ using theta_dual = dual<double, F::parameters>;
 ///   ranges(), start()                              where theta may lie, and where a search begins
 ///   coefficients(theta)                            over any scalar
 ///   letters()                                      where the word is a run_time_word
-/// All but the last two are static; these may be, or depend on what the family is told when it is made.
+/// All but the last two are static; these may be, or depend on the constructor arguments of the family.
 /// And, if wanted, further points from which a search begins: classical_members(), and further_starts(),
 /// thetas without a name; refuge(), the member that is stable farthest, for steps at which the others are
 /// not; and source, the key in docs/bibliography.bib of where it comes from.

@@ -9,7 +9,8 @@
 
 namespace nysalt {
 
-/// What a letter acts on: q and p, and f, which holds the force that its word reads, where it is known.
+/// The state that a letter acts on: q and p, and f, which holds the force that its word reads, where it is
+/// known.
 template <Scalar T, int N>
 struct flow_state : phase_point<T, N> {
   vector<T, N> f;  ///< the force, as its word needs it
@@ -22,7 +23,7 @@ struct no_room {};
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {
   flow_room() = default;
-  /// For so many degrees of freedom.
+  /// For a number of degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
   vector<T, N> x;  ///< of a rotation, M^-1 f of a gradient kick, or the displaced q
   vector<T, N> y;  ///< of a rotation, f'(q) M^-1 f, or the force at the displaced q
@@ -40,7 +41,7 @@ concept QuadraticFlow = requires {
   requires L::reads_modes;
 };
 
-/// What the words that a letter stands in split H into; `any` of a letter that belongs to all of them.
+/// The splitting of H by the words with this letter; `any` of a letter that belongs to all of them.
 enum class splitting {
   any,
   kinetic_and_potential,   ///< K and V: A, B, D, G
@@ -95,7 +96,7 @@ constexpr bool is_symplectic() {
   }
 }
 
-/// What R, S and H need of a system, for refusals while running and while compiling.
+/// Requirements of R, S and H on a system, for refusals while running and while compiling.
 inline constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
     "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "

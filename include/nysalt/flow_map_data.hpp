@@ -43,11 +43,11 @@ struct flow_map_data {
   vector_list noise;
 
   /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
-  /// among them: at all ranks the same. They are where trial runs begin, and where frequencies are looked
-  /// for.
+  /// among them: at all ranks the same. They are where trial runs begin, and where frequencies are
+  /// estimated.
   phase_points further_starts;
 
-  /// A few finishes again with the finer reference: {pair, finish}. They tell the reference's own error.
+  /// A few finishes again with the finer reference: {pair, finish}. They estimate the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, Eigen::Dynamic>>> finer;
 
   std::optional<shared_pairs> shared;  ///< nothing if these are all
@@ -87,7 +87,7 @@ struct data_options {
   int noise_parts = 0;                 ///< equal parts of a step in which noise is kept, for letters O
   int threads = 1;                     ///< changes no bit of the data
   const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit either
-  /// Told after some trajectories how many are done; from any thread, never two calls at once.
+  /// Called after some trajectories with the number done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
 

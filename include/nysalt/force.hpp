@@ -207,7 +207,7 @@ concept ForceDerivativeOver = ForceOver<S, dual<T, 1>, F> ||
 template <class T, int N>
 struct lifted_room {
   lifted_room() = default;
-  explicit lifted_room(Eigen::Index size) : q(size), f(size) {}  ///< for so many degrees of freedom
+  explicit lifted_room(Eigen::Index size) : q(size), f(size) {}  ///< for a number of degrees of freedom
   vector<dual<T, 1>, N> q;                                       ///< q + e v, e being the dual unit
   vector<dual<T, 1>, N> f;                                       ///< f(q) + e f'(q) v
 };

@@ -18,14 +18,14 @@
 
 namespace nysalt {
 
-/// Chains between two trajectories: all that `hmc` needs to go on to the same bits, whatever the number of
+/// Chains between two trajectories: all that `hmc` needs to go on to the same bits, for any number of
 /// ranks, threads and lanes.
 struct hmc_state {
   std::int64_t trajectories = 0;  ///< of each chain so far, burn-in included
-  std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` alone to read
+  std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` only to read
 };
 
-/// How chains are run.
+/// Options of chains.
 struct hmc_options {
   double step;    ///< h of a whole word; a first guess where `acceptance` is asked for
   double length;  ///< mean duration of a trajectory: durations are uniform between 0 and twice that
@@ -58,7 +58,7 @@ struct hmc_draw {
   double potential;          ///< V(q)
 };
 
-/// How chains went.
+/// Result of chains.
 struct hmc_result {
   double step = 0.0;                ///< h that the draws were made with
   estimate acceptance;              ///< mean over chains of the probability to be accepted
@@ -70,9 +70,9 @@ struct hmc_result {
 };
 
 /// Draws from exp(-V/kT) by Hybrid Monte Carlo [duane_kennedy_pendleton_roweth_1987]: fresh momenta, a
-/// trajectory of random duration, Metropolis' rule. Chain m begins at the position of start m. The law is
-/// exact for every reversible word that keeps volume, whatever the step. Durations are common to all chains,
-/// so that chains go side by side in lanes; given them, chains are independent.
+/// trajectory of random duration, Metropolis' rule. Chain m begins at the position of start m. The
+/// distribution is exact for every reversible word that keeps volume, at any step. Durations are common to
+/// all chains, so that chains go side by side in lanes; given them, chains are independent.
 ///
 /// The step is tuned by dual averaging [hoffman_gelman_2014, section 3.2] of the acceptance of all chains.
 /// `take` gets every draw after the burn-in, those of a chain in their order, of several chains at a time
@@ -80,7 +80,7 @@ struct hmc_result {
 /// number of threads, ranks and lanes.
 ///
 /// Throws std::invalid_argument if the method is not symmetric, the kinetic energy is not quadratic in p, the
-/// system is in a bath that acts or does not tell its potential, an option cannot be, or the potential or the
+/// system is in a bath that acts or has no potential, an option is out of range, or the potential or the
 /// force is not finite at a start, or the state to go on from is of other options; std::runtime_error if a
 /// coordinate did not vary where its variance is asked for. Cost of a trajectory of n steps:
 /// evaluations_to_open + n evaluations_per_step of the word, and one potential.
@@ -93,8 +93,9 @@ hmc_result hmc(const model& system, const tabulated& method, const initial_state
 /// std::invalid_argument unless all chains are of one length.
 double potential_scale_reduction(const std::vector<std::vector<double>>& chains);
 
-/// How many independent draws would give the mean of a scalar the error that chains give: all draws, over the
-/// integrated autocorrelation time of the chains together. NaN where chains are too short to tell.
+/// Effective number of independent draws, which would give the mean of a scalar the error that chains give:
+/// all draws, over the integrated autocorrelation time of the chains together. NaN where chains are too
+/// short.
 double effective_draws(const std::vector<std::vector<double>>& chains);
 
 }  // namespace nysalt

@@ -26,12 +26,12 @@ struct outcome {
 /// observer(n, t, state) with t = n h at n = 0, every, 2 every, ...; what it sees is synchronous, and looking
 /// does not change the run.
 ///
-/// Divergence is looked for every 64 steps and at the end, whoever observes what. Where it is found, that
-/// stretch is gone through again to name the first bad step, and no observer sees that step or a later one.
-/// A stretch with samples inside is gone through twice as well: they are shown when its end is known to be
-/// good. Cost: that of the steps, up to twice where samples are less than 64 steps apart.
+/// Divergence is checked every 64 steps and at the end, for any observer. Where it is found, these steps are
+/// taken again to name the first bad step, and no observer sees that step or a later one. Steps between two
+/// checks are also taken twice if samples lie among them: samples are shown when the second check is known to
+/// be good. Cost: that of the steps, up to twice where samples are less than 64 steps apart.
 /// Near the edge of a stability window a bounded motion can swing beyond the criterion and back: that counts
-/// if it is beyond when it is looked at.
+/// if it is beyond at a check.
 /// Throws std::invalid_argument if steps < 0, every < 1 or the start is not finite or does not fit.
 template <class Stepper, class Observer>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
@@ -39,7 +39,8 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       std::int64_t steps, Observer&& observer, std::int64_t every,
                                       std::uint64_t trajectory = 0) {
   if (steps < 0 || every < 1) {
-    throw std::invalid_argument(sentence("integrate: {} steps, observed every {}: cannot be", steps, every));
+    throw std::invalid_argument(
+        sentence("integrate: steps must be >= 0 and every >= 1, got steps {} and every {}", steps, every));
   }
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");

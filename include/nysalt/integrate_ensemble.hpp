@@ -27,7 +27,7 @@ namespace nysalt {
 struct ensemble_options {
   std::int64_t trajectories = 100;                       ///< how many trajectories
   std::int64_t steps = 1000;                             ///< of each trajectory
-  std::int64_t every = 1;                                ///< steps between looks
+  std::int64_t every = 1;                                ///< steps between observations
   std::uint64_t seed = 1;                                ///< of the starts
   int threads = 1;                                       ///< changes no bit
   std::int64_t first = 0;                                ///< number of the first trajectory
@@ -59,8 +59,7 @@ void with_own_system(const Stepper& stepper, const auto& f) {
 /// several threads. Of trajectories place .. place + count - 1 of the ensemble, counted from options.first
 /// on, visitor_of(place, count) makes a visitor: take(n, numbers, live) is called with what read(x, numbers)
 /// wrote of the states at step n, in the order of time, and end(run) with the lockstep that is at its end. A
-/// thread goes through `of_thread` trajectories at a time, one block after the other. Whoever calls it does
-/// so on all ranks.
+/// thread runs `of_thread` trajectories at a time, one block after the other. Collective.
 template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class VisitorOf>
 void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_options& options,
                      const own_trajectories& own, int of_thread, std::size_t width, const Read& read,
@@ -96,23 +95,25 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
 /// has lanes. At steps n = 0, every, 2 every, ... read(x, numbers) writes `width` numbers of the states over
 /// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
 /// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken;
-/// it may be read, so reading must bear any state. Neither lanes nor threads change a bit; whoever sums over
-/// m then takes tree_sum. Of several ranks each follows, and takes of, those of its shard(trajectories).
+/// it may be read, so reading must bear any state. Neither lanes nor threads change a bit; sums over
+/// m are then taken by tree_sum. Of several ranks each follows, and takes of, those of its
+/// shard(trajectories).
 ///
-/// Returns where each trajectory diverged, if it did, on all ranks; divergence is looked for as in
+/// Returns where each trajectory diverged, if it did, on all ranks; divergence is checked as in
 /// integrate(). Memory: 16 bytes a trajectory, and none that grows with the steps. Throws
-/// std::invalid_argument if trajectories, steps, every or threads cannot be, or a start does not fit.
+/// std::invalid_argument if trajectories, steps, every or threads are out of range, or a start does not fit.
 template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class Take>
 std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepper, const E& ensemble,
                                                             const ensemble_options& options,
                                                             std::size_t width, const Read& read,
                                                             const Take& take) {
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
   if (options.trajectories < 1 || options.trajectories > most || options.first < 0 ||
       options.first > most - options.trajectories || options.steps < 0 || options.every < 1) {
-    throw std::invalid_argument(
-        sentence("integrate_ensemble: {} trajectories from {} on, of {} steps, observed every {}: cannot be",
-                 options.trajectories, options.first, options.steps, options.every));
+    throw std::invalid_argument(sentence(
+        "integrate_ensemble: trajectories must be >= 1, first and steps >= 0, every >= 1, and first + "
+        "trajectories <= 2^48, got trajectories {}, first {}, steps {} and every {}",
+        options.trajectories, options.first, options.steps, options.every));
   }
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);

@@ -51,7 +51,7 @@ inline constexpr int lanes_in = 1;
 template <int W>
 inline constexpr int lanes_in<pack<double, W>> = W;  ///< its lanes
 
-/// What comparing two T gives: a bool, or a mask of lanes.
+/// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
 
@@ -163,7 +163,7 @@ inline constexpr bool takes_lanes<over_lanes<F>> = true;
 }  // namespace detail
 
 /// f(x) in each lane. What takes double is called with packs only if it is marked by over_lanes: of a lambda
-/// with `auto` nobody can tell whether it compiles for them.
+/// with `auto` no concept decides whether it compiles for them.
 template <class T, class F, int N>
 T value_in_lanes(const F& f, const phase_point<T, N>& x) {
   using one_lane = phase_point<double, N>;

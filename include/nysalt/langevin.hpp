@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the letters O go in a word that has none.
+// Placements of the letters O in a word that has none.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// Where letters O stand beside a word S, over a whole step or two halves:
+/// Where letters O are in a thermostatted word S, over a whole step or two halves:
 ///   end        S O              [li_lu_tao_ye_2023, equation (2.13)]
 ///   symmetric  O/2 S O/2        one draw a step
 ///   middle     S with its central letter X split: ... X/2 O X/2 ...
@@ -34,7 +34,7 @@ constexpr std::string_view to_string(placement p) {
   return names[static_cast<std::size_t>(p)];
 }
 
-/// The order of a word S with letters O where the bath damps alone (sigma = 0): 1 where O stands at the end,
+/// The order of a word S with letters O where the bath has no noise (sigma = 0): 1 where O is at the end,
 /// or in the middle of what is not symmetric; else at most 2, as O and S do not commute.
 constexpr int thermostatted_order(placement p, int order, bool symmetric) {
   const bool is_first = p == placement::end || (p == placement::middle && !symmetric);
@@ -131,7 +131,7 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
 }
 
 /// A word as data with its letters O. Throws std::invalid_argument if it has some already, if it has no
-/// central letter to split, or if it is processed: the kernel alone decides the temperature of a mode, as a
+/// central letter to split, or if it is processed: only the kernel decides the temperature of a mode, as a
 /// processor changes no action, and a kernel that was learned with a processor may have any.
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();

@@ -53,7 +53,7 @@ struct learned {
 /// Throws std::invalid_argument if the data are of another system, of two steps or not finite, if
 /// check_force() finds the system's force, kick or derivative wrong at some states of the data (unless
 /// check_force = false), if the system does not serve the family's letters, or if the coordinates, the loss
-/// (or two of them), a start, a fixed value, max_iterations or threads cannot be. A fit that cannot be
+/// (or two of them), a start, a fixed value, max_iterations or threads are out of range. A fit that cannot be
 /// trusted is returned with usable = false. Cost: some 40 passes over a part of the data for each start, and
 /// some 20 to 200 over all for each of three minima, each a step with derivatives a pair. Memory: some five
 /// copies of the data.

@@ -61,7 +61,7 @@ class model {
     result.is_in_bath_ = false;
     return result;
   }
-  /// The system alone in another bath; its frequency_bands() are those that it has without one.
+  /// The system in another bath; its frequency_bands() are those that it has without one.
   model in(const nysalt::bath& other) const {
     model result = alone();
     auto facts = std::make_shared<detail::model_facts>(*result.facts_);
@@ -187,7 +187,7 @@ inline model own_copy(const model& system) {
   return system.facts().is_black_box ? system.separate() : system;
 }
 
-/// The force evaluations of so many evaluations of which some are f'(q) v.
+/// The force evaluations of a number of evaluations of which some are f'(q) v.
 inline std::int64_t evaluations_of(const auto& erased, std::int64_t all, std::int64_t derivatives) {
   return all + derivatives * (erased.facts().derivative_calls - 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What needs MPI: processes that share an ensemble.
+// The part of the library that needs MPI: processes that share an ensemble.
 #pragma once
 
 #include "nysalt/communicators/mpi.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the noise of a bath comes from.
+// Sources of the noise of a bath.
 #pragma once
 
 #include <concepts>
@@ -24,10 +24,10 @@ struct noise_place {
 /// A source of standard normal numbers for the letters O of a run:
 /// normals(place, xi)      for xi of the states that are stepped: xi_i become the standard normal numbers of
 ///                         that place, a pure function of it
-/// draws_freely            true: the numbers are whatever comes; then the halves of a letter O in which one
+/// draws_freely            true: numbers depend on no earlier ones; then the halves of a letter O in which one
 ///                         step ends and the next begins become one, and
-/// halving(place, zeta)    are further ones, independent of the first, from which the halves are told apart
-///                         when somebody looks. false: they belong to a path, which has its own halves
+/// halving(place, zeta)    are further ones, independent of the first, from which the halves are computed
+///                         when they are observed. false: they belong to a path, which has its own halves
 // clang-format on
 template <class N>
 concept NoiseSource = std::copyable<N> && requires {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What needs Boost.Odeint: references by its steppers, and methods as its steppers.
+// The part that needs Boost.Odeint: references by its steppers, and methods as its steppers.
 #pragma once
 
 #include "nysalt/references/odeint.hpp"

@@ -15,7 +15,7 @@ namespace nysalt {
 
 namespace detail {
 
-/// Goes through a list whose items are made when they are looked at.
+/// An iterator over a list whose items are made when they are read.
 template <class List>
 class list_iterator {
  public:
@@ -47,7 +47,7 @@ class list_iterator {
 class vector_list {
  public:
   vector_list() = default;
-  /// So many vectors, their entries not set.
+  /// n vectors, their entries not set.
   vector_list(std::size_t count, Eigen::Index dimension) { resize(count, dimension); }
 
   std::size_t size() const { return size_; }             ///< how many vectors
@@ -128,7 +128,7 @@ bool is_finite(const listed_point<Column>& x) {
 class phase_points {
  public:
   phase_points() = default;
-  /// So many points, their entries not set.
+  /// n points, their entries not set.
   phase_points(std::size_t count, Eigen::Index dimension) { resize(count, dimension); }
   /// Copies of these.
   template <int N>

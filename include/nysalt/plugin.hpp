@@ -109,7 +109,7 @@ consteval bool takes_spread(const starts_of_system<F>*) {
   return std::invocable<const F&, const S&, double>;
 }
 
-/// What a plug-in and the program that loads it must have alike.
+/// Facts in which a plug-in and the program that loads it must agree.
 inline std::string plugin_stamp() {
   return sentence("nysalt {}; compiler {}; {} lanes; Eigen {}.{}.{}, aligned to {}; sizes {}, {}", version,
                   __VERSION__, default_lanes, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
@@ -138,8 +138,8 @@ template <class S, class Number>
             }};
   }
 
-/// The law of starts: an ensemble, such as normal_around, from law(system), or from law(system, spread),
-/// where deviations are to be multiplied by the spread.
+/// The initial distribution: an ensemble, such as normal_around, from law(system), or from law(system,
+/// spread), where deviations are to be multiplied by the spread.
 template <class F>
 detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};

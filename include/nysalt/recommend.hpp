@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What recommend() found.
+/// Result of recommend().
 class recommendation {
  public:
   class contest_result;  ///< how the library holds what was found
@@ -36,7 +36,7 @@ class recommendation {
   /// The winner's scheme, as scheme files hold it and comparison_options::held takes it; nothing if none that
   /// is learned wins.
   std::optional<std::string> scheme() const;
-  /// What should be known before the advice is taken, a sentence each.
+  /// Warnings to read before the advice is taken, a sentence each.
   std::vector<std::string> warnings() const;
 
  private:
@@ -44,7 +44,7 @@ class recommendation {
 };
 
 /// The best of learned families and classical methods at options.budget, budget_seconds or error. Starts and
-/// checks are those of compare(). Throws std::invalid_argument, naming the option, for what cannot be. Cost:
+/// checks are those of compare(). Throws std::invalid_argument, naming the option, for bad input. Cost:
 /// a fit for each family that suits, and a comparison of all that take part.
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
                          const execution_options& execution = {});
@@ -53,7 +53,7 @@ recommendation recommend(const initial_value_problem& problem, const recommendat
 /// acceptance: of the words that samplers ship or their literature proposes, and of families that are learned
 /// for the purpose. Words are judged on states of exp(-H/kT), from pilot chains or the problem's own starts.
 /// A learned word and a classical one that differ by less than two standard errors tie. Throws
-/// std::invalid_argument, naming the option, for what cannot be. Cost: pilot chains of 500 trajectories and
+/// std::invalid_argument, naming the option, for bad input. Cost: pilot chains of 500 trajectories and
 /// more; some twelve times the trajectories of the options for each word; up to seven fits for each family.
 recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
                                       const execution_options& execution = {});

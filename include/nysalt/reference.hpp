@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The exact flow, as nearly as it is to be had, with its error known.
+// Accurate reference flows with a measured error.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct path_place {
 
 /// The same for a system in a bath, path by path:
 /// advance(system, x, t, place, xi)  x becomes the state a time t later on that path, over double and packs;
-///                                   xi, a span, are given the noise of so many equal parts of t
+///                                   xi, a span, are given the noise of as many equal parts of t
 /// finer()                           the same path in half the step (error_over_difference)
 /// description()
 template <class R, class S>
@@ -52,7 +52,7 @@ concept PathReference = HasBath<S> && SeparableSystem<S> &&
 /// The error of a path in small steps, over its difference from the same path in half the step: 4/3 of order
 /// two, which BAOAB has where friction is weak, and sqrt(4/3) = 1.15 where noise makes the errors of
 /// successive halvings independent; 1.33 at friction .01 and 1.20 to 1.24 at 1 are measured against a 64th of
-/// the step (tests/references/fine_paths_test.cpp). The larger of both: an error is not told too small.
+/// the step (tests/references/fine_paths_test.cpp). The larger of both: an error is not estimated too small.
 inline constexpr double error_over_difference = 4.0 / 3.0;
 
 /// Either: what data and errors can come from.
@@ -81,7 +81,7 @@ void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimens
   }
 }
 
-/// The same of any reference; a flow has no noise, and leaves xi alone.
+/// The same of any reference; a flow has no noise, and leaves xi unchanged.
 template <SeparableSystem S, Reference<S> R, Scalar T>
 void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimension>& x, double t, int count,
                    const path_place& at, std::span<vector<T, S::dimension>> xi) {

@@ -112,7 +112,7 @@ class run_time_family {
   /// P is the identity but for terms of h^2 and P(-h) K^n P(h)^-1 has order 2 at least, for every P.
   /// Throws std::invalid_argument unless the family is symmetric and of the letters A, B and G, and there are
   /// from 2 to most_processor_pairs pairs. Cost of P(h)^-1, once a run, and of P(-h), each time that a run is
-  /// looked at: a force evaluation for each pair.
+  /// observed: a force evaluation for each pair.
   friend run_time_family processed(const run_time_family& kernel, int pairs);
 
  private:
@@ -156,7 +156,7 @@ struct contained_family {
   Eigen::VectorXd embed(const Eigen::VectorXd& theta) const { return origin + slopes * theta; }
 };
 
-/// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is looked at.
+/// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is observed.
 inline constexpr int most_processor_pairs = 8;
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.

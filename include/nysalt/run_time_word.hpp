@@ -66,8 +66,8 @@ consteval bool are_known_letters() {
   (std::make_index_sequence<W::length>());
 }
 
-/// What word<...> knows at compile time, found when it is made: which letters merge, where the force is at
-/// hand, and how many evaluations that leaves.
+/// The facts that word<...> knows at compile time, computed when the word is made: which letters merge, where
+/// the force is known, and how many evaluations that leaves.
 class run_time_word {
  public:
   /// One for each slot; C is double or the scalar of the states.
@@ -79,7 +79,7 @@ class run_time_word {
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
   /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
-  /// those of the kernel, and what is looked at is a copy on which P(-h) has acted.
+  /// those of the kernel, and what is observed is a copy on which P(-h) has acted.
   /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
   /// split H in one way and some in the other, or if a processor is not made of letters A and B in turn, or
   /// belongs to a kernel with letters O or R.
@@ -165,7 +165,7 @@ class run_time_word {
 
   /// Where the coefficients of letter i begin.
   std::size_t first_slot(std::size_t i) const { return first_slots_[i]; }
-  /// How many coefficients letter i has.
+  /// Number of coefficients of letter i.
   std::size_t slots_of(std::size_t i) const {
     return (i + 1 < length ? first_slots_[i + 1] : kernel_slots) - first_slots_[i];
   }
@@ -291,7 +291,7 @@ class run_time_word {
 
 namespace detail {
 
-/// What acts before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
+/// The word before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
 inline run_time_word pre_processor(const run_time_word& word) {
   const std::string letters = word.processor();
   return run_time_word(std::string(letters.rbegin(), letters.rend()));
@@ -303,7 +303,7 @@ std::vector<C> pre_processor_coefficients(const run_time_word& word, const std::
   for (std::size_t i = word.slots; i-- > word.kernel_slots;) result.push_back(C(-all[i]));
   return result;
 }
-/// What acts on a copy that is looked at, P(-h).
+/// The word on a copy that is observed, P(-h).
 inline run_time_word post_processor(const run_time_word& word) { return run_time_word(word.processor()); }
 /// The coefficients of P(-h) from those of the whole word.
 template <class C>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a number must do so that a step can be taken with it.
+// Requirements on a number type with which steps are taken.
 #pragma once
 
 #include <concepts>
@@ -7,7 +7,7 @@
 namespace nysalt {
 
 /// A field with double coefficients: double itself, a dual number, a truncated series, a ceres::Jet.
-/// What T is decides what a step computes; systems, flows and families never ask.
+/// The type T decides what a step computes; systems, flows and families never ask.
 // clang-format off
 template <class T>
 concept Scalar = std::copyable<T> && std::constructible_from<T, double> &&

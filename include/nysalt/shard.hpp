@@ -43,7 +43,7 @@ class shard {
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
   /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
   /// receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one term,
-  /// and rank 0 tells all the result.
+  /// and rank 0 broadcasts the result.
   ///
   /// Throws std::invalid_argument if the terms are not as many as the trajectories of this rank.
   template <class T>

@@ -98,7 +98,7 @@ class stepper {
     return run;
   }
 
-  /// Takes so many steps: THE loop. Cost: steps times the word's evaluations_per_step, and a normal number
+  /// Takes `steps` steps: THE loop. Cost: steps times the word's evaluations_per_step, and a normal number
   /// for each momentum and letter O. Allocates nothing that the force does not; of a dynamic size, one vector
   /// with noise and a few for the letters D, G, R, H. Throws std::invalid_argument if steps < 0. If the force
   /// throws, the run is lost: go on from a copy.
@@ -178,7 +178,7 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
-  /// One plain step, letter by letter, from q and p alone (f is scratch): what learning and the
+  /// One plain step, letter by letter, from only q and p (f is scratch): what learning and the
   /// analyses differentiate; of a processed word P(-h) K P(h)^-1, which is not what n steps of a run repeat.
   /// Its noise is that of step n of the trajectory. Cost: the word's evaluations_of_plain_step.
   template <SteppedBy<C> T>
@@ -263,7 +263,7 @@ class stepper {
     }
   }
 
-  /// Throws std::invalid_argument if the system does not serve a letter; of a type-level word that is told
+  /// Throws std::invalid_argument if the system does not serve a letter; of a type-level word that is refused
   /// when it is compiled.
   static surroundings_of_word surroundings(const S& system, const W& word) {
     surroundings_of_word result;
@@ -313,9 +313,10 @@ class stepper {
   void require_thermostat(const std::string& letters) const {
     if constexpr (HasBath<S>) {
       if (stochastic_letters_ == 0) {
-        throw std::invalid_argument(sentence(
-            "the system is in a {}, but the word {} has no letter O: thermostat it, or step the system alone",
-            system_->bath().description(), letters));
+        throw std::invalid_argument(
+            sentence("the system is in a {}, but the word {} has no letter O: thermostat it, or step the "
+                     "system without bath",
+                     system_->bath().description(), letters));
       }
       if (std::is_same_v<Noise, no_noise> && system_->bath().sigma() > 0.0) {
         throw std::invalid_argument(

@@ -112,8 +112,8 @@ consteval auto origin_of_force() {
   }
 }
 
-/// Whoever derives from a system and writes another force inherits a kick that is not of that force: a kick
-/// counts only if it is written where the force is, or further down.
+/// A class that derives from a system and writes another force inherits a kick that is not of that force: a
+/// kick counts only if it is written where the force is, or further down.
 template <class S, class T, class C>
 concept KickOfTheForce = std::is_base_of_v<typename decltype(origin_of_force<S, T>())::type,
                                            typename written_in<decltype(&S::template kick<T, C>)>::type>;
@@ -176,12 +176,12 @@ template <class S, class T>
 concept HasVelocity = requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
   s.velocity(p, v);
 };
-/// The system tells the modes of its quadratic part.
+/// The system declares the modes of its quadratic part.
 template <class S>
 concept HasModes = requires(const S& s) {
   { s.modes() } -> std::same_as<normal_modes>;
 };
-/// The system tells the angular frequencies of its linearised motion, on which a step must be stable.
+/// The system declares the angular frequencies of its linearised motion, on which a step must be stable.
 template <class S>
 concept HasFrequencyBands = requires(const S& s) {
   { s.frequency_bands() } -> std::same_as<std::vector<frequency_band>>;
@@ -225,7 +225,7 @@ template <class S>
 concept HasQuadraticKinetic = System<S> &&((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                            requires { requires S::may_have_quadratic_kinetic; });
 
-/// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes tell, and the rest by
+/// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes give, and the rest by
 /// its force.
 template <class S>
 concept HasQuadraticPart = NystromSystem<S> && HasModes<S> && HasSoftForce<S>;
@@ -307,7 +307,7 @@ vector<T, S::dimension> make_vector(const S& system) {
 }
 
 /// What a learned method remembers of its system, so that it can refuse another one. Without a description a
-/// system is known by its type and size alone: let yours name its parameters.
+/// system is known only by its type and size: let yours name its parameters.
 template <System S>
 std::string describe(const S& system) {
   if constexpr (requires {

@@ -26,7 +26,7 @@ namespace nysalt {
 /// A whole or a real number, or a text, such as the name of a file.
 using parameter_value = std::variant<std::int64_t, double, std::string>;
 
-/// What a system is made of, a number or a text, as options, help, files and Python name it.
+/// A parameter of a system, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _: the option is --name
   parameter_value usual;  ///< where none is given; it says whether it is a text, or the number is whole
@@ -102,7 +102,7 @@ stiff_springs stiff_springs_of(const S& system) {
   return result;
 }
 
-/// Throws std::invalid_argument: a bath acts on systems with K = p^2/2m alone.
+/// Throws std::invalid_argument: a bath acts only on systems with K = p^2/2m.
 [[noreturn]] void refuse_bath(const std::string& system);
 
 /// The system as a model, in a bath that may not act.
@@ -121,7 +121,7 @@ model put_in(const S& system, const bath& in) {
 /// A system that is made of its parameters.
 struct initial_value_problem {
   nysalt::model system;    ///< in its bath
-  initial_states starts;   ///< its law of them
+  initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
   std::vector<named_observable> observables{};  ///< beside those of every system
   std::string default_observable = "energy";    ///< where none is named
@@ -132,7 +132,7 @@ struct initial_value_problem {
 };
 
 namespace detail {
-/// A system in a bath, with a law of starts and the highest frequency from them.
+/// A system in a bath, with an initial distribution and the highest frequency from there.
 template <SeparableSystem S>
 initial_value_problem made_of(const S& system, const bath& in, initial_states starts, double frequency) {
   return {.system = put_in(system, in),
@@ -148,9 +148,9 @@ struct system_declaration {
   std::string title;                             ///< one line: its Hamiltonian, in words or as a formula
   std::vector<declared_parameter> parameters{};  ///< in the order of help and files
   /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
-  /// std::invalid_argument for values that cannot be.
+  /// std::invalid_argument for values out of range.
   std::function<initial_value_problem(const parameter_values&, const bath&, double spread)> make{};
-  bool has_spread = true;   ///< its law of starts has deviations
+  bool has_spread = true;   ///< the initial distribution has deviations
   std::string described{};  ///< with what its description begins, if not with its name
   std::string source{};     ///< in docs/bibliography.bib
   std::string identity{};   ///< of the source that declares it; files refuse another. Empty: a bundled one

@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// How long a trial lasts.
+/// Length of a trial.
 struct trial_options {
   std::int64_t steps = 20'000;  ///< of each trajectory
   std::uint64_t seed = 1;       ///< of the noise, in a bath
@@ -33,7 +33,7 @@ struct trial_result {
   std::int64_t diverged = 0;                ///< number of trajectories that diverged
   std::optional<diverged_trajectory> lost;  ///< the one of the lowest number that diverged
   bool energy_was_watched = false;          ///< false: in a bath, or H is not known
-  double first_deviation = 0.0;  ///< largest |H - H_0| of all trajectories in the first stretch, steps/10
+  double first_deviation = 0.0;  ///< largest |H - H_0| of all trajectories in the first tenth of the steps
   double deviation = 0.0;        ///< the same over all steps
   double rounding = 0.0;         ///< bound of what rounding adds to |H - H_0|
   double kinetic_energy = 0.0;   ///< mean over trajectories and time
@@ -47,12 +47,12 @@ struct trial_result {
   /// as long, have a maximum larger by sqrt(10); a larger one means that the energy drifts.
   static constexpr double stretches = 10.0;
 
-  /// Of fewer steps the first stretch may be shorter than a period of slow motion, some hundred steps.
+  /// Of fewer steps the first tenth may be shorter than a period of slow motion, some hundred steps.
   static constexpr std::int64_t fewest_steps_for_drift = 5'000;
   /// Of the mean kinetic energy: a drift that changes a temperature by less is not seen in what runs measure.
   static constexpr double smallest_drift = 0.05;
 
-  /// Whether the energy went farther than the first stretch explains.
+  /// Whether the energy went farther than the first tenth explains.
   bool energy_wanders() const {
     return energy_was_watched && deviation > smallest_drift * kinetic_energy &&
            steps >= fewest_steps_for_drift && deviation > std::sqrt(stretches) * first_deviation + rounding;
@@ -65,7 +65,7 @@ struct trial_result {
   /// One sentence on why it failed; empty if it passed or was not run.
   std::string objection() const;
 
-  /// What was tried and what came of it, in one line.
+  /// The trial and its result, in one line.
   std::string report() const;
 };
 
@@ -73,8 +73,8 @@ struct trial_result {
 /// energetic starts are known too.
 phase_points repeated_in_bath(const model& system, phase_points starts);
 
-/// Runs a method from each start, in lanes and on threads, and looks at H every few steps; in a bath with its
-/// noise, and without looking at H. Trajectories are run in blocks; after a block in which one diverged it
+/// Runs a method from each start, in lanes and on threads, and reads H every few steps; in a bath with its
+/// noise, and without reading H. Trajectories are run in blocks; after a block in which one diverged it
 /// stops. Neither lanes nor threads change a bit. Throws std::invalid_argument if the method does not suit
 /// the system, there are no starts or steps, or a start is not finite. Cost: starts * steps steps.
 /// Trajectories that diverge under an accurate method too, S6 [blanes_moan_2002] in parts of a step, are

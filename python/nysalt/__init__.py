@@ -11,7 +11,7 @@
 The functions are those of the program `nysalt`, with its defaults and its numbers to the last bit; an argument
 that is None is left to its default. Bad input is a ValueError of one sentence. Long calls release the
 interpreter's lock, except for a Hamiltonian of your own. Ctrl-C ends them when the block of trajectories, the
-stretch of steps or the pass over the data at hand is done; this may take as long as that does.
+interval of steps or the pass over the data is done; this may take as long as that does.
 """
 
 import json as _json
@@ -78,7 +78,7 @@ def metrics() -> Dict[str, Dict[str, Any]]:
 # ---- Systems.
 
 class System:
-    """A Hamiltonian H(q, p) = K(p) + V(q), perhaps in a bath, and the law of its starts.
+    """A Hamiltonian H(q, p) = K(p) + V(q), perhaps in a bath, and the distribution of its initial states.
 
     Made by `system` or `hamiltonian`. q and p are arrays of shape (dimension,), or (trajectories, dimension).
     """
@@ -92,12 +92,12 @@ class System:
         self.kind: str = facts["kind"]
         #: Degrees of freedom.
         self.dimension: int = facts["dimension"]
-        #: What `run` can sample; "q1..q6" stands for q1, q2, ... q6.
+        #: What `run` can sample; "q1..q6" means q1, q2, ... q6.
         self.observables: List[str] = facts["observables"]
         self.default_observable: str = facts["default_observable"]
         #: Angular frequencies (low, high) that motion has; empty where they have no bound.
         self.frequency_bands: List[Tuple[float, float]] = facts["frequency_bands"]
-        #: The highest that a motion from its law of starts meets, rare starts included.
+        #: The highest that a motion from the initial distribution meets, rare initial states included.
         self.highest_frequency: float = facts["highest_frequency"]
         #: As scheme files hold them.
         self.parameters: Dict[str, Any] = _json.loads(facts["parameters"])
@@ -139,7 +139,7 @@ def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
     runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
     bath; `start` says where trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the
-    deviations of the law of starts.
+    standard deviations of the initial distribution.
     """
     return System(_nysalt.bundled({**locals(), "name": _path(name)}))
 
@@ -188,7 +188,7 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
 
     potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
     checked against differences of the potential at four starts. starts(seed, n) is the start (q, p) of
-    trajectory n: a function of these two numbers alone, such as one of np.random.default_rng([seed, n]).
+    trajectory n: a function of these two numbers only, such as one of np.random.default_rng([seed, n]).
     `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
     is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters. `kind` is
     the name without the size: a scheme that was learned at another size of the same kind is tried here, and used
@@ -265,7 +265,7 @@ class Scheme(_FromFile):
         self.fit: Optional[Dict[str, Any]] = fit
 
     def save(self, path: Union[str, "_os.PathLike[str]"], *, force: bool = False) -> None:
-        """Writes the scheme file, whole or not at all; one that is not usable with force=True alone."""
+        """Writes the scheme file, whole or not at all; one that is not usable only with force=True."""
         if not self.usable and not force:
             raise ValueError(f"the fit is not usable: {self.reason}; force=True saves it all the same")
         _nysalt.save(_os.fspath(path), self._text)
@@ -368,7 +368,7 @@ def run(system: System, method: Method, step: float, horizon: float, *, trajecto
         observables: Optional[Texts] = None, sample_every: Optional[int] = None, seed: int = 1,
         placement: Optional[str] = None, force: bool = False, out: Optional[np.ndarray] = None,
         threads: Optional[int] = None) -> Run:
-    """Trajectories of a method from the starts of a system, sampled every so many steps.
+    """Trajectories of a method from the starts of a system, sampled every `sample_every` steps.
 
     The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
     shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
@@ -387,7 +387,7 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
               out: Optional[Tuple[np.ndarray, np.ndarray]] = None, seed: int = 1,
               placement: Optional[str] = None, force: bool = False,
               threads: Optional[int] = None) -> Tuple[np.ndarray, np.ndarray]:
-    """Takes states so many steps on: q and p of shape (dimension,), or (trajectories, dimension).
+    """Advances states by `steps` steps: q and p of shape (dimension,), or (trajectories, dimension).
 
     Returns new arrays, or those of `out`, filled; out=(q, p) goes on in place, without a copy. They must be
     writable arrays of float64 in the shape of q. A call that is refused leaves them as they are; one that is
@@ -431,7 +431,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
     """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
 
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
-    against, `rankings`, `fits` of "learned:FAMILY". metrics() tells what there is to judge by [path].
+    against, `rankings`, `fits` of "learned:FAMILY". metrics() lists the metrics [path].
     equal_cost=True: steps are per force evaluation.
     """
     asked = dict(locals())

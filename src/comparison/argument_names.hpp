@@ -6,9 +6,9 @@
 
 namespace nysalt::program {
 
-/// How a caller writes what the program has as options.
+/// The names by which a caller writes the options of the program.
 struct argument_spelling {
-  const char* learning;  // what stands for "--learn-"
+  const char* learning;  // what replaces "--learn-"
   const char* yes;       // behind the name of an option without a value
 };
 inline constexpr argument_spelling in_python{"learn_", "=True"};

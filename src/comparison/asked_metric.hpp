@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What trajectories are judged by.
+// Metrics by which trajectories are judged.
 #pragma once
 
 #include <span>
@@ -30,7 +30,7 @@ struct asked_metric {
   /// Whether an error of the phase counts: of the state, or of a coordinate along a path.
   bool sees_phases() const;
   bool takes_observable() const { return name == "path" || name == "relative" || is_of_law(); }
-  /// What its results are called.
+  /// The name of its results.
   std::string value() const { return is_acceptance() ? "acceptance" : "error"; }
 };
 

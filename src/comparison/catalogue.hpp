@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the program knows by name.
+// Names that the program knows.
 #pragma once
 
 #include <functional>

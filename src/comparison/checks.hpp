@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What every command asks of its numbers.
+// Checks of numbers that all commands share.
 #pragma once
 
 #include <cmath>
@@ -44,7 +44,7 @@ inline std::int64_t steps_beyond(const char* option, double horizon, double step
   return whole + (static_cast<double>(whole) < horizon / step - 1e-9 ? 1 : 0);
 }
 
-/// A mean over time takes so many samples at least: the trapezoidal rule errs then by half a percent of a
+/// The least number of samples in a mean over time: the trapezoidal rule errs then by half a percent of a
 /// square error that grows like t^2 (sample_weights).
 inline constexpr double fewest_samples = 10.0;
 

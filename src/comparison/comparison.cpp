@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is compared: metrics, and rows of methods at steps.
+// Plan of a comparison: metrics, and rows of methods at steps.
 #include "comparison.hpp"
 
 #include <algorithm>

@@ -46,10 +46,11 @@ void require_fitting(const comparison_options& asked, const std::function<bool(c
 /// again.
 class comparison {
  public:
-  /// Plans the rows. Throws refusal for whatever cannot be, before any work is done.
+  /// Plans the rows. Throws refusal for bad options, before any work is done.
   comparison(std::unique_ptr<prepared_problem> system, comparison_options asked, common_settings common);
 
-  /// What is asked, whatever it is computed by: two of one question have the same results to the bit.
+  /// The question, without how it is computed: two comparisons of one question have the same results to the
+  /// bit.
   const json& question() const { return question_; }
   void learn_and_measure(journal& kept);
 
@@ -90,7 +91,7 @@ class comparison {
   double work_of_learning(const row& line) const;
   double work_of_paths(const group& all) const;
   double work_of_law(double evaluations_per_time) const;
-  double work_of_reference() const;                    // of one ensemble for a law
+  double work_of_reference() const;                    // of one ensemble for a distribution
   double evaluations_expected(const row& line) const;  // by unit time, without the start
 
   void learn(row& line, journal& kept);
@@ -127,7 +128,7 @@ class comparison {
   baselines baselines_;
   std::vector<std::string> warnings_;
   std::vector<std::optional<equal_bins>> bins_;  // by metric
-  std::vector<gathered_statistics> references_;  // of the metric and step at hand
+  std::vector<gathered_statistics> references_;  // of the present metric and step
   progress shown_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a report says of stability: the margin of each step, and energies and survivors along time.
+// Stability in a report: the margin of each step, and energies and survivors along time.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ namespace nysalt::program {
 namespace {
 
 /// Root mean square energy error and share of surviving trajectories at each sample. A record holds the
-/// energy alone, sampled every `between` units of time; the record of a trajectory that diverges is shorter.
+/// energy only, sampled every `between` units of time; the record of a trajectory that diverges is shorter.
 energy_course course_of(const std::vector<record>& all, double between) {
   energy_course result;
   std::size_t longest = 0;

@@ -89,7 +89,7 @@ double comparison::evaluations_expected(const row& line) const {
   return each / line.step;
 }
 
-/// A search takes some 0.2 s with two parameters and 6 s with six, whatever the data: as much as a few 10^7
+/// A search takes some 0.2 s with two parameters and 6 s with six, for any data: as much as a few 10^7
 /// evaluations, times the cube of their number.
 double comparison::work_of_learning(const row& line) const {
   const auto parameters = static_cast<double>(family_named(*families_.at(line.method).family).parameters());
@@ -139,8 +139,8 @@ std::vector<asked_metric> comparison::along_paths() const {
   return result;
 }
 
-/// How many times finer the reference should be for its error to be a hundred times below those of the rows,
-/// as that falls with the sixth power of its step.
+/// The factor by which the reference should be finer for its error to be a hundred times below those of the
+/// rows, as that falls with the sixth power of its step.
 double comparison::refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const {
   constexpr double share = 0.01;
   constexpr double order = 6.0;
@@ -155,8 +155,8 @@ double comparison::refinement(const errors_plan& pilot, const std::vector<tabula
   return std::pow(most / share, 1.0 / order);
 }
 
-/// Pilots on a few trajectories tell the errors of the rows and of a coarse reference, which is refined until
-/// it is good enough, or the usual one is.
+/// Pilots on a few trajectories estimate the errors of the rows and of a coarse reference, which is refined
+/// until it is good enough, or the usual one is.
 std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
   if (options_.learning.fine_step) return options_.learning.fine_step;
   const auto ranking = system_->fine_step_for_ranking(step);
@@ -165,7 +165,7 @@ std::optional<double> comparison::fine_step_for(double step, const std::vector<t
       std::ranges::any_of(paths, [](const asked_metric& metric) { return metric.name != "energy"; });
   if (!ranking || !needs_one) return std::nullopt;
   constexpr double coarser = 4.0;
-  constexpr double usual = 10.0;  // is so many times finer than for ranking
+  constexpr double usual = 10.0;  // the factor by which it is finer than for ranking
   constexpr std::int64_t few = 16;
   errors_plan pilot{.trajectories = paths_at(step), .metrics = paths};
   pilot.trajectories.count = std::min(few, options_.trajectories);

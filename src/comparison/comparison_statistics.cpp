@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The metrics that compare laws, not paths: distribution and autocovariance.
+// The metrics that compare distributions, not paths: distribution and autocovariance.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::vector<histogram> histograms_of(std::span<const gathered_statistics> all) {
   return result;
 }
 
-/// Of one ensemble from the law of several: the mean over these.
+/// The distance of one ensemble from the distribution of several: the mean over these.
 estimate distance_to(const gathered_statistics& ensemble, std::span<const gathered_statistics> others) {
   if (ensemble.histogram) {
     std::vector<std::vector<histogram>> groups;
@@ -40,7 +40,7 @@ estimate distance_to(const gathered_statistics& ensemble, std::span<const gather
   return result;
 }
 
-/// The mean distance over all pairs of ensembles of one law.
+/// The mean distance over all pairs of ensembles of one distribution.
 double floor_of(std::span<const gathered_statistics> all) {
   if (all.front().histogram) return sampling_floor(histograms_of(all));
   double sum = 0.0;
@@ -78,7 +78,8 @@ void comparison::require_sound_statistics() const {
   const bath& heat_bath = system_->heat_bath();
   const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
   if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
-    refuse("the metric {} needs a temperature above 0: friction alone brings all to rest", of_law->name);
+    refuse("the metric {} needs a temperature above 0, got 0: friction without noise stops all motion",
+           of_law->name);
   }
   if (heat_bath.acts() && !heat_bath.has_temperature()) {
     refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
@@ -103,7 +104,7 @@ void comparison::require_sound_statistics() const {
   require_positive("--longest-lag", options_.longest_lag);
 }
 
-/// Autocovariances take some 50 lags, whatever the step: a product a lag and sample is all their cost.
+/// Autocovariances take some 50 lags at any step: a product a lag and sample is all their cost.
 statistics_plan comparison::statistics_at(std::size_t metric, double step) const {
   statistics_plan plan{.trajectories = plan_at(step)};
   if (metrics_[metric].name == "distribution") {
@@ -137,7 +138,7 @@ void comparison::prepare_bins(std::size_t metric) {
   bins_[metric] = equal_bins{range[0], range[1], static_cast<int>(options_.bins)};
 }
 
-/// Else all laws would be the same: none of them is seen.
+/// Otherwise all distributions would be the same: none of them is seen.
 void comparison::require_samples_in_range(std::size_t metric,
                                           std::span<const gathered_statistics> all) const {
   const auto& bins = bins_[metric];
@@ -174,8 +175,8 @@ const std::vector<gathered_statistics>& comparison::references_at(std::size_t me
   return references_;
 }
 
-/// What stays where it starts: its law is that of the starts, and it forgets nothing. Nothing where the
-/// starts are of the law already, as far as so many tell.
+/// What stays where it starts: the distribution is the initial one, and nothing is forgotten. Empty where the
+/// initial states have that distribution already, within their statistical error.
 std::optional<double> comparison::null_model_of_law(std::size_t metric, double step, const drawn_law& law) {
   if (metrics_[metric].name == "acf") {
     double sum = 0.0;

@@ -26,7 +26,7 @@ struct bracket {
   std::map<int, std::vector<double>> thetas;  // that were learned
 };
 
-/// What a method's errors on some trajectories are.
+/// Errors of a method on some trajectories.
 struct measured_error {
   estimate mean{};
   std::vector<double> scores{};  // of each trajectory
@@ -62,11 +62,11 @@ struct candidate {
 enum class cost_unit { evaluations, seconds };
 
 /// Candidates at one cost, ranked by error; or at one error, ranked by cost. One of them wins if it differs
-/// by more than chance, the grid of steps and the clock can tell.
+/// by more than chance, the grid of steps and the resolution of the clock.
 struct contest {
   cost_unit unit;
   std::optional<double> budget;  // cost per unit time; nothing: at one error
-  double cost_ratio;             // how far costs must differ to tell them apart, at one error
+  double cost_ratio;             // how far costs must differ to count as different, at one error
   error_statistic statistic;
   std::vector<candidate> all{};
 
@@ -75,13 +75,13 @@ struct contest {
   }
   double error_of(const candidate& contender) const { return statistic(contender.error.scores); }
 
-  /// Those that stand first, the best of them first of all.
+  /// The accepted candidates, best first.
   void rank();
-  /// The best of those that stand; null if none does.
+  /// The best accepted candidate; null if there is none.
   const candidate* best_of(bool learned) const;
   const candidate* best() const;
   bool has_result() const { return best() != nullptr; }
-  /// The winner, or null where the best of both kinds cannot be told apart.
+  /// The winner, or null where the best of both kinds do not differ significantly.
   const candidate* winner() const;
   /// The error of one over that of the other, on the trajectories that confirm both, or else on those of the
   /// ranking.

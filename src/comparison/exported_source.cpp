@@ -64,7 +64,7 @@ std::optional<placement> placement_of(const method_source& source, const export_
   return source.where ? source.where : placement_asked(request.placement);
 }
 
-/// What `nysalt cite` is asked for.
+/// The arguments of `nysalt cite`.
 std::string arguments_of_cite(const method_source& source) {
   if (source.learned) return " --methods learned:" + source.learned->family;
   const bool is_known = std::ranges::any_of(

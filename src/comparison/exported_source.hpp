@@ -10,7 +10,7 @@
 
 namespace nysalt::program {
 
-/// How a method is exported.
+/// Options of an export.
 struct export_request {
   std::string name;            ///< identifier in the text; empty: that of the family or method
   std::optional<double> step;  ///< of a scheme over several steps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the command line says of learning, as the learner of a family takes it.
+// Options of learning on the command line, as the learner of a family takes them.
 #pragma once
 
 #include <algorithm>

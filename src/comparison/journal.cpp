@@ -49,7 +49,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
 std::string journal::open_file() {
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
-    refuse("cannot write {}: it is no ordinary file; name another --output", path_.string());
+    refuse("cannot write {}: it is not a regular file; name another --output", path_.string());
   }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_to_write(": is the folder writable, and the disk not full?");

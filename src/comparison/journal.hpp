@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a long computation has finished, so that it can go on where it was stopped.
+// Journal of the finished parts of a long computation, from which it is resumed.
 #pragma once
 
 #include <cstdio>
@@ -26,7 +26,7 @@ class journal {
   /// process writes it, or if it cannot be written. A file that is no journal is left as it is.
   journal(const std::filesystem::path& file, const json& question, bool resume);
 
-  /// How many parts were there at the start.
+  /// Number of parts at the start.
   std::size_t found() const { return found_.size(); }
   bool has(const std::string& part) const { return found_.contains(part); }
   /// Nothing was finished, now or before.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a method is called already, by its coefficients.
+// Known methods by their coefficients.
 #pragma once
 
 #include <optional>

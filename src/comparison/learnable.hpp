@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a system makes of a plan to learn.
+// A problem of learning, prepared for a plan.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a learned row of a comparison tells of the fit behind it.
+// Report of the fit behind a learned row of a comparison.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct learned_row {
   bool gains_nothing = false;
   std::string rival{};   // the formula that is as good; empty: none
   std::string reason{};  // why it is not usable
-  json document{};       // all that results and journals tell of the fit
+  json document{};       // all that results and journals hold of the fit
 
   std::vector<double> theta() const;
 };
@@ -34,7 +34,7 @@ inline json to_json(const learned_row& row) { return row.document; }
 /// A field of each parameter, by its name.
 json by_name(const fit_summary& fit, double fitted_parameter::*field);
 
-/// What all commands tell of a fit.
+/// The report of a fit that all commands share.
 json fit_json(const fit_summary& fit);
 
 }  // namespace nysalt::program

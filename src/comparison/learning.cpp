@@ -47,7 +47,7 @@ void require_sound(const learning_options& how, const std::string& prefix) {
 learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
   auto [problem, energies] = make_learnable(plan, progress);
   const run_time_family& family = problem.family;
-  if (progress) {  // told again at each pass that all data are there, whoever counts may end the search
+  if (progress) {  // called at each pass, with all data made, so that the progress may end the search
     const auto watched = [&](objective& loss) {
       loss = [loss = std::move(loss), progress, all = plan.how.trajectories](const auto& theta) {
         progress(all);

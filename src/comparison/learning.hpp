@@ -12,7 +12,7 @@
 
 namespace nysalt::program {
 
-/// Throws refusal for settings that cannot be at any step; `prefix` is that of the option names.
+/// Throws refusal for settings that are invalid at any step; `prefix` is that of the option names.
 void require_sound(const learning_options& how, const std::string& prefix);
 
 /// Throws refusal for what cannot be learned, before any work is done.
@@ -24,7 +24,7 @@ learned_scheme learn_with(const prepared_problem& system, const learn_plan& plan
 std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_plan plan,
                                         std::vector<double> steps, progress& shown);
 
-/// What was found, in the order of the family's parameters.
+/// The fitted values, in the order of the family's parameters.
 std::vector<double> theta_of(const fit_summary& fit);
 
 /// Training and held-out seeds are the roles of the user's.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a comparison finds: plain numbers, which a journal keeps and a report shows.
+// Results of a comparison: plain numbers, which a journal keeps and a report shows.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@
 
 namespace nysalt::program {
 
-/// The law of an observable, or how it is correlated, as it is drawn.
+/// The distribution of an observable, or its autocorrelation, as it is drawn.
 struct drawn_law {
   std::vector<double> x;  // values, or lags
   std::vector<double> y;  // density, or normalised autocovariance
   estimate mean{};
   double effective_sample_size = 0.0;
-  std::optional<double> kinetic_temperature{};  // both temperatures: of a histogram alone
+  std::optional<double> kinetic_temperature{};  // both temperatures: of a histogram only
   std::optional<double> half_step_kinetic_temperature{};
 };
 drawn_law drawn(const gathered_statistics& found);
 
-/// What one method at one step came to, by one metric.
+/// Result of one method at one step, by one metric.
 struct measurement {
   estimate value{};         // an error; of the metric acceptance that
   std::string reason = {};  // why there is none
@@ -38,7 +38,7 @@ struct measurement {
   std::optional<distribution_of_errors> spread{};  // of single trajectories, along paths
   std::vector<double> groups{};  // what groups of trajectories have in the value, see means_of_groups()
 
-  /// Of so many trajectories; says why if none is left.
+  /// Of that number of trajectories; says why if none is left.
   void lose(const std::vector<diverged_trajectory>& lost, std::int64_t trajectories);
 };
 
@@ -47,7 +47,7 @@ distribution_of_errors spread_of(const measurement& outcome);
 
 /// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
 /// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as
-/// well as by all trajectories, and a journal has room for so many numbers.
+/// well as by all trajectories, and a journal has room for that many numbers.
 std::vector<double> means_of_groups(const std::vector<double>& of_each);
 
 /// Along the horizon.
@@ -57,13 +57,14 @@ struct energy_course {
   std::vector<double> surviving;  // share of the trajectories
 };
 
-/// What the measurements at one step are seen against, by one metric. What a metric has not is left out.
+/// Reference, null model and floor of the measurements at one step, by one metric. What a metric has not is
+/// left out.
 struct baseline {
   std::string reference = {};                 // description of the reference
   std::optional<double> reference_error{};    // the error of the reference itself
   std::optional<double> null_model{};         // the error of what stays as it was at the start
   std::optional<double> predictable_until{};  // infinite: to the end
-  std::optional<double> floor{};              // the distance that sampling alone makes
+  std::optional<double> floor{};              // the distance that is due to sampling
   std::optional<drawn_law> law{};             // of the reference
 };
 

@@ -78,7 +78,7 @@ placement placement_in(const document_reader& read) {
   refuse("{}: unknown placement '{}': it is one of end, symmetric, middle", read.file(), name);
 }
 
-/// Nothing where the system tells no energy, and where the loss asked for no data.
+/// Nothing where the system has no energy, and where the loss asked for no data.
 std::optional<energy_range> energies_in(const document_reader& read) {
   if (read.member("energy_range").is_null()) return {};
   const auto loss = find_loss(read.text("objective"));
@@ -199,7 +199,7 @@ tabulated table_in(const json& document, const document_reader& read) {
             read.file(), declared, found.quadratic_kinetic);
       }
     }
-    if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters to tell
+    if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters
       refuse("{}: it is not linearly stable at any small step", read.file());
     }
     return tabulated(name, word, coefficients,

@@ -53,7 +53,7 @@ struct method_file {
 /// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or
 /// of a newer version, and for coefficients that are not consistent or of a lower order than declared.
 method_file read_method_file(const std::filesystem::path& path);
-/// The same from the text of a file, whose name is told in refusals.
+/// The same from the text of a file, whose name is part of refusals.
 method_file method_file_in(const std::string& text, const std::string& file);
 
 }  // namespace nysalt::program

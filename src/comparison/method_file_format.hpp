@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What files of schemes and tables have in common, whether they are read or written.
+// Common parts of files of schemes and tables, to read and to write.
 #pragma once
 
 #include <string>

@@ -112,7 +112,7 @@ std::string out_of_place(const scheme& learned, const prepared_problem& system, 
 
 namespace {
 
-/// Between learned steps nobody has asked yet whether the method is stable.
+/// Between learned steps the stability of the method is not yet known.
 tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
   const tabulated method = source.learned->at(step);
   if (source.learned->is_learned_at(step) || force) return method;
@@ -176,7 +176,7 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
          *source.family, where, step);
 }
 
-constexpr placement usual = placement::symmetric;  // the best of the three for the invariant law
+constexpr placement usual = placement::symmetric;  // the best of the three for the invariant distribution
 
 tabulated adapted_to_bath(const method_source& source, tabulated method, const prepared_problem& system,
                           std::optional<placement> otherwise, std::vector<std::string>& warnings) {

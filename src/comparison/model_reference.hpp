@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a bundled system is compared with: its exact flow, or small steps, in a bath along paths.
+// References of bundled systems: the exact flow, or small steps, in a bath along paths.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 
 namespace nysalt::program {
 
-/// A fine step that divides the step, and each of so many equal parts of it: the one that was asked for, or
-/// the largest below `most`. Throws refusal where it does not divide.
+/// A fine step that divides the step, and each of `parts` equal parts of the step: the one that was asked
+/// for, or the largest below `most`. Throws refusal where it does not divide.
 inline double fine_step_within(double step, std::optional<double> asked, double most, int parts = 1) {
   const double least = std::ceil(step / most - 1e-9);  // 100.00000000000001 is 100
   const double fine = asked.value_or(step / (parts * std::max(1.0, std::ceil(least / parts))));
@@ -49,7 +49,8 @@ class model_reference {
 
   /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
   /// The error of srkn11b is rounding then. BAOAB errs along a noisy path to first order in the step: where
-  /// nothing is stiff, a hundredth of what is learned (detail::objection) takes more than frequencies tell.
+  /// nothing is stiff, a hundredth of what is learned (detail::objection) takes finer steps than frequencies
+  /// suggest.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
     constexpr double fine_steps_in_bath = 200.0;  // as in the paper, at its step .02
@@ -81,7 +82,7 @@ class model_reference {
     return fine_step_within(step, {}, angle / fastest());
   }
 
-  /// For statistics alone: their bias by BAOAB is of second order, and the floor of sampling is high. A tenth
+  /// For statistics only: their bias by BAOAB is of second order, and the floor of sampling is high. A tenth
   /// of the step at most, or a small step would be compared with itself.
   double fine_step_for_statistics(double step, std::optional<double> asked) const {
     constexpr double angle = 0.05;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many times smaller one error is than another, from trajectories that both methods ran.
+// Ratio of two errors, from trajectories that both methods ran.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace nysalt::program {
 
-/// How the scores of trajectories, one each, become one error.
+/// The statistic by which the scores of trajectories, one each, become one error.
 struct error_statistic {
   bool is_root;      // a score is a mean square, and the error the root of what follows
   bool is_quantile;  // 95 of 100 trajectories err less; else the mean over trajectories
@@ -16,15 +16,15 @@ struct error_statistic {
   static constexpr double share = 0.95;
 
   double operator()(std::vector<double> scores) const;
-  /// What the error of all trajectories is below with 97.7 % confidence: the mean and two standard errors; of
-  /// a quantile the score with as many below it as the binomial law has with two standard deviations, and of
-  /// too few trajectories the largest. NaN of the mean of one trajectory.
+  /// Upper bound of the error of all trajectories with 97.7 % confidence: the mean and two standard errors;
+  /// of a quantile the score with as many below it as the binomial distribution has with two standard
+  /// deviations, and of too few trajectories the largest. NaN of the mean of one trajectory.
   double upper_bound(std::vector<double> scores) const;
   /// The same from below.
   double lower_bound(std::vector<double> scores) const;
 };
 
-/// A ratio and its interval of 95 %; NaN where too few trajectories tell it.
+/// A ratio and its interval of 95 %; NaN where trajectories are too few.
 struct ratio_estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is asked of a problem: trajectories, and what is learned, gathered or measured along them.
+// Plans for a problem: trajectories, and what is learned, gathered or measured along them.
 #pragma once
 
 #include <any>
@@ -19,7 +19,7 @@
 
 namespace nysalt::program {
 
-/// Told how much is done; what it throws ends the work.
+/// Called with how much is done; what it throws ends the work.
 using counter = std::function<void(std::int64_t)>;
 
 /// Trajectories from the system's starts: `count` of them, `steps` steps each.
@@ -47,7 +47,7 @@ struct learn_plan {
   std::shared_ptr<std::any> kept = {};
 };
 
-struct learnable;  // learnable.hpp: what it takes is dear to compile
+struct learnable;  // learnable.hpp, which is expensive to compile
 
 struct learned_scheme {
   fit_summary fit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a problem is: its system, its starts, and where it is stable.
+// A problem: its system, its initial states, and its stability.
 #include "prepared_problem.hpp"
 
 #include <fmt/format.h>
@@ -46,8 +46,10 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       start_(conditions.start) {
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
-    refuse("{}: its frequencies have no bound, and its motion in a bath no stationary law: take --start law",
-           description());
+    refuse(
+        "{}: the frequencies have no bound, so the motion in a bath has no stationary distribution; take "
+        "--start law",
+        description());
   }
   if (start_ == start::law) starts_.emplace(made_.starts);
 }
@@ -151,7 +153,7 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
     }
     try {
       return stiffness_along(made_.system, states).highest_frequency();
-    } catch (const std::invalid_argument&) {  // the force is not finite there: the run will tell
+    } catch (const std::invalid_argument&) {  // the force is not finite there: the run will show it
       return std::nullopt;
     }
   }
@@ -178,7 +180,7 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
   }
   try {
     if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
-  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will tell
+  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
   }
   if (bands.size() == 1) bands.clear();
   return bands;

@@ -30,7 +30,7 @@ class run_time_family;
 
 namespace nysalt::program {
 
-struct learnable;       // learnable.hpp: what it takes is dear to compile
+struct learnable;       // learnable.hpp, which is expensive to compile
 class model_reference;  // model_reference.hpp
 
 /// Name or parameter of a system, as scheme files hold it.
@@ -39,13 +39,13 @@ struct named_value {
   std::variant<std::int64_t, double, std::string> value;
 };
 
-/// What a system is in, and where its trajectories start.
+/// The bath of a system, and the initial distribution.
 enum class start { law, gibbs, trajectory };
 std::string to_string(start where);
 struct surroundings {
   nysalt::bath bath;
   program::start start;
-  double spread = 1.0;  // of the law of starts: its deviations are multiplied by it
+  double spread = 1.0;  // factor of the standard deviations of the initial distribution
 };
 
 class prepared_problem {
@@ -55,7 +55,7 @@ class prepared_problem {
   prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
                    const surroundings& conditions, std::string source = {});
 
-  /// What the problem was made of.
+  /// The definition of the problem.
   const initial_value_problem& definition() const { return made_; }
   start start_law() const { return start_; }
   /// The starts, once they are prepared.
@@ -100,7 +100,7 @@ class prepared_problem {
   /// fastest motion from some starts, where they lie far apart; else none. Cost: 4 10^5 evaluations at the
   /// first call.
   const std::vector<frequency_band>& bands_along_motion() const;
-  /// Of its bands, or of the frequencies along some starts by its law.
+  /// Of its bands, or of the frequencies along some states of the initial distribution.
   stability_guard guard(bool rotations) const;
   /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
   /// ones.
@@ -141,7 +141,7 @@ class prepared_problem {
                                  const std::string& observable, const counter& progress) const;
   gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                            std::optional<double> fine_step, const counter& progress) const;
-  /// What resolves the fastest motion, as the reference takes it: an angular frequency or the friction.
+  /// The rate of the fastest motion that the reference resolves: an angular frequency or the friction.
   double fastest_rate() const;
   /// A larger fine step than the usual, where many methods are ranked; nothing: the usual one.
   std::optional<double> fine_step_for_ranking(double step) const;
@@ -153,10 +153,12 @@ class prepared_problem {
   /// step after them costs the same.
   std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const;
 
-  /// The steps alone, on this thread, for timing: no one watches, and what diverges runs on. Refers to this.
+  /// The steps only, on this thread, for timing: nothing is observed, and what diverges runs on. Refers to
+  /// this.
   std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const;
 
-  /// Highest angular frequency that motion from its law of starts may meet, rare starts included.
+  /// Highest angular frequency that motion from the initial distribution may meet, rare initial states
+  /// included.
   double frequency_of_law() const;
   /// Highest angular frequency along the first `count` starts of a seed, to a relative accuracy of 1 %;
   /// nothing for more than a thousand coordinates, and for a kinetic energy that is not quadratic.

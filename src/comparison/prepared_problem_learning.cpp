@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a problem makes of a plan to learn.
+// Learning on a problem.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -36,8 +36,10 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
   if (loss.needs_modes && !has_modes(made_.system))
     refuse("the {} loss needs modes, which {} does not declare", loss.name, description());
   if (loss.needs_bath && !made_.system.bath().has_temperature()) {
-    refuse("the {} loss is that of a law: it needs a bath, --friction with --temperature or --sigma",
-           loss.name);
+    refuse(
+        "the {} loss is that of a stationary distribution and needs a bath: give --friction with "
+        "--temperature or --sigma",
+        loss.name);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is measured of methods on a problem: errors, acceptance, statistics and costs.
+// Measurements of methods on a problem: errors, acceptance, statistics and costs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,14 +36,14 @@ trajectory_options options_of(const trajectories_plan& plan, const counter& prog
           .horizon = plan.horizon};
 }
 
-// What a timed run ends at, so that none can be left out as useless.
+// The end of a timed run, so that the compiler removes none.
 volatile double end_of_run = 0.0;
 
 tabulated method_of_reference(const bath& in) {
   return in.acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
 }
 
-/// What exchanges of energies ask of a system.
+/// Requirements of exchanges of energies on a system.
 struct sprung_system {
   static constexpr int dimension = dynamic;
   nysalt::detail::stiff_springs springs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a long computation is: a line on a terminal, nothing in a pipe.
+// Progress of a long computation: a line on a terminal, nothing in a pipe.
 #pragma once
 
 #include <atomic>
@@ -12,16 +12,16 @@
 
 namespace nysalt::program {
 
-/// Who computes with us as with a library: wants no line, and may want the work to end before it is done.
+/// A caller that uses the program as a library: no line is printed, and the caller may end the work early.
 struct quiet_caller {
   std::atomic<bool> wants_an_end = false;
 };
-/// What a counter throws then.
+/// The exception that a counter throws then.
 class ended_early : public std::exception {
  public:
   const char* what() const noexcept override { return "the work was ended before it was done"; }
 };
-/// Whoever works on this thread does it for a caller, while this lives.
+/// While this lives, work on this thread is done for a caller.
 class work_for {
  public:
   explicit work_for(quiet_caller& caller);
@@ -41,7 +41,7 @@ class progress {
   progress(const progress&) = delete;
   progress& operator=(const progress&) = delete;
 
-  /// The work of all parts to come, in any unit: with it the line tells how much time is left.
+  /// The work of all parts to come, in any unit: with it the line has the remaining time.
   void expect(double work);
   /// Begins a part of the work; what was begun before is done.
   void part(std::string what, double work = 0.0);
@@ -56,7 +56,7 @@ class progress {
  private:
   using clock = std::chrono::steady_clock;
 
-  /// " (3 min left)", when enough is done to tell.
+  /// " (3 min left)", when enough is done to estimate it.
   std::string time_left(double share_of_part) const;
   void show(const std::string& text);
 
@@ -66,7 +66,7 @@ class progress {
   bool shown_ = false;
   std::string what_;
   double expected_ = 0.0;
-  double done_ = 0.0;  // before the part at hand
+  double done_ = 0.0;  // before the present part
   double part_ = 0.0;
   clock::time_point began_ = clock::now();
 };

@@ -48,20 +48,18 @@ std::string meaning(mark which) {
       return "beyond the time for which a path can be followed: chaos more than the method; not ranked";
     case mark::tail:
       return "few trajectories decide the mean: it and its standard error say little; ranked by the median, "
-             "as "
-             "are all rows here";
+             "as are all rows here";
     case mark::formula:
-      return "learned, but nothing was gained: by the loss a classical method of the same cost, named with "
-             "the "
-             "fit, is as good";
+      return "learned, but nothing was gained: a classical method of the same cost, named with the fit, has "
+             "as small a loss";
     case mark::processed:
-      return "the evaluations are those of one look at each trajectory, at its end; every further look takes "
-             "one for each pair of letters of the processor";
+      return "the evaluations are those of one observation of each trajectory, at the end; every further "
+             "observation takes one for each pair of letters of the processor";
     case mark::volume:
       return "the method keeps volume and is reversible, but it is not symplectic: it is for sampling, and "
              "nothing bounds its energy over long runs";
     case mark::diverged:
-      return "some trajectories diverged; of the others alone, and not ranked";
+      return "some trajectories diverged; the value is of the others only, and is not ranked";
   }
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What may be said of the rows of a comparison: which count, who wins at which cost.
+// Ranking of the rows of a comparison: which count, and which wins at which cost.
 #pragma once
 
 #include <optional>
@@ -19,14 +19,14 @@ enum class mark {
   horizon,    // beyond the time for which a path can be followed
   tail,       // few trajectories decide the mean
   formula,    // learned, but a classical method of its cost is as good by the loss
-  processed,  // further looks cost evaluations that are not counted
+  processed,  // further observations cost evaluations that are not counted
   volume,     // the method is not symplectic
-  diverged    // of those trajectories alone that did not diverge (an acceptance is of all)
+  diverged    // only of those trajectories that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);
 std::string meaning(mark which);
 
-/// What a row is seen against; empty where nothing was measured.
+/// The reference of a row; empty where nothing was measured.
 const baseline& baseline_of(const comparison& all, std::size_t metric, const row& line);
 
 /// The marks of one finding; none where there is no value.
@@ -51,10 +51,10 @@ struct at_equal_cost {
 };
 std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t metric);
 
-/// How many times smaller the error of the learned one is; of acceptances, what is rejected. Its standard
-/// error is that of the differences trajectory by trajectory, which both share; of medians and laws that of
-/// independent numbers, which is too large where what is shared makes both err alike. NaN where nothing is
-/// rejected.
+/// The factor by which the error of the learned one is smaller; of acceptances, that of what is rejected. Its
+/// standard error is that of the differences trajectory by trajectory, which both share; of medians and
+/// distributions that of independent numbers, which is too large where what is shared makes both err alike.
+/// NaN where nothing is rejected.
 estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pair);
 
 /// Rows that none of the ranked beats in cost and error, from the cheapest on; errors below the floor are
@@ -70,9 +70,9 @@ struct cost_at_level {
   threshold_crossing evaluations;
   threshold_crossing seconds;
 };
-/// The errors at which costs are told: those that were asked for, or the power of ten, or twice or five times
-/// it, that most methods cross, the learned and the others; of equals the one in the middle. Empty where none
-/// crosses any.
+/// The errors at which costs are given: those that were asked for, or the power of ten, or twice or five
+/// times it, that most methods cross, the learned and the others; of equals the one in the middle. Empty
+/// where none crosses any.
 std::vector<double> levels_for(const comparison& all, std::size_t metric);
 /// Of methods with ranked rows; the cheapest in evaluations first, then those of which that is not known.
 std::vector<cost_at_level> costs_at(const comparison& all, std::size_t metric, double level);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who takes part, at which steps, and how far each errs.
+// Candidates of a recommendation, their steps, and their errors.
 #include "recommendation.hpp"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ void recommendation::rank_at_one_error() {
   }
 }
 
-/// What has no error yet is prepared and measured; then the best are looked at until they are confirmed.
+/// What has no error yet is prepared and measured; then the best are examined until they are confirmed.
 void recommendation::run(contest& among) {
   std::vector<candidate*> fresh;
   for (auto& contender : among.all) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which method to take: learned families and classical methods at one cost, or at one error.
+// Recommendation of a method: learned families and classical methods at one cost, or at one error.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ namespace nysalt::program {
 
 class recommendation {
  public:
-  /// Plans who takes part. Throws refusal for whatever cannot be, before any work is done.
+  /// Plans who takes part. Throws refusal for bad options, before any work is done.
   recommendation(std::unique_ptr<prepared_problem> system, recommendation_options asked,
                  common_settings common);
 
@@ -69,7 +69,7 @@ class recommendation {
   double seconds_of_step(const candidate& contender) const {
     return step_seconds_.at(contender.source.typed).least;
   }
-  /// Force evaluations of processing per unit time, where trajectories are looked at as often as asked.
+  /// Force evaluations of processing per unit time, where trajectories are observed as often as asked.
   double processing_of(const candidate& contender) const {
     return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_look) /
            options_.horizon;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far candidates err at their steps.
+// Errors of candidates at their steps.
 #include <algorithm>
 
 #include "catalogue.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who takes part in a recommendation.
+// Candidates of a recommendation.
 #include <algorithm>
 #include <stdexcept>
 
@@ -110,7 +110,7 @@ void recommendation::consider(candidate contender) {
   }
   if (options_.metric != "acceptance" && !contender.is_symplectic) {
     const bool is_asked = contender.is_learned() && !options_.families.empty();
-    if (is_asked) leave_out("it is not symplectic, and for sampling alone");
+    if (is_asked) leave_out("it is not symplectic, and for sampling only");
     return;
   }
   try {
@@ -118,8 +118,8 @@ void recommendation::consider(candidate contender) {
     double rate = system_->fastest_rate();
     if (options_.budget) rate = *options_.budget - processing_of(contender);
     if (rate <= 0.0) {
-      return leave_out(
-          fmt::format("its processor alone takes {:g} evaluations per unit time", processing_of(contender)));
+      return leave_out(fmt::format("the processor without the kernel takes {:g} evaluations per unit time",
+                                   processing_of(contender)));
     }
     contender.step = contender.source.evaluations_per_step / rate;
     if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);

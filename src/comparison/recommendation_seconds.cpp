@@ -21,7 +21,7 @@ tabulated first_member(const std::string& family, std::optional<placement> where
 
 }  // namespace
 
-/// Of the steps alone, far from where a method diverges: what they cost does not depend on the coefficients,
+/// Of the steps only, far from where a method diverges: what they cost does not depend on the coefficients,
 /// so that a family is timed before it is learned.
 void recommendation::time_steps() {
   shown_.part("timing");
@@ -79,7 +79,7 @@ contest recommendation::at_equal_seconds(double seconds_per_time, const contest*
     candidate contender = planned;
     const double of_steps = seconds_per_time - seconds_of_processing(contender);
     if (of_steps <= 0.0) {
-      contender.reason = "its processor alone takes longer";
+      contender.reason = "the processor without the kernel takes longer";
       result.all.push_back(std::move(contender));
       continue;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Bad input, told in one line.
+// Bad input, refused in one line.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ struct fmt::formatter<nysalt::program::number_in_message> : fmt::formatter<doubl
 
 namespace nysalt::program {
 
-/// What is wrong, where, and what to do. The program ends with exit code 2.
+/// An exception that says what is wrong, where, and what to do. The program ends with exit code 2.
 class refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

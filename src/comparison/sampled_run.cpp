@@ -32,7 +32,7 @@ std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_
   return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;
 }
 
-/// Step 64 k ends the stretch of the multiples of its length in (64 (k - 1), 64 k].
+/// Step 64 k ends the interval of the multiples of its length in (64 (k - 1), 64 k].
 std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
   const std::int64_t length = std::min(asked.value_or(steps), steps);
   const std::int64_t next = (step / length + 1) * length;

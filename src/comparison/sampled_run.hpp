@@ -23,10 +23,10 @@ struct record {
   std::vector<double> values = {};
   std::optional<std::int64_t> diverged_at = {};  // beyond `first`
 };
-/// Told of more samples of a trajectory, by its number.
+/// Called with further samples of a trajectory, by the number of the trajectory.
 using record_taker = std::function<void(std::int64_t, const record&)>;
 
-/// How far a run is: trajectories before `first` are finished; those after it are as they were saved, and if
+/// Progress of a run: trajectories before `first` are finished; those after it are as they were saved, and if
 /// none were, they have not begun.
 struct run_progress {
   std::int64_t first = 0;
@@ -35,30 +35,31 @@ struct run_progress {
   bool is_new() const { return first == 0 && batch.diverged_at.empty(); }
 };
 
-/// What is sampled along the trajectories of a plan.
+/// Samples along the trajectories of a plan.
 struct sampled_plan {
   trajectories_plan trajectories;
   std::vector<std::string> observables;
   std::int64_t every = 1;
   std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
-  // Of rank 0 alone:
+  // Of rank 0 only:
   run_progress from = {};
-  std::function<void(const run_progress&)> reached = {};  // told after each stretch, if there are stretches
+  std::function<void(const run_progress&)> reached = {};  // called after each stretch, if there are any
 };
 
-/// Steps that take some tenths of a second in all lanes: for who wants to look in now and then.
+/// Steps that take some tenths of a second in all lanes, for callers that check progress.
 constexpr std::int64_t short_stretch(std::int64_t dimension) {
   return std::max<std::int64_t>(steps_between_checks, 20'000'000 / dimension);
 }
-/// Upper bound of the steps in one stretch of a run of `steps` steps.
+/// Upper bound of the steps in one interval of a run of `steps` steps.
 inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64_t> length) {
   return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
 }
 
 /// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
-/// stretch by stretch, and in that in the order of the trajectories. A stretch ends at the first multiple of
-/// 64 at or beyond each multiple of its length: there divergence is looked for anyway, so that cutting the
-/// run changes nothing in it. Rank 0's plan says where to begin. Progress is told in thousandths. Collective.
+/// interval by interval, and in an interval in the order of the trajectories. An interval ends at the first
+/// multiple of 64 at or beyond each multiple of `stretch`: divergence is checked there anyway, so that
+/// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
+/// thousandths. Collective.
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
          const record_taker& take, const counter& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which words take part, the states on which they are judged, and what is learned.
+// Candidates for sampling, the states on which they are judged, and what is learned.
 #include "sampling_choice.hpp"
 
 #include <algorithm>
@@ -200,7 +200,7 @@ std::optional<acceptance_step> sampling_choice::step_of(const sampling_candidate
 void sampling_choice::learn(sampling_candidate& candidate, double first_step) {
   constexpr int rounds = 7;
   constexpr double growth = 1.12;
-  constexpr double close = 1.03;  // of two steps: what the error bars of a hundred states tell
+  constexpr double close = 1.03;  // of two steps: the error bars of a hundred states
   constexpr double holds_from = 0.99;
   const auto seed = seed_for(role::held_out, common_.seed);
   double step = std::min(first_step, options_.length);

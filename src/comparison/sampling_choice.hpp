@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which word Hybrid Monte Carlo takes for a system, and at which step.
+// Choice of a word, and of a step, for Hybrid Monte Carlo on a system.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ struct sampling_candidate {
   double step_of_evaluation() const { return found->step / source.evaluations_per_step; }
 };
 
-/// How many times larger one number is than another, with its standard error.
+/// Ratio of two numbers, with its standard error.
 struct sampling_ratio {
   double value;
   double standard_error;
@@ -39,13 +39,13 @@ struct sampling_ratio {
 
 class sampling_choice {
  public:
-  /// Plans who takes part. Throws refusal for whatever cannot be, before any work is done.
+  /// Plans who takes part. Throws refusal for bad options, before any work is done.
   sampling_choice(std::unique_ptr<prepared_problem> system, sampling_options asked, common_settings common);
 
   void learn_and_rank();
 
   bool has_result() const { return best_of(true) != nullptr || best_of(false) != nullptr; }
-  /// What is to be taken: the best, and of a tie the one that needs no learning; null if there is none.
+  /// The candidate to take: the best, and of a tie the one that needs no learning; null if there is none.
   const sampling_candidate* taken() const;
   /// "learned", "classical", "tie" or "none"
   std::string verdict() const;
@@ -78,8 +78,8 @@ class sampling_choice {
   std::unique_ptr<prepared_problem> system_;
   std::vector<sampling_candidate> all_;                        // after the work the best first
   std::vector<std::pair<std::string, std::string>> left_out_;  // name and reason
-  std::optional<initial_states> states_;                       // of the law, on which words are judged
-  double guess_ = 0.0;                                         // of a step per evaluation, on the safe side
+  std::optional<initial_states> states_;  // of the distribution, on which words are judged
+  double guess_ = 0.0;                    // of a step per evaluation, on the safe side
   std::vector<std::string> warnings_;
   progress shown_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What methods cost in seconds, beside each other.
+// Costs of methods in seconds, measured in interleaved rounds.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What every command is told, beside what the command itself asks.
+// Settings that every command takes, besides its own.
 #pragma once
 
 #include <string>

@@ -137,7 +137,7 @@ std::string advice(const judged_step& judged) {
 
 namespace {
 
-/// 192 trajectories of 20,000 steps, or fewer steps where these are dear.
+/// 192 trajectories of 20,000 steps, or fewer steps where these are expensive.
 trajectories_plan plan_of_trial(const tabulated& method, const prepared_problem& system, double step,
                                 std::int64_t most_steps, std::uint64_t seed, int threads) {
   constexpr std::int64_t trajectories = 192;
@@ -268,7 +268,7 @@ std::optional<std::string> stability_warning(const std::string& name, const tabu
   if (has_rotation(method.letters())) return std::nullopt;
   const auto chart = chart_of(method);
   if (!judge(method, chart, frequencies_of(system), step).is_stable())
-    return std::nullopt;  // instability() tells
+    return std::nullopt;  // instability() says why
   constexpr std::uint64_t some = 16;
   const auto known = frequencies_along_starts(system, seed, some);
   const auto judged = judge(method, chart, known, step);

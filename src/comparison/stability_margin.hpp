@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a step is from being unstable for a system, as far as its frequencies are known.
+// Stability margin of a step for a system, as far as its frequencies are known.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace nysalt::program {
 
-/// What a step should leave to the end of its window, as nonlinear systems leave it earlier. Under Verlet, of
-/// 256 trajectories to t = 2000, phi4, lennard_jones and henon_heiles lose 3, 8 and 1 just below the end, and
-/// none at four fifths of it.
+/// The relative distance that a step should keep from the end of its window, as nonlinear systems leave it
+/// earlier. Under Verlet, of 256 trajectories to t = 2000, phi4, lennard_jones and henon_heiles lose 3, 8 and
+/// 1 just below the end, and none at four fifths of it.
 inline constexpr double wanted_margin = 0.2;
-/// What linear_step leaves to the first end, or to a quarter of a turn of the fastest oscillation, whichever
-/// comes first: nonlinear motion is lost at the resonances of low order, where a step turns by a half, a
-/// third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
+/// The relative distance of linear_step from the first end, or to a quarter of a turn of the fastest
+/// oscillation, whichever comes first: nonlinear motion is lost at the resonances of low order, where a step
+/// turns by a half, a third or a quarter, long before a linear one is [schlick_mandziuk_skeel_srinivas_1998].
 inline constexpr double linear_margin = 0.3;
 inline constexpr double turn_margin = 0.05;
-/// What a safe step leaves to the largest step at which a trial run passed. The pendulum under Verlet is the
-/// standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just beyond, momenta
-/// diffuse too slowly for a trial run to see.
+/// The relative distance of a safe step from the largest step at which a trial run passed. The pendulum under
+/// Verlet is the standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just
+/// beyond, momenta diffuse too slowly for a trial run to see.
 inline constexpr double tried_margin = 0.2;
 
 /// Angular frequencies that a system is asked to be stable for: its bands; where it declares none those that
@@ -42,9 +42,9 @@ struct known_frequencies {
   /// "declared", or else.
   std::string source() const;
 };
-/// What is known with little work.
+/// Facts that cost little work.
 known_frequencies frequencies_of(const prepared_problem& system);
-/// And along so many of its starts, if that is not dear.
+/// And along that number of initial states, if that is not expensive.
 known_frequencies frequencies_along_starts(const prepared_problem& system, std::uint64_t seed,
                                            std::uint64_t count);
 
@@ -85,7 +85,7 @@ std::optional<double> safe_step(const tabulated& method, const prepared_problem&
 json to_json(const trial_result& trial);
 
 /// One sentence where linear windows say nothing, of a word that rotates or where frequencies have no bound,
-/// and a trial run fails. Cost: that of a trial run of at most so many steps.
+/// and a trial run fails. Cost: that of a trial run of at most that number of steps.
 std::optional<std::string> failed_trial(const std::string& name, const tabulated& method,
                                         const prepared_problem& system, double step, std::int64_t steps,
                                         std::uint64_t seed, int threads);
@@ -96,9 +96,9 @@ std::optional<std::string> instability(const std::string& name, const tabulated&
                                        const prepared_problem& system, double step);
 
 /// One sentence where it is stable on that, but near the end of a window, on frequencies where two touch, or,
-/// over so many steps, near a resonance; or not stable any more on those of the first starts of a seed. Cost:
-/// where there are at most a thousand coordinates, some hundred force evaluations for each of 16 starts; else
-/// nothing.
+/// over that number of steps, near a resonance; or not stable any more on those of the first starts of a
+/// seed. Cost: where there are at most a thousand coordinates, some hundred force evaluations for each of 16
+/// starts; else nothing.
 std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
                                              const prepared_problem& system, double step, std::int64_t steps,
                                              std::uint64_t seed);

@@ -54,7 +54,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   if (!found.passed()) refuse("{}: {}", name, found.report());
 }
 
-/// Of a system that does not tell how fast its motion is: the highest frequency, or rate at which motions
+/// Of a system that declares no frequency: the highest frequency, or rate at which motions
 /// part, along 64 starts.
 double frequency_of(const initial_value_problem& made, const std::string& name) {
   constexpr Eigen::Index most = 1000;  // coordinates
@@ -66,8 +66,10 @@ double frequency_of(const initial_value_problem& made, const std::string& name) 
   const auto stiffness = stiffness_along(made.system, starts);
   const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
   if (found > 0.0 && std::isfinite(found)) return found;
-  refuse("{}: the force is the same at all starts, which tells no frequency: declare it by frequency(...)",
-         name);
+  refuse(
+      "{}: the force must differ between initial states for a frequency to be estimated; declare "
+      "frequency(...)",
+      name);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is examined of a system that a user declares, before any command works with it.
+// Checks of a system that a user declares, before any command works with it.
 #pragma once
 
 #include <string>

@@ -58,7 +58,7 @@ void remove_left(const std::filesystem::path& part, const std::filesystem::path&
   if (is_free && has_name(left, part)) unlink(part.c_str());
   if (left >= 0) close(left);
   if (!is_file)
-    cannot_write(target, fmt::format("{} is in the way, and no ordinary file; remove it", part.string()));
+    cannot_write(target, fmt::format("{} exists and is not a regular file; remove it", part.string()));
   if (!is_free) cannot_write(target, "another process writes it; wait for that, or name another file");
 }
 

@@ -203,7 +203,7 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) 
   }
   if (options.noise_parts < 0) {
     throw std::invalid_argument(
-        fmt::format("flow_map_data: noise in {} parts of a step cannot be", options.noise_parts));
+        fmt::format("flow_map_data: noise_parts must be >= 0, got {}", options.noise_parts));
   }
   if (options.trajectories / options.ranks->size() >
       static_cast<std::int64_t>(numbers_in_memory / numbers_of_trajectory(options, steps, dimension))) {

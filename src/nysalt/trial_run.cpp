@@ -68,7 +68,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
     double largest = 0.0;
     double magnitude = 0.0;
     std::int64_t at = 0;
-    double kinetic = 0.0;  // sum over looks
+    double kinetic = 0.0;  // sum over observations
     double peak = 0.0;     // of the kinetic energy
     double looks = 0.0;
     bool is_left_out = false;

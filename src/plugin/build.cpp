@@ -42,7 +42,8 @@ std::optional<std::string> text_of_file(const fs::path& file) {
   return text.str();
 }
 
-/// How plug-ins are compiled: the compiler, its arguments, and behind a line "--" what they are linked with.
+/// The command by which plug-ins are compiled: the compiler, its arguments, and behind a line "--" what they
+/// are linked with.
 struct recipe {
   std::vector<std::string> before;
   std::vector<std::string> libraries;
@@ -164,7 +165,7 @@ std::optional<int> exit_code_of(const std::vector<std::string>& command, const f
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// What a person reads first: a sentence of ours if there is one, else the first error.
+/// The message to show first: a sentence of ours if there is one, else the first error.
 std::string first_error(const std::string& messages) {
   std::istringstream lines(messages);
   std::string first;
@@ -182,7 +183,7 @@ std::string first_error(const std::string& messages) {
   return first.empty() ? "the compiler says no more" : first;
 }
 
-/// Files that are removed whatever happens.
+/// Files that are removed in any case.
 struct temporary {
   fs::path path;
   ~temporary() {

@@ -12,7 +12,7 @@ namespace nysalt::program {
 bool has_c_force(void* library);
 
 /// The system of a library that has it. Throws refusal, naming the file as `shown`, for a function that is
-/// missing, and for a dimension or mass that cannot be. The library must stay loaded.
+/// missing, and for an invalid dimension or mass. The library must stay loaded.
 system_declaration declaration_of_c_force(void* library, const std::string& path, const std::string& shown);
 
 }  // namespace nysalt::program

@@ -222,7 +222,7 @@ class translation {
     require(',');
     const index last = index_sum();
     require(',');
-    depends_ = true;  // of the coordinates' type, whatever it sums
+    depends_ = true;  // of the coordinates' type, for any summand
     counters_.push_back({counter, first.least, std::max(first.least, last.most)});
     const std::string term = sum();
     counters_.pop_back();

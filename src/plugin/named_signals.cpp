@@ -42,7 +42,7 @@ void name_signals(const std::string& plugin) {
   if (!is_allowed) return;
   constexpr std::size_t most = end_of_line.size();
   std::string text = " while the plug-in " + plugin.substr(0, most / 2);
-  text += " was in use: look for the mistake there first\n";
+  text += " was in use: check the plug-in first\n";
   length = 0;
   std::memcpy(end_of_line.data(), text.data(), std::min(most, text.size()));
   length = std::min(most, text.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A crash in a user's code says where to look.
+// A crash in a user's code names the plug-in.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What users may call a system, its parameters and its observables.
+// Names that users may give to a system, its parameters and its observables.
 #pragma once
 
 #include <string_view>

@@ -45,7 +45,7 @@ F* function_in(void* library, const char* name, const std::string& path) {
   return found;
 }
 
-/// What dlerror() says, without the path, which the message has already.
+/// The message of dlerror(), without the path, which the message has already.
 std::string why_not_loaded(const fs::path& file) {
   const char* told = dlerror();
   std::string text = told == nullptr ? "unknown" : told;

@@ -51,7 +51,8 @@ void add_metric(const std::string& typed, collected& to) {
   if (name == "acf") to.add("sokal_1997", "autocovariances and their errors");
 }
 
-/// Whatever is learned or measured asks a reference: small steps, or the exact flow of a linear system.
+/// Everything that is learned or measured needs a reference: small steps, or the exact flow of a linear
+/// system.
 void add_reference(const cited_setup& setup, collected& to) {
   const bool is_exact = setup.system == "oscillator" || setup.system == "linear_chain";
   if (setup.in_bath) {

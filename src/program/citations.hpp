@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which works a set-up rests on.
+// Works to cite for a set-up.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace nysalt::program {
 
-/// What is run, as far as it decides what to cite. What is empty is not part of it.
+/// The parts of a run that decide what to cite. Empty ones are not part of it.
 struct cited_setup {
   std::string system;                 // a name of `list`
   std::vector<std::string> methods;   // classical names of `list`

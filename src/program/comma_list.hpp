@@ -8,7 +8,7 @@
 
 namespace nysalt::program {
 
-/// What stands between the commas; the whole text if there is none.
+/// The texts between the commas; the whole text if there is none.
 std::vector<std::string> split_at_commas(std::string_view text);
 
 /// "a,b" and "c" become a, b, c. Throws refusal, naming the option, for an empty entry.

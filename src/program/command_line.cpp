@@ -33,9 +33,9 @@ constexpr const char* three_commands =
     "  nysalt learn --system fpu --step 0.03\n"
     "  nysalt compare --system fpu --steps 0.02,0.03 --methods "
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
-    "nysalt --help tells of all.\n";
+    "nysalt --help lists all commands.\n";
 
-/// What follows a name on the command line, or the name and an =; the last if there are several.
+/// The text after a name on the command line, or the name and an =; the last if there are several.
 std::string typed_after(const std::string& name, int argc, char** argv) {
   std::string value;
   for (int i = 1; i < argc; ++i) {
@@ -110,8 +110,8 @@ int run_command_line(int argc, char** argv) {
                     command->get_footer());
   }
   app.footer(
-      "nysalt COMMAND --help tells of each.\nExit codes: 0 done, 2 bad input, 3 every trajectory diverged or "
-      "the fit is not usable, 4 a result could not be written.");
+      "nysalt COMMAND --help describes a command.\nExit codes: 0 done, 2 bad input, 3 every trajectory "
+      "diverged or the fit is not usable, 4 a result could not be written.");
   if (const auto answer = parse(app, argc, argv)) {
     print(*answer);
     return done;

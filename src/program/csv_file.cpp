@@ -45,7 +45,7 @@ std::string contents_of(const std::string& option, const std::string& file) {
     }
   }
   if (text.empty()) {
-    refuse("{} {}: it cannot be read, or is empty; name a CSV file with a line of names", option, file);
+    refuse("{} {}: the file cannot be read, or is empty; name a CSV file with a line of names", option, file);
   }
   return text;
 }

@@ -15,7 +15,7 @@ namespace nysalt::program {
 
 class fitted_family {
  public:
-  /// Throws refusal for whatever cannot be, before any work is done.
+  /// Throws refusal for bad options, before any work is done.
   fitted_family(const learn_command& command, const common_settings& common);
 
   void learn();
@@ -28,7 +28,7 @@ class fitted_family {
   /// The first that is not usable; null if all are.
   const learned_scheme* unusable() const;
 
-  /// What was learned, for machines.
+  /// The fit, as JSON.
   json document() const;
   /// The scheme file.
   std::string scheme() const;

@@ -20,7 +20,8 @@ constexpr std::array metrics{
     std::array{"exchange", "mean error of the stiff springs' energies, relative to their sum (fpu)"},
     std::array{"energy", "RMS of H - H_0, over that of H_0"},
     std::array{"acceptance", "mean of min(1, exp(-(H_end - H_0)/kT)), of reversible methods; 1 is best"},
-    std::array{"distribution", "total variation of the observable's law from the reference's"},
+    std::array{"distribution",
+               "total variation between the distributions of the observable and of the reference"},
     std::array{"acf", "RMS error of the observable's normalised autocovariance"}};
 
 /// Of the system that is bundled under a name, or in a file.

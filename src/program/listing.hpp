@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What there is by name: systems, methods, families and metrics.
+// Lists of all names: systems, methods, families and metrics.
 #pragma once
 
 #include <string>

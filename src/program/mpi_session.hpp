@@ -9,12 +9,12 @@
 
 namespace nysalt::program {
 
-/// Threads for a rank, if nobody asks for a number: those of the cores that it may use, shared with other
+/// Threads for a rank, if no number is asked: those of the cores that it may use, shared with other
 /// ranks of the machine.
 int usual_threads();
 
-/// What to tell where a rank was given more threads than mpirun gave it cores, as it does unless told
-/// otherwise; empty if all is well.
+/// A warning where a rank has more threads than mpirun gave it cores, as is the default of mpirun;
+/// empty if all is well.
 std::string advice_on_threads(int threads);
 
 /// Throws at all ranks unless all have the same text: options, or what they have read. Ranks that differ
@@ -39,7 +39,7 @@ class mpi_session {
   std::unique_ptr<session> session_;
 };
 
-/// Keeps what a rank that does not speak would have said, in case nobody else says it.
+/// Keeps the message of a rank that does not print, in case no other rank prints it.
 void keep_unsaid(const std::string& text);
 
 }  // namespace nysalt::program

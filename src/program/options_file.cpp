@@ -27,7 +27,7 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::string help_of(const CLI::App& command) {
   const CLI::App* program = command.get_parent();
   return (program == nullptr ? "" : program->get_name() + " ") + command.get_name() +
-         " --help tells what it takes";
+         " --help lists the options";
 }
 
 namespace {
@@ -77,7 +77,7 @@ std::string plain_toml(std::istream& input) {
     plain += line + "\n";
     if (line.empty()) continue;
     if (line.front() == '[') {
-      if (line.back() != ']') wrong("a section is [NAME], alone on its line");
+      if (line.back() != ']') wrong("a section must be [NAME] and nothing else on the line");
       if (!sections.insert(line).second) wrong("this section is there twice");
       names.clear();
       continue;
@@ -102,7 +102,7 @@ std::string plain_toml(std::istream& input) {
 std::string system_in_options_file(const std::string& file, const std::string& command) {
   std::ifstream input(file);
   note_input(file);
-  if (!input) return {};  // told where options are read
+  if (!input) return {};  // reported where options are read
   std::istringstream text(plain_toml(input));
   std::string of_all;
   for (const auto& item : CLI::ConfigTOML().from_config(text)) {

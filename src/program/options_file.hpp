@@ -11,13 +11,13 @@ namespace nysalt::program {
 
 std::vector<std::string> command_names(const CLI::App& app);
 std::vector<std::string> option_names(const CLI::App& command);
-/// "nysalt learn --help tells what it takes"
+/// "nysalt learn --help lists the options"
 std::string help_of(const CLI::App& command);
 
 /// The value of `system` in a file of options, for a command; empty if there is none.
 std::string system_in_options_file(const std::string& file, const std::string& command);
 
-/// TOML. Options that stand in no [section] belong to the command that runs, whose section says more.
+/// TOML. Options outside of a [section] belong to the command that runs, and so do those of its section.
 class options_file : public CLI::ConfigTOML {
  public:
   explicit options_file(const CLI::App& app) : app_(app) {}

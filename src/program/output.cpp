@@ -44,8 +44,7 @@ void require_room_for_name(const std::filesystem::path& file) {
   if (needed <= longest) return;
   refuse(
       "cannot write {}: a file name must be at most {} bytes long, got {} with the ending of what is "
-      "unfinished; "
-      "take a shorter name",
+      "unfinished; take a shorter name",
       file.string(), longest, needed);
 }
 
@@ -56,7 +55,7 @@ void require_writable(const std::filesystem::path& named) {
   std::error_code ignored;
   const std::string whole = fs::absolute(named, ignored).lexically_normal().string();
   if (whole.starts_with("/dev/") || whole.starts_with("/proc/")) {
-    refuse("cannot write {}: it is no ordinary file; name another, or leave --output away", named.string());
+    refuse("cannot write {}: it is not a regular file; name another, or leave out --output", named.string());
   }
   const fs::path file = nysalt::detail::behind_links(named);
   for (const fs::path& path : {file, manifest_of(named)}) {
@@ -66,7 +65,7 @@ void require_writable(const std::filesystem::path& named) {
       refuse("cannot write {}: it is a folder; name another file", path.string());
     }
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-      refuse("cannot write {}: it is no ordinary file; name another, or leave --output away", path.string());
+      refuse("cannot write {}: it is not a regular file; name another, or leave out --output", path.string());
     }
   }
   const fs::path folder = folder_of(file);

@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> make_folder(const std::filesystem::path& fold
 /// The folder that a file is in.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
-/// One line of plain characters on standard error, whatever was typed or stood in a file.
+/// One line of plain characters on standard error, for any text that was typed or read from a file.
 void complain(std::string text);
 
 /// The same, of what is no error.

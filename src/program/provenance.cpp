@@ -38,7 +38,7 @@ cited_setup setup_of(const scheme& learned) {
   return setup;
 }
 
-/// What `recommend` ranks: all families if none are named, and what is classical.
+/// The methods that `recommend` ranks: all families if none are named, and what is classical.
 void add_candidates(const recorded_options& given, cited_setup& to) {
   to.learned = given.of("families");
   if (to.learned.empty()) to.learned = family_names();
@@ -65,7 +65,7 @@ cited_setup setup_of(const recorded_options& given) {
   return setup;
 }
 
-/// A file is looked for beside the manifest first, as results and schemes are often kept together.
+/// A file is searched beside the manifest first, as results and schemes are often kept together.
 std::string found_beside(const fs::path& manifest, const std::string& method) {
   const fs::path beside = manifest.parent_path() / method;
   return is_file(beside) ? beside.string() : method;
@@ -105,7 +105,7 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
     to.front().methods.push_back(source.adaptive->name);
   } else if (const auto names = method_names(); std::ranges::count(names, source.fixed->name()) > 0) {
     to.front().methods.push_back(source.fixed->name());
-  }  // else a table of one's own, which cites nobody
+  }  // else a table of the user, which cites nothing
 }
 
 void add_file(const std::string& file, std::vector<cited_setup>& to) {
@@ -113,7 +113,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   std::error_code ignored;
   fs::path path(file);
   if (fs::is_directory(path, ignored)) path /= "report.json";
-  if (!path.has_parent_path()) path = "." / path;  // a file, whatever method has its name
+  if (!path.has_parent_path()) path = "." / path;  // a file, even if a method has the same name
   if (file.ends_with(ending)) path.replace_extension().replace_extension();
   const fs::path manifest = path.string().append(ending);
   if (!is_file(path) && !is_file(manifest)) {

@@ -14,7 +14,7 @@ namespace nysalt::program {
 void add_method(const std::string& typed, std::vector<cited_setup>& to);
 
 /// Adds what a file was made with: a scheme or a table, a manifest, what has a manifest beside it, or the
-/// folder of a report. Throws refusal, naming the file, for what cannot be read or tells nothing.
+/// folder of a report. Throws refusal, naming the file, for what is unreadable or has no provenance.
 void add_file(const std::string& file, std::vector<cited_setup>& to);
 
 }  // namespace nysalt::program

@@ -40,7 +40,7 @@ int exit_code_of(const std::function<int()>& work) {
   } catch (const std::exception& problem) {
     return told(problem.what(), bad_input);
   } catch (...) {  // by a system of the user's own
-    return told("something was thrown that is no std::exception: which it is cannot be told", bad_input);
+    return told("an exception that is no std::exception was thrown, which has no message", bad_input);
   }
 }
 

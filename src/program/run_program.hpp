@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-// The whole program but for its main(): whatever goes wrong becomes one line and an exit code.
+// The whole program but for main(): every failure becomes one line and an exit code.
 #pragma once
 
 #include <functional>
 
 namespace nysalt::program {
 
-/// What the work returns, or bad_input once it is told what it threw. Throws nothing.
+/// The exit code of the work, or bad_input after an exception was reported. Throws nothing.
 int exit_code_of(const std::function<int()>& work);
 
 /// The exit code: done, bad_input, no_result or not_written of commands.hpp, or 128 and the number of the

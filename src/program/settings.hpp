@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a command line asks for, as typed: plain values, not yet judged.
+// Settings of the command line, as typed: plain values, not yet checked.
 #pragma once
 
 #include <algorithm>

@@ -34,7 +34,7 @@ bath bath_of(const bath_settings& settings, bool takes_temperature) {
     return bath::of_sigma(0.0, 0.0);
   }
   if (!settings.sigma && !settings.temperature) {
-    refuse("--friction needs --sigma or --temperature, 0 for damping alone");
+    refuse("--friction needs --sigma or --temperature, 0 for damping without noise");
   }
   const auto require = [](const char* option, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
@@ -54,7 +54,8 @@ double spread_of(const std::optional<double>& asked, start where) {
   if (!(*asked > 0.0) || !std::isfinite(*asked)) {
     refuse("--spread must be positive and finite, got {}", *asked);
   }
-  if (where != start::law) refuse("--spread belongs to the law of starts: take --start law");
+  if (where != start::law)
+    refuse("--spread needs --start law: it scales the distribution of the initial states");
   return *asked;
 }
 
@@ -76,12 +77,12 @@ surroundings surroundings_of(const system_settings& settings) {
   const bath heat_bath = bath_of(settings.bath, is_file_of_starts(settings.start));
   const start where = start_of(settings.start, heat_bath);
   if (is_file_of_starts(settings.start) && settings.spread) {
-    refuse("--spread belongs to the law of starts: {} has the positions", settings.start);
+    refuse("--spread needs --start law: {} has the positions", settings.start);
   }
   return {heat_bath, where, spread_of(settings.spread, where)};
 }
 
-/// What was typed for a parameter, as its declaration has it.
+/// The typed value of a parameter, as its declaration has it.
 parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
   const std::string option = "--" + parameter.name;
   if (parameter.is_text()) return text;

@@ -57,8 +57,8 @@ std::string text_of(const threshold_crossing& crossing, double unit) {
   return {};
 }
 
-/// How many times dearer the cheapest classical method is: nothing is known where it is above all its rows,
-/// and only a bound where its rows stay below, or lose the level between two.
+/// The factor by which the cheapest classical method is more expensive: nothing is known where it is above
+/// all its rows, and only a bound where its rows stay below, or lose the level between two.
 std::string against_classical(const cost_at_level& cost, const std::vector<cost_at_level>& all) {
   const auto best = std::ranges::find_if(all, [](const cost_at_level& other) {
     return !other.is_learned && other.evaluations.kind != crossing_kind::above_from_first;
@@ -69,7 +69,7 @@ std::string against_classical(const cost_at_level& cost, const std::vector<cost_
 }
 
 /// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
-/// classical method at the same error; the dearest of the method's fits counts.
+/// classical method at the same error; the most expensive fit of the method counts.
 std::string repaid_after(const comparison& all, const cost_at_level& cost,
                          const std::vector<cost_at_level>& costs) {
   const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
@@ -84,7 +84,7 @@ std::string repaid_after(const comparison& all, const cost_at_level& cost,
   return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
 }
 
-/// What it costs to come to a level.
+/// Costs to reach a level.
 table level_table(const comparison& all, std::size_t m, double level) {
   const auto costs = costs_at(all, m, level);
   const bool is_learned = std::ranges::any_of(costs, &cost_at_level::is_learned);
@@ -105,8 +105,8 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
       std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
   if (!is_ranked_at_all) {
     report.text(
-        "**No row is ranked**: none has a value of all trajectories within the time for which paths can "
-        "be followed. Compare laws (`distribution`, `acf`), or take a shorter horizon.");
+        "**No row is ranked**: none has a value of all trajectories within the time for which paths are "
+        "predictable. Compare distributions (`distribution`, `acf`), or take a shorter horizon.");
     return;
   }
   if (table beside = equal_cost_table(all, m); !beside.empty()) {
@@ -234,23 +234,20 @@ page report_of(const comparison& all) {
   report.heading("How it was measured");
   std::vector<std::string> notes{
       "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
-      "one "
-      "included",
+      "one included",
       "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "
       "interleaved rounds; `median +` says how much more the median of the rounds is; an error of a cost in "
-      "seconds is that of the errors alone",
-      "standard errors are over trajectories, which all methods share; those of laws over groups of "
+      "seconds is that of the errors without that of the times",
+      "standard errors are over trajectories, which all methods share; those of distributions over groups of "
       "trajectories; those of gains are of the differences trajectory by trajectory",
       fmt::format(
           "errors along paths are means over [0, {:g}], the same for all rows; of paths, exchange and "
           "energies relative to a mean over all trajectories",
           all.horizon()),
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
-      "dearest "
-      "fit of the method took, against the cheapest of the others at the same error",
+      "most expensive fit of the method took, against the cheapest of the others at the same error",
       "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
-      "that "
-      "the starts are known to meet, as a share of the window; `-` for words with rotations",
+      "that the starts are known to meet, as a share of the window; `-` for words with rotations",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Errors against costs, and laws beside that of the reference, as they are drawn.
+// Pictures of errors against costs, and of distributions with that of the reference.
 #include "comparison_pictures.hpp"
 
 #include <algorithm>

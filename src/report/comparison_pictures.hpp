@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Errors against costs, and laws beside that of the reference, as they are drawn.
+// Pictures of errors against costs, and of distributions with that of the reference.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace nysalt::program {
 std::vector<std::string> drawn_methods(const comparison& all, std::size_t metric);
 /// Against evaluations, and against seconds.
 std::vector<figure> pictures_of_errors(const comparison& all, std::size_t metric);
-/// One for each step; none if the metric is of no law.
+/// One for each step; none if the metric is not of a distribution.
 std::vector<figure> pictures_of_laws(const comparison& all, std::size_t metric);
 /// One for each step: the energy's error and the trajectories that survive, against time; none if energies
 /// were not followed.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is told of a comparison: on a terminal, to machines, and on a page.
+// Reports of a comparison: on a terminal, as JSON, and on a page.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a comparison found: a document for machines, text and tables for people.
+// Results of a comparison: a JSON document, text and tables.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -117,7 +117,7 @@ std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m)
 
 namespace {
 
-/// What rows of one reference are seen against: the worst of it over their steps.
+/// The context of rows of one reference: the worst of it over their steps.
 struct span_of_steps {
   double from;
   double to;

@@ -15,7 +15,7 @@ namespace nysalt::program {
 /// Of this process so far, in bytes.
 std::int64_t peak_memory();
 
-/// What the values of a metric are, as axes say it.
+/// The label of the values of a metric, on axes.
 std::string quantity(const comparison& all, std::size_t metric);
 
 /// The marks of a finding, joined by commas.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How a curve looks: in colour, in grey and to the colour-blind, so that colour says nothing alone.
+// The style of a curve: in colour, in grey and for the colour-blind, so that no meaning is in the colour
+// only.
 #pragma once
 
 #include <cstddef>
@@ -28,10 +29,10 @@ std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std:
 
 std::string key_entry(const panel& plot, std::size_t j);
 
-/// How the stretches of a label look: the first light and without a border, the next dark with one.
+/// The style of the bands of a label: the first light and without a border, the next dark with one.
 std::string look_of_stretches(std::size_t label);
 
-/// Numbers of labels, in the order of their first stretches.
+/// Numbers of labels, in the order of their first bands.
 std::vector<std::string> labels_of_stretches(const panel& plot);
 
 }  // namespace nysalt::detail

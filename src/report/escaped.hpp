@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Text that says itself, whatever characters it has, in HTML and in Markdown.
+// Text that is shown as it is, with any characters, in HTML and in Markdown.
 #pragma once
 
 #include <string>

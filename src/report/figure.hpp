@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a picture shows.
+// Contents of a picture.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace nysalt {
 
-/// Points of a method, or of whatever else has a name in the key.
+/// Points of a method, or of anything else with a name in the key.
 struct curve {
   std::string label;            ///< name in the key
   std::vector<double> x;        ///< abscissas
@@ -17,12 +17,12 @@ struct curve {
   std::vector<bool> hollow{};   ///< points that are shown but do not count, as beyond a limit
   bool dashed = false;          ///< of long dashes, if it is not a front
   bool points_only = false;     ///< not joined
-  bool front = false;           ///< a Pareto front, from cheap to dear: dotted black steps behind the others
+  bool front = false;  ///< a Pareto front, from cheap to expensive: dotted black steps behind the others
 };
 
 /// A horizontal line to compare with: the null model, the floor of sampling.
 struct level {
-  std::string label;  ///< stands at the line
+  std::string label;  ///< written at the line
   double y;           ///< where the line is
 };
 
@@ -36,12 +36,12 @@ struct stretch {
 
 /// A pair of axes and what is drawn on them.
 struct panel {
-  std::string title;                 ///< stands above
-  std::string x_label;               ///< stands at the x axis
-  std::string y_label;               ///< stands at the y axis
+  std::string title;                 ///< written above
+  std::string x_label;               ///< written at the x axis
+  std::string y_label;               ///< written at the y axis
   bool log_log = false;              ///< with points; else plain lines
   std::vector<curve> curves;         ///< in the order of the key
-  std::string y_range = "[*:*]";     ///< as gnuplot reads it; unless told, what the points need
+  std::string y_range = "[*:*]";     ///< as gnuplot reads it; if not given, what the points need
   bool linear_y = false;             ///< where log_log would be, of what does not go to 0
   bool linear_x = false;             ///< where log_log would be, of a time
   bool points = false;               ///< where axes are plain: points with bars as well as lines
@@ -53,7 +53,7 @@ struct panel {
 struct figure {
   std::string name;           ///< of the files: letters, digits, _ and -
   std::vector<panel> panels;  ///< side by side
-  int width = 800;            ///< in pixels; a key that stands beside a panel is added to it
+  int width = 800;            ///< in pixels; a key beside a panel is added to it
   int height = 520;           ///< in pixels
 };
 

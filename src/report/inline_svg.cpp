@@ -14,7 +14,7 @@ namespace nysalt {
 
 namespace {
 
-/// Whether url(#NAME) or href="#NAME" stands somewhere in it.
+/// Whether url(#NAME) or href="#NAME" is somewhere in it.
 bool is_used(std::string_view svg, const std::string& id) {
   const std::string use = "#" + id;
   for (std::size_t at = svg.find(use); at != std::string_view::npos; at = svg.find(use, at + 1)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A picture's file as an element that can stand in a page beside others.
+// A picture's file as an element of a page that has others.
 #pragma once
 
 #include <filesystem>

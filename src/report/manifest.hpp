@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Files of results, and the manifests beside them that tell what made them.
+// Files of results, and the manifests beside them that record what made them.
 #pragma once
 
 #include <filesystem>

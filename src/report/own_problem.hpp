@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a caller of the library hands over, made ready as the program makes its systems ready.
+// A problem of a caller of the library, prepared as the program prepares its systems.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ common_settings settings_of(const execution_options& execution);
 /// Warnings in terms of C++.
 std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings);
 
-/// What work() returns; a refusal becomes std::invalid_argument, in terms of C++.
+/// The result of work(); a refusal becomes std::invalid_argument, in terms of C++.
 auto with_cpp_messages(const auto& work) {
   try {
     return work();

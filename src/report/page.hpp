@@ -13,7 +13,7 @@
 namespace nysalt {
 
 /// Sentences (titles, paragraphs, items, captions) have `` `code` ``, `**bold**` and `[text](link)`, no more:
-/// every other character stands for itself, also `<`. Cells of tables and commands have no markup at all.
+/// every other character means itself, also `<`. Cells of tables and commands have no markup at all.
 ///
 ///     page report("Speed against error");
 ///     report.text("Run with `nysalt compare`.");
@@ -40,10 +40,10 @@ class page {
   /// the name is none that draw() takes.
   void picture(figure drawing, std::string caption);
 
-  /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which stands below again.
+  /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which is repeated below.
   std::string markdown(const std::string& pictures = "") const;
   /// One page that needs no other file, no script and no network: the pictures that draw() left in the
-  /// folder stand in it. Where one is missing a sentence says so.
+  /// folder are in it. Where one is missing a sentence says so.
   std::string html(const std::filesystem::path& pictures) const;
   /// The pictures, in the order of the page.
   const std::vector<figure>& figures() const { return figures_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a page is made of, in its order.
+// Blocks of a page, in their order.
 #pragma once
 
 #include <string>

@@ -117,7 +117,7 @@ struct html_of_block {
   }
 };
 
-/// What a page of more than three sections has at its top.
+/// The contents at the top of a page of more than three sections.
 std::string html_contents(const std::vector<page_block>& blocks) {
   std::string items;
   int headings = 0;

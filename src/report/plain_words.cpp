@@ -18,7 +18,7 @@ bool is_plain_address(std::string_view address) {
   return relative || address.starts_with("http://") || address.starts_with("https://");
 }
 
-/// What stands behind the opening mark at `at`, and where it goes on; nowhere if nothing closes it.
+/// The text behind the opening mark at `at`, and where it goes on; nowhere if nothing closes it.
 std::pair<styled_words, std::size_t> marked_words(std::string_view text, std::size_t at) {
   constexpr auto nowhere = std::string_view::npos;
   const auto enclosed = [&](std::string_view mark,

@@ -10,14 +10,14 @@ namespace nysalt {
 
 /// Words of one style.
 struct styled_words {
-  /// How words are set.
+  /// The style of words.
   enum class kind { plain, code, bold, link };
   kind is = kind::plain;  ///< their style
   std::string text;       ///< the words, without marks
   std::string address{};  ///< of a link
 };
 
-/// The runs of words of a sentence. A mark that nothing closes stands for itself; marks do not nest.
+/// The runs of words of a sentence. A mark that nothing closes means itself; marks do not nest.
 std::vector<styled_words> plain_words(std::string_view text);
 
 }  // namespace nysalt

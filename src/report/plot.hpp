@@ -12,7 +12,8 @@ namespace nysalt {
 
 namespace detail {
 
-/// The name stands in a command line and in the script as it is, so it may hold nothing that they read.
+/// The name is part of a command line and of the script, without quotes, so it may hold nothing that they
+/// read.
 void require_plain(const std::string& name);
 
 }  // namespace detail

@@ -43,10 +43,10 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
 }
 
-/// More than six entries would hide points: then the key stands beside the panel.
+/// More than six entries would hide points: then the key is beside the panel.
 bool has_key_beside(const panel& plot) { return plot.curves.size() > 6; }
 
-/// What a key beside the panel takes, in pixels: a sample of 60, and some 7.5 a character.
+/// The width of a key beside the panel, in pixels: a sample of 60, and some 7.5 a character.
 int key_width(const figure& f) {
   double width = 0.0;
   for (const auto& panel : f.panels) {
@@ -90,7 +90,7 @@ std::string axes(const panel& axis_pair) {
   text += has_key_beside(axis_pair) ? "set key outside right top vertical Left reverse samplen 4\n"
                                     : "set key outside top center horizontal Right noreverse samplen 4\n";
   text += "unset label\nunset arrow\n" + stretches(axis_pair);
-  bool at_right = true;  // levels may be close: their names stand at the two ends in turn
+  bool at_right = true;  // levels may be close: their names are at the two ends in turn
   for (const auto& level : axis_pair.levels) {
     text += fmt::format(
         "set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which numbers stand beside a logarithmic axis.
+// The numbers beside a logarithmic axis.
 #pragma once
 
 #include <string>

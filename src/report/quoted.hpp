@@ -11,7 +11,7 @@ std::string on_one_line(std::string text);
 
 /// For gnuplot: a quote is written twice.
 std::string quoted(const std::string& text);
-/// For the shell, where a quote stands outside of quotes.
+/// For the shell, where a quote is outside of quotes.
 std::string quoted_for_shell(const std::string& text);
 
 }  // namespace nysalt::detail

@@ -9,7 +9,7 @@
 
 namespace nysalt {
 
-/// What either purpose tells.
+/// What is common to both purposes.
 class recommendation::contest_result {
  public:
   virtual ~contest_result() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Who wins, for machines and for people.
+// Results of a recommendation, as JSON and as text.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace nysalt::program {
 
 namespace {
 
-/// What is to be taken; of a tie the one that needs no learning.
+/// The candidate to take; of a tie the one that needs no learning.
 const candidate* taken(const contest& among) {
   const candidate* winner = among.winner();
   return winner != nullptr ? winner : among.best_of(false);
@@ -38,7 +38,7 @@ std::string recommendation::as_options(const candidate& contender) const {
   return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
 }
 
-/// What one costs beside the other: "as many evaluations and 1.3 times the seconds".
+/// The cost of one relative to the other: "as many evaluations and 1.3 times the seconds".
 std::string recommendation::costs(const candidate& contender, const candidate& other) const {
   constexpr double start_up = 0.05;  // a start costs one evaluation, of twenty at least
   const double noise = noise_of(contender, other);
@@ -66,11 +66,11 @@ std::string recommendation::advice_of(const contest& among) const {
   }
   if (learned == nullptr) {
     return fmt::format(
-        "A classical method wins: {}{}. None that was learned stands; there is no scheme to write.",
+        "A classical method wins: {}{}. No learned method is accepted; there is no scheme to write.",
         as_options(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
-    return fmt::format("Take {} at step {:.12g}{}: no classical method stands.", learned->source.typed,
+    return fmt::format("Take {} at step {:.12g}{}: no classical method is accepted.", learned->source.typed,
                        learned->step, bound_of(among, *learned));
   }
   const candidate* best = among.winner();
@@ -81,7 +81,7 @@ std::string recommendation::advice_of(const contest& among) const {
             ? std::string()
             : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
                           ratio.low, ratio.high);
-    return fmt::format("A tie: {} and {} cannot be told apart{}. The latter needs no learning: {}{}.",
+    return fmt::format("A tie: {} and {} do not differ significantly{}. The latter needs no learning: {}{}.",
                        learned->source.typed, classical->source.typed, within, as_options(*classical),
                        bound_of(among, *classical));
   }
@@ -127,12 +127,13 @@ std::string recommendation::advice_on_seconds() const {
       fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
 }
 
-/// What a processed method pays for, where one is advised.
+/// The cost of observations of a processed method, where one is advised.
 std::string recommendation::advice_on_looks() const {
   const candidate* best = taken(asked());
   if (best == nullptr || best->source.evaluations_to_look == 0) return {};
   return fmt::format(
-      " {} is counted with {} look{} at each trajectory (--looks): every further one takes {} evaluations.",
+      " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
+      "evaluations.",
       best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", best->source.evaluations_to_look);
 }
 

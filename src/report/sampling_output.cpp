@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which word to sample with, for machines and for people.
+// Results of a recommendation for sampling, as JSON and as text.
 #include <cmath>
 
 #include "comparison/learned_row.hpp"
@@ -19,7 +19,7 @@ std::string in_words(const sampling_ratio& ratio) {
 
 }  // namespace
 
-/// What two stages gain on one: a first sign of whether any word will help.
+/// The gain of two stages over one: a first sign of whether any word will help.
 std::string sampling_choice::diagnostic() const {
   const auto* verlet = named("verlet");
   const auto* two = named("mclachlan2v");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a method costs beside how far it errs: always together.
+// Cost and error of a method: always together.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ struct work_precision_row {
 /// and the floor if there is one. `value` is what the errors are called, if they are others.
 table work_precision_table(const std::vector<work_precision_row>& rows, const std::string& value = "error");
 
-/// Error against a cost, a curve a method, from cheap to dear; rows without a finite error leave a gap. What
-/// is learned is emphasised, and the method of that name. Levels and a front are for the caller to add.
+/// Error against a cost, a curve a method, from cheap to expensive; rows without a finite error leave a gap.
+/// What is learned is emphasised, and the method of that name. Levels and a front are for the caller to add.
 panel work_precision_panel(std::vector<work_precision_row> rows, const std::string& emphasised,
                            const std::string& x_label, double work_precision_row::*cost);
 

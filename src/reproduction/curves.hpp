@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is read off a curve of errors against steps: its slope, and where it crosses a threshold.
+// Slopes and thresholds of curves of errors against steps.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ both_laws sweeps(const setting& setup, double horizon) {
   return {on_starts_of(1.0), on_starts_of(std::sqrt(omega)), gaps};
 }
 
-/// One reading for each law.
+/// One reading for each initial distribution.
 std::vector<reading> in_both(const both_laws& all, const std::function<bool(const sweep&)>& holds) {
   return {{"deviation 1/omega", holds(all.narrow)}, {"variance 1/omega", holds(all.wide)}};
 }
@@ -167,7 +167,7 @@ exhibit accuracy_on_long_times(const setting& setup) {
       {linear, threshold(all, "Verlet", 50, 10, "T = 100"), threshold(all, "NySALT", 200, 50, "T = 100"),
        smaller},
       {"I is an adiabatic invariant: at T = 100 its relative error saturates near the deviation of I from "
-       "its start, and 1 % is not far from that. Where curves flatten they tell of phases, and of chaos."}};
+       "its start, and 1 % is not far from that. Where curves flatten they show phases, and chaos."}};
   add_sweep(result, all, horizon);
   return result;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How the global error grows in time: section 3.4.
+// Growth of the global error in time: section 3.4.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is learned for the chain alone (section 5.2): against its stiffness, and from more and more data.
+// What is learned for the chain without a bath (section 5.2): against its stiffness, and from more and more
+// data.
 #include <cmath>
 
 #include "estimator_convergence.hpp"

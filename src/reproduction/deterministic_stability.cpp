@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How large steps of the chain may be: section 5.2, after Figure 4.
+// Largest steps of the chain: section 5.2, after Figure 4.
 #include <algorithm>
 #include <cmath>
 

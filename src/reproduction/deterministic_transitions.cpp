@@ -76,7 +76,7 @@ tested_claim smaller_than_suboptimal(const transitions& all, const std::string& 
           verdict_of("the time", readings),
           told(readings) +
               "; paired over trajectories, by more than two standard errors. Beyond that time the "
-              "reference itself is not known to 1 % (its finer self differs), and errors tell of chaos",
+              "reference itself is not known to 1 % (its finer self differs), and errors are due to chaos",
           ""};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How fast estimators from M trajectories approach one from many: the rate, with an error.
+// Convergence of estimators from M trajectories to one from many: the rate, with an error.
 #pragma once
 
 #include "parts.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The law of the total stiff energy over [0, 40], Figure 6 (middle).
+// The distribution of the total stiff energy over [0, 40], Figure 6 (middle).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -69,7 +69,7 @@ laws measure_laws(const setting& setup, const std::string& start, const std::vec
       const auto found = system.statistics(methods[k], plan, stiff_energy, {});
       auto& errors = result.methods[k].curve.errors;
       const bool stands = 2 * found.counted > plan.trajectories.count;
-      // No error is known of a total variation; half the floor stands for it.
+      // No error is known of a total variation; half the floor is taken for it.
       errors.push_back({stands ? total_variation_of(found, all) : std::numeric_limits<double>::infinity(),
                         0.5 * result.floor});
       if (gap == shown_gap && stands) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is learned for the chain in its bath (section 5.3): against the step, and from more and more data.
+// Learning for the chain in its bath (section 5.3): against the step, and from more and more data.
 #include <algorithm>
 #include <cmath>
 

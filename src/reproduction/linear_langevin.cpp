@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The paper's analysis of the damped oscillator (section 4.2). docs/theory-langevin-optimum.md tells more.
+// The paper's analysis of the damped oscillator (section 4.2). See docs/theory-langevin-optimum.md.
 #include <Eigen/Dense>
 
 #include "linear_steps.hpp"

@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is reported like a full disk
   const nysalt::program::mpi_session ranks(argc, argv);
   return ranks.leave(
       nysalt::program::exit_code_of([&] { return nysalt::program::paper::run_command_line(argc, argv); }));

@@ -32,7 +32,7 @@ exhibit linear_stability(const setting& setup);
 exhibit linear_langevin_optimum(const setting& setup);
 exhibit linear_langevin_order(const setting& setup);
 
-// Section 5.2, the chain alone.
+// Section 5.2, the chain without a bath.
 exhibit table_1(const setting& setup);
 exhibit parameters_against_omega(const setting& setup);
 exhibit convergence_in_trajectories(const setting& setup);

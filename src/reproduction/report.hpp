@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What became of the paper's claims, as a page, as JSON and as a table.
+// Verdicts on the paper's claims, as a page, as JSON and as a table.
 #pragma once
 
 #include <filesystem>

@@ -31,7 +31,7 @@ std::vector<part_of_paper> parts_named(const std::vector<std::string>& names) {
   return result;
 }
 
-/// Tells how far all is, and how long the rest may take: as planned, by how long the plan has taken so far.
+/// Reports the progress, and how long the rest may take: as planned, by how long the plan has taken so far.
 class timetable {
  public:
   explicit timetable(const std::vector<part_of_paper>& parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the program nysalt_paper does.
+// The program nysalt_paper.
 #pragma once
 
 #include <string>

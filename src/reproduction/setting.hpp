@@ -21,7 +21,7 @@ namespace nysalt::program::paper {
 inline constexpr double omega = 50.0;
 inline constexpr double gap_step = 1e-4;  // the paper's fine step: a step is gap times it
 
-/// How much is computed: all that is needed, or (quick) only so much that everything runs once.
+/// The amount of computation: all that is needed, or (quick) only so much that everything runs once.
 class setting {
  public:
   const common_settings& common;
@@ -38,7 +38,7 @@ class setting {
   /// The chain in the paper's bath, gamma = .01 and sigma = .05, with starts `gibbs` or `trajectory`, which
   /// are prepared once.
   const prepared_problem& in_bath(const std::string& start) const;
-  /// What the paper learns there (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
+  /// The fits of the paper (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
   const tabulated& learned_in_bath(const std::string& start, double gap, placement where) const;
 
  private:
@@ -46,7 +46,7 @@ class setting {
   mutable std::map<std::tuple<std::string, double, placement>, tabulated> learned_;
 };
 
-/// The chain of the paper, alone. The spread multiplies the deviation 1/omega of its starts.
+/// The chain of the paper, without a bath. The spread multiplies the deviation 1/omega of its starts.
 std::unique_ptr<prepared_problem> chain(double frequency = omega, double spread = 1.0);
 /// Starts of which the soft springs hold omega^2, half of it moving and half of it stretched.
 std::unique_ptr<prepared_problem> soft_dominated_chain();
@@ -59,12 +59,12 @@ struct learning_setup {
   std::optional<double> fine_step{};
   std::uint64_t repetition = 0;
 };
-/// M = 100, the paper's for the chain alone.
+/// M = 100, the paper's for the chain without a bath.
 learning_setup usual_learning_setup(const setting& setup);
 learned_scheme learn_at(const setting& setup, const prepared_problem& system, double step,
                         const learning_setup& how);
 
-/// (b1, beta1) with the standard errors that the fit tells.
+/// (b1, beta1) with the standard errors of the fit.
 std::vector<estimate> theta_with_errors(const learned_scheme& learned);
 
 tabulated classical(const std::string& name, const prepared_problem& system);

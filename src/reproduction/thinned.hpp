@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What table 1 learns from: pairs of a large step, from data of a small one.
+// Data of table 1: pairs of a large step, from data of a small one.
 #pragma once
 
 #include <algorithm>

@@ -168,7 +168,7 @@ void check_even_alone() {
   BOOST_TEST(with(0.0, 0.0) == 20U);
   for (const auto& odd : {std::pair(1e-3, 0.0), std::pair(0.0, 1e-3), std::pair(-1.0, 0.3)}) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { with(odd.first, odd.second); },
-                                              {"kinetic energy", "even", "start 0"}));
+                                              {"kinetic energy", "even", "initial state 0"}));
   }
 }
 

@@ -123,8 +123,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto refused = [](auto&& action, auto... words) {
     return refuses<std::invalid_argument>(action, {words...});
   };
-  BOOST_TEST(refused([] { autocovariance_along<double>(0, 0.0); }, "0 lags"));
-  BOOST_TEST(refused([] { autocovariance_along<double>(1'000'000, 0.0); }, "1000000 lags"));
+  BOOST_TEST(refused([] { autocovariance_along<double>(0, 0.0); }, "got 0"));
+  BOOST_TEST(refused([] { autocovariance_along<double>(1'000'000, 0.0); }, "got 1000000"));
   BOOST_TEST(refused([] { autocovariance_along<double>(3, std::nan("")); }, "centre"));
   BOOST_TEST(refused([] { along<double>({1.0, 2.0, 3.0}, 3, 0.0); }, "3 lags", "more than 3 samples"));
 }

@@ -320,15 +320,15 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto refused = [](const ensemble_options& options, const statistics_wanted& wanted, auto... words) {
     return refuses<std::invalid_argument>([&] { galaxy::run(galaxy::system, options, wanted); }, {words...});
   };
-  BOOST_TEST(refused({.trajectories = 0}, {}, "0 trajectories"));
-  BOOST_TEST(refused({.steps = -1}, {}, "-1 steps"));
+  BOOST_TEST(refused({.trajectories = 0}, {}, "trajectories 0"));
+  BOOST_TEST(refused({.steps = -1}, {}, "steps -1"));
   BOOST_TEST(refused({.every = 0}, {}, "every 0"));
   BOOST_TEST(refused({.threads = 0}, {}, "thread"));
-  BOOST_TEST(refused({.steps = 10}, {.from = 11}, "step 11"));
+  BOOST_TEST(refused({.steps = 10}, {.from = 11}, "from 11"));
   BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 6}, "6 samples", "6 lags"));
   BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 3, .from = 5}, "3 samples"));
-  BOOST_TEST(refused({.steps = 10}, {.lags = 0}, "0 lags"));
-  BOOST_TEST(refused({.steps = 10}, {.lags = -1}, "-1 lags"));
+  BOOST_TEST(refused({.steps = 10}, {.lags = 0}, "lags must be 1 to 100000, got 0"));
+  BOOST_TEST(refused({.steps = 10}, {.lags = -1}, "got -1"));
   BOOST_TEST(refused({.steps = 10}, {.histogram = equal_bins{1.0, 0.0, 3}}, "bins"));
   BOOST_TEST(galaxy::run(galaxy::system, {.steps = 10, .every = 2}, {.lags = 5}).samples == 6);
 }

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_start_is_a_function_of_seed_and_number_and_one_of_few_sta
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto refused = [](const long_trajectory_options& options) {
     return refuses<wrong>([&] { one_long_trajectory(in_a_bath, law, options); },
-                          {"one_long_trajectory", "cannot be"});
+                          {"one_long_trajectory", "must hold"});
   };
   BOOST_TEST(refused({.length = -1.0}));
   BOOST_TEST(refused({.length = 10.0, .burn_in = 10.0}));

@@ -15,7 +15,6 @@
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
-#include "nysalt/systems/long_fpu_chain.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/phi4_lattice.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
@@ -61,7 +60,6 @@ auto from_the_bottom(const stiffening_wells& system) {
 BOOST_AUTO_TEST_CASE(a_kind_is_the_description_without_the_size) {
   BOOST_TEST(kind_of(small) == "fpu_chain(omega=50)");
   BOOST_TEST(kind_of(fpu_chain<>(64, 50.0)) == kind_of(small));
-  BOOST_TEST(kind_of(long_fpu_chain(64, 50.0)) == kind_of(small));
   BOOST_TEST(kind_of(fpu_chain<>(3, 51.0)) != kind_of(small));
   BOOST_TEST(kind_of(phi4_chain<>(16)) == kind_of(phi4_chain<8>()));
   BOOST_TEST(kind_of(phi4_lattice(4, -4.0, 4.0)) == kind_of(phi4_lattice(8, -4.0, 4.0)));

@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.loss = loss_named("covariance")}, {"covariance", "my state:3"}));
   for (const char* name : {"", "state", "energy", "covariance", "two\nlines"}) {
     loss.name = name;
-    BOOST_TEST(refused({}, {"cannot be called", name}));
+    BOOST_TEST(refused({}, {"must be one line", name}));
   }
   loss.name = "mine";
   loss.steps = 5;

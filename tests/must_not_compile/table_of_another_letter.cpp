@@ -1,4 +1,4 @@
-// expect: nysalt: a table knows the letters of known_letters alone
+// expect: nysalt: a table must have letters of known_letters only
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/methods/tabulated.hpp"
 

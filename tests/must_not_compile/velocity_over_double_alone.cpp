@@ -1,4 +1,4 @@
-// expect: nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template
+// expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/methods/classical.hpp"

@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(mistyped_names_are_answered_by_what_was_meant) {
   all_refused(scratch("mistyped"),
               {{"learm --system fpu", {"command 'learm'", "did you mean learn?"}},
                {"recomend --system fpu --budget 3", {"command 'recomend'", "did you mean recommend?"}},
-               {"--seed 3 learn", {"'--seed'", "behind the command", "nysalt learn --seed"}},
+               {"--seed 3 learn", {"'--seed'", "must follow the command", "nysalt learn --seed"}},
                {learn + " --famly fg4", {"option '--famly'", "did you mean --family?"}},
                {"run --method verlet --stp 0.1 --horizon 1", {"'--stp'", "did you mean --step?"}},
                {"learn --system fpuu", {"system 'fpuu'", "did you mean fpu?"}},

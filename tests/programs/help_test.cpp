@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Every command line that the program, the README or "choose a method" shows does what it is shown for.
+// Every command line that the program, the README, the tour or "choose a method" shows does what it is shown for.
 #include <boost/test/unit_test.hpp>
 
 #include <sstream>
@@ -122,12 +122,16 @@ BOOST_AUTO_TEST_CASE(help_names_the_options_that_all_take) {
   }
 }
 
-// In one folder and in order: later lines read what earlier ones have written.
-BOOST_AUTO_TEST_CASE(commands_of_the_readme_run) {
-  const auto commands = commands_of(NYSALT_SOURCE_DIR "/README.md");
-  BOOST_REQUIRE(commands.size() >= 3U);
-  const scratch folder("readme");
-  for (const auto& arguments : commands) must_end_well(folder, made_short(arguments));
+// Of each page in one folder and in order: later lines read what earlier ones have written.
+BOOST_AUTO_TEST_CASE(commands_of_the_readme_and_of_the_tour_run) {
+  for (const char* page : {"README.md", "docs/tour.md"}) {
+    BOOST_TEST_CONTEXT("shown by " << page) {
+      const auto commands = commands_of(std::string(NYSALT_SOURCE_DIR "/") + page);
+      BOOST_REQUIRE(commands.size() >= 8U);
+      const scratch folder("readme");
+      for (const auto& arguments : commands) must_end_well(folder, made_short(arguments));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(races_of_the_how_to_run) {

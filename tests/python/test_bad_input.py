@@ -36,7 +36,7 @@ CASES = [
     (lambda: nysalt.system("fpu", omega="fast"), "omega must be a number, got 'fast'"),
     (lambda: nysalt.system("fpu", pairs=2.5), "pairs must be a whole number, got 2.5"),
     (lambda: nysalt.system("fpu", omega=float("nan")), "omega must be finite, got nan"),
-    (lambda: nysalt.system("fpu", friction=0.1), "friction needs sigma or temperature, 0 for damping alone"),
+    (lambda: nysalt.system("fpu", friction=0.1), "friction needs sigma or temperature, 0 for damping without noise"),
     (lambda: nysalt.system(3), "name must be a text, got 3"),
     (lambda: nysalt.learn(CHAIN), "give step, or steps for a curve, and not both"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=-0.1), "step must be a positive, finite number, got -0.1"),

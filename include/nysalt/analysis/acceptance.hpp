@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often a trajectory would be accepted as a proposal of Hybrid Monte Carlo.
+// Acceptance of trajectories as proposals of Hybrid Monte Carlo.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// How often proposals are accepted, and what they cost.
+/// Acceptance of proposals, and their cost.
 struct acceptance_result {
   estimate probability;                          ///< mean over all trajectories
   std::vector<double> of_each;                   ///< probability of each trajectory; 0 if it diverged
@@ -30,10 +30,10 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
 ///
 ///   mean over trajectories of min(1, exp(-(H(x_n) - H(x_0))/kT)),
 ///
-/// with H at the two ends only. A trajectory that diverged is a rejected one. The rule keeps the law
+/// with H at the two ends only. A trajectory that diverged is a rejected one. The rule keeps the density
 /// exp(-H/kT) if the map is reversible and keeps volume, so that only symmetric methods are taken, and only
-/// kinetic energies that are even: else p -> -p does not turn the motion around. What the
-/// number tells of a sampler at work, it tells for starts of that law. Neither lanes, threads nor
+/// kinetic energies that are even: else p -> -p does not turn the motion around. The
+/// number is that of a sampler at work if the starts have that density. Neither lanes, threads nor
 /// ranks change a bit, and all ranks get the result.
 ///
 /// Memory: 32 bytes a trajectory on each rank. Throws std::invalid_argument if the method is not symmetric,

@@ -16,16 +16,16 @@ namespace nysalt {
 
 /// Which proposals are asked about.
 struct proposal_options {
-  double length;              ///< mean duration: durations are uniform between 0 and twice that
-  double temperature = 1.0;   ///< kT, an energy
-  double times_larger = 1.0;  ///< how many times larger than the system at hand is the one that will run
-  std::int64_t states = 100;  ///< at which proposals begin
-  std::uint64_t seed = 1;     ///< of the states
-  int threads = 1;            ///< changes no bit
+  double length;                       ///< mean duration: durations are uniform between 0 and twice that
+  double temperature = 1.0;            ///< kT, an energy
+  double times_larger = 1.0;           ///< how many times larger than this system is the one that will run
+  std::int64_t states = 100;           ///< at which proposals begin
+  std::uint64_t seed = 1;              ///< of the states
+  int threads = 1;                     ///< changes no bit
   const communicator* ranks = &alone;  ///< who share the states; changes no bit
 };
 
-/// How often proposals of a step are accepted.
+/// Acceptance of proposals at a step.
 struct proposal_acceptance {
   estimate probability;         ///< over all states and durations
   std::vector<double> of_each;  ///< what each state says of it: their mean is the probability
@@ -35,13 +35,13 @@ struct proposal_acceptance {
 /// of each state, along which every duration is seen. States must be of exp(-H/kT).
 ///
 /// Where the system that will run is larger, energy errors add up over its parts: the mean of (H' - H)^2
-/// after n steps grows with the size, and 2 mu of acceptance_at() is that many times the one at hand.
+/// after n steps grows with the size, and 2 mu of acceptance_at() is that many times the one of this system.
 /// `of_each` is linearised about the mean then.
 ///
 /// Throws std::invalid_argument if the method is not symmetric, the system is in a bath that acts, has no
-/// potential or a kinetic energy that is not quadratic, an option cannot be, or a trajectory has more than
-/// 100,000 steps. Memory: 8 bytes for each step of each state. Cost: for each step of 2 length/step steps of
-/// each state that of the word, and one potential.
+/// potential or a kinetic energy that is not quadratic, an option is out of range, or a trajectory has more
+/// than 100,000 steps. Memory: 8 bytes for each step of each state. Cost: for each step of 2 length/step
+/// steps of each state that of the word, and one potential.
 proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
                                             const initial_states& states, const proposal_options& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How long an observable remembers, with error bars.
+// Autocovariance of an observable, with error bars.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What must be added up along a trajectory to know its autocovariance.
+// The sums along a trajectory from which an autocovariance is computed.
 #pragma once
 
 #include <algorithm>

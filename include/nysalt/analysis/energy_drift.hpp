@@ -17,7 +17,7 @@ struct energy_record {
   std::optional<std::int64_t> diverged_at;  ///< the step, if it did
 };
 
-/// Runs `steps` steps and looks at the energy every `every` of them. |H_0| below 1e-300 counts as 1.
+/// Runs `steps` steps and reads the energy every `every` of them. |H_0| below 1e-300 counts as 1.
 /// Memory: none that grows with the steps.
 template <HasEnergy S, Method M>
 energy_record energy_drift(const S& system, const M& method, double step,

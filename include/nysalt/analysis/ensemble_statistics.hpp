@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What an ensemble of trajectories shows in the mean, none of them kept.
+// Statistics of an ensemble of trajectories, none of which is kept.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace nysalt {
 
 /// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
-/// options cannot be, or lags need more samples.
+/// options are out of range, or lags need more samples.
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted);
 
 namespace detail {
@@ -69,16 +69,16 @@ gathered_statistics statistics_in_lanes(const Stepper& stepper, const auto& ense
 /// by over_lanes, which is much faster; it must bear any state.
 ///
 /// A trajectory that diverges, or where a number is not finite, counts in nothing, not even with what came
-/// before: runs that are short because they go astray would bend every law. It is reported in `lost`. Neither
-/// lanes, threads nor ranks change a bit.
+/// before: runs that are short because they go astray would bend every distribution. It is reported in
+/// `lost`. Neither lanes, threads nor ranks change a bit.
 ///
 /// Ranks share whole groups of the jackknife, so that each sum over one keeps its order; there are 33 to 64,
 /// and more ranks than these have nothing to do. All get the result.
 ///
 /// Memory: 48 bytes a trajectory, a histogram (8 bytes a bin) for each of 64 groups, which the result keeps,
 /// on each rank, and none that grows with the steps. Cost of a sample, beside the steps and the observable: a
-/// product a lag, and an increment for the histogram. Throws std::invalid_argument if the options cannot be,
-/// there are not more samples than lags, or a start does not fit.
+/// product a lag, and an increment for the histogram. Throws std::invalid_argument if the options are out of
+/// range, there are not more samples than lags, or a start does not fit.
 template <class Stepper, Ensemble<typename Stepper::system_type> E, class Observable>
 gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensemble,
                                         const ensemble_options& options, const Observable& observable,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What "how far off is a trajectory" may mean.
+// Measures of the error of a trajectory.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// How errors e of samples become one number. Means over times come first, those over trajectories last:
+/// Averaging of errors e of samples to one number. Means over times come first, those over trajectories last:
 ///   mean           mean of e
 ///   root_of_each   mean over trajectories of sqrt(mean over times of e)
 ///   root_of_all    sqrt(mean over trajectories and times of e)
@@ -32,34 +32,34 @@ struct error_measure {
   detail::over_scalars<detail::of_two_samples> error;
   averaging how;                ///< makes one number of all errors
   bool needs_reference = true;  ///< false: the reference is the start
-  /// What `error` divides by, sample by sample, from the numbers of the reference. Where that is 0 there is
+  /// The divisor of `error`, sample by sample, from the numbers of the reference. Where that is 0 there is
   /// no error, and where its sign is not the same everywhere its mean does not exist: `no_scale` says so. Not
   /// given: nothing.
   detail::over_scalars<detail::of_sample> scale = {};
   std::string no_scale = {};  ///< the sentence that is thrown where there is no scale
-  /// What errors are relative to, >= 0 and in the units of `error`, from the numbers of the reference: the
-  /// mean error is divided by the mean of this over all trajectories and times, which is a property of their
-  /// law, and positive unless all is 0 (`no_scale` then). Not given: absolute.
+  /// The scale that errors are relative to, >= 0 and in the units of `error`, from the numbers of the
+  /// reference: the mean error is divided by the mean of this over all trajectories and times, which is a
+  /// property of their distribution, and positive unless all is 0 (`no_scale` then). Not given: absolute.
   detail::over_scalars<detail::of_sample> relative_to = {};
   Eigen::Index dimension = 0;  ///< degrees of freedom of the systems that it can measure; 0: any
 
-  /// What a trajectory contributes whose errors, weighted by time, add up to `sum`.
+  /// The contribution of a trajectory whose errors, weighted by time, add up to `sum`.
   double score(double sum, double weights) const;
-  /// What errors are divided by: 1, or the mean of `sizes`, the means over time of what they are relative to,
+  /// The divisor of errors: 1, or the mean of `sizes`, the means over time of what they are relative to,
   /// one a trajectory; its root where errors are of squares. Without sizes errors are absolute.
   double unit(std::span<const double> sizes) const;
   /// The error over all trajectories and its standard error, from their scores (NaN: does not count) and
   /// sizes, of which there may be more. A root has the standard error of the mean below it times 1/(2 root),
   /// a ratio that of its parts: the delta method.
   estimate average(std::span<const double> scores, std::span<const double> sizes = {}) const;
-  /// What each trajectory has in that error: numbers of which it is the mean, and whose scatter makes its
+  /// The part of each trajectory in that error: numbers of which it is the mean, and whose scatter makes its
   /// standard error (linearised about the mean where it is a root or a ratio). On the same trajectories two
   /// methods differ by the mean of the differences of theirs.
   std::vector<double> parts(std::span<const double> scores, std::span<const double> sizes = {}) const;
   /// The error of each trajectory by itself, in the unit of the whole: of these there are quantiles.
   std::vector<double> of_each(std::span<const double> scores, std::span<const double> sizes = {}) const;
 
-  /// What read() writes of a state.
+  /// The values that read() writes of a state.
   template <class T, int N>
   std::vector<T> numbers_of(const phase_point<T, N>& x) const {
     std::vector<T> result(width);

@@ -13,9 +13,9 @@
 
 namespace nysalt {
 
-/// What is left of a run: its score, or NaN and the step at which it diverged.
+/// Result of a run: its score, or NaN and the step at which it diverged.
 struct run_score {
-  /// What the trajectory contributes, see error_measure::score(); NaN if it diverged.
+  /// The contribution of the trajectory, see error_measure::score(); NaN if it diverged.
   double value = std::numeric_limits<double>::quiet_NaN();
   std::optional<std::int64_t> diverged_at = {};  ///< the step, if it did
 };

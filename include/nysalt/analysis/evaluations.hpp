@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a trajectory costs.
+// Force evaluations of a trajectory.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
                                 const phase_point<double, Eigen::Dynamic>& start);
 }  // namespace detail
 
-/// Force evaluations of one whole trajectory of `steps` steps that is looked at once, at its end, start-up
-/// included: those that the word tells; of a black box counted over the first two steps, as every step after
-/// them costs the same.
+/// Force evaluations of one whole trajectory of `steps` steps that is observed once, at the end, start-up
+/// included: those that follow from the word; of a black box counted over the first two steps, as every step
+/// after them costs the same.
 template <SeparableSystem S, Method M>
 std::int64_t evaluations_of_run(const S& system, const M& method, double step, std::int64_t steps,
                                 const phase_point<double, S::dimension>& start) {

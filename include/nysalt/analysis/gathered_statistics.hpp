@@ -33,7 +33,7 @@ struct gathered_statistics {
   estimate half_step_kinetic_temperature;  ///< kT of those between the steps
 };
 
-/// Trajectories of one group of the jackknife, set by their number alone: 33 to 64 groups, if there are as
+/// Trajectories of one group of the jackknife, set by their number only: 33 to 64 groups, if there are as
 /// many trajectories. A divisor of 16, or a multiple: then groups, lanes and threads fit together.
 std::int64_t trajectories_of_group(std::int64_t trajectories);
 
@@ -77,7 +77,7 @@ class gathering {
  private:
   /// That of rank size() is the number of all.
   std::int64_t first_of(int rank) const;
-  /// Of lists that hold so many items for each trajectory, or for each group.
+  /// Of lists that hold that number of items for each trajectory, or for each group.
   template <class Item>
   void gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item = 1) const;
   void gather_histograms();

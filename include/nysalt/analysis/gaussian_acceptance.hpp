@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often proposals of Hybrid Monte Carlo are accepted where forces are linear: known without a run.
+// Acceptance of Hybrid Monte Carlo where forces are linear, in closed form.
 #pragma once
 
 #include <span>
@@ -8,9 +8,10 @@
 
 namespace nysalt {
 
-/// What Metropolis' rule accepts where the energy error of proposals, over kT, is normal with the mean mu:
-/// erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has the
-/// mean 1 the variance is 2 mu. The law of many dimensions; of one oscillator it is another.
+/// The acceptance of Metropolis' rule where the energy error of proposals, over kT, is normal with the mean
+/// mu: erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has
+/// the mean 1 the variance is 2 mu. That is the limit of many dimensions; of one oscillator the distribution
+/// is another.
 double acceptance_at(double energy_error);
 
 /// The mean energy error of an acceptance: the inverse of acceptance_at(). Throws std::invalid_argument
@@ -18,10 +19,10 @@ double acceptance_at(double energy_error);
 double energy_error_at(double acceptance);
 
 /// The mean of (H' - H)/kT over proposals of random duration on oscillators of these frequencies, from their
-/// canonical law: half the sum of energy_error_on_oscillator() at h omega, as sin^2 is 1/2 on average. It is
-/// exact as trajectories become long. Infinite where the method is not stable on one of them. Throws
-/// std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws. Cost:
-/// that of energy_error_on_oscillator() for each frequency.
+/// canonical distribution: half the sum of energy_error_on_oscillator() at h omega, as sin^2 is 1/2 on
+/// average. It is exact as trajectories become long. Infinite where the method is not stable on one of them.
+/// Throws std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws.
+/// Cost: that of energy_error_on_oscillator() for each frequency.
 double gaussian_energy_error(const tabulated& method, std::span<const double> frequencies, double step);
 
 /// The step up to which proposals are accepted with this probability: from `from` it grows by 2 % at a time

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How often a number fell where.
+// Histogram of a number over equal bins.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +41,9 @@ class histogram {
   histogram& operator-=(const histogram& other);
 
   const equal_bins& bins() const { return bins_; }  ///< where numbers are counted
-  /// How many lie below, in each of the bins from low to high, and above.
+  /// Numbers of values below, in each of the bins from low to high, and above.
   std::span<const std::int64_t> counts() const { return counts_; }
-  /// How many numbers were added.
+  /// Number of values that were added.
   std::int64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
 
   /// The counts over total(), in the same order. Throws std::invalid_argument if nothing was added.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the runs of one method come to.
+// Errors of the runs of one method.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@
 
 namespace nysalt {
 
-/// The quantiles that are told of errors.
+/// The quantiles of errors that are reported.
 inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 
-/// How the errors of single trajectories lie about the one number that is made of them: each is the error
-/// that this trajectory would have alone, in the unit of the whole.
+/// Spread of the errors of single trajectories about the one number that is made of them: each is the error
+/// that this trajectory would have without the others, in the unit of the whole.
 struct distribution_of_errors {
   tail largest{};                                          ///< of the scores, whose mean the error is
   estimate median{};                                       ///< with its standard error
   std::array<double, shown_quantiles.size()> quantiles{};  ///< at shown_quantiles
 };
 
-/// How far off a method is, and what it costs.
+/// Error and cost of a method.
 struct method_error {
   estimate error;                                ///< over the trajectories that did not diverge
   std::int64_t diverged = 0;                     ///< number of trajectories that did

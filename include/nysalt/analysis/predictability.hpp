@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How long a trajectory can be told at all: until a slightly wrong start is hardly better than no model.
+// Horizon of predictability: until a slightly wrong start is hardly better than no model.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t 
 template <class T>
 class predictable_samples {
  public:
-  /// `how` tells whether sums of errors are of squares: all but averaging::mean.
+  /// `how` says whether sums of errors are of squares: all but averaging::mean.
   explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
 
   /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How much each sample of a trajectory counts in a mean over time.
+// Weights of the samples of a trajectory in a mean over time.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace nysalt {
 
 /// Weights of samples at t_i = i h, i = 0 .. n: all from the first on alike, or those of the mean over [0, T]
 /// by the trapezoidal rule, T within the last step: what is sampled is linear between two samples, and its
-/// part up to T counts. Then methods of other steps have means over the very same stretch of time. For what
+/// part up to T counts. Then methods of other steps have means over the very same interval of time. For what
 /// grows like t^k the rule errs by about k (k + 1)/12 of n^-2: by 0.5 % for k = 2 and ten samples.
 class sample_weights {
  public:

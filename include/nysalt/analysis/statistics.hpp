@@ -32,8 +32,8 @@ std::vector<double> sorted_numbers(std::vector<double> samples);
 double quantile(std::span<const double> sorted, double p);
 
 /// The median of n sorted numbers, and half of the distance between those that are sqrt(n)/2 places above and
-/// below: as many lie below the median of the law as heads fall among n coins, whatever the law is. NaN where
-/// there are too few.
+/// below: as many lie below the median of the distribution as heads fall among n coins, for any distribution.
+/// NaN where there are too few.
 estimate median_and_error(std::span<const double> sorted);
 
 /// Slope of the least-squares line through (x_i, y_i).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is gathered along trajectories side by side, and what of each is kept.
+// Statistics along trajectories in lanes, and the part of each that is kept.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace nysalt {
 
-/// What of an ensemble is wanted; what is not costs nothing.
+/// The statistics of an ensemble that are wanted; others cost nothing.
 struct statistics_wanted {
   std::optional<equal_bins> histogram = {};    ///< bins for the observable
   std::optional<int> lags = {};                ///< of the autocovariance
@@ -24,7 +24,7 @@ struct statistics_wanted {
   std::int64_t from = 0;                       ///< the first step that counts
 };
 
-/// What is left of one trajectory: its means over time.
+/// Result of one trajectory: its means over time.
 struct time_means {
   double first = 0.0;      ///< of the observable less the centre
   double second = 0.0;     ///< of its square
@@ -32,7 +32,7 @@ struct time_means {
   double half_step = 0.0;  ///< kinetic temperature between steps
 };
 
-/// How many numbers read_sample() writes, 1 to 3.
+/// Number of values that read_sample() writes, 1 to 3.
 inline std::size_t numbers_of_sample(const statistics_wanted& wanted) {
   return 1U + (wanted.kinetic_temperature ? 1U : 0U) + (wanted.half_step_kinetic_temperature ? 1U : 0U);
 }

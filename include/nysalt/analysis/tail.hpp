@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether a mean over trajectories, and its standard error, rest on few of them.
+// Heavy tails: means over trajectories, and standard errors, that rest on few of them.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ struct tail {
   double skewness = 0.0;  ///< third central moment over the power 3/2 of the second; 0 where all are equal
   double deciding = 0.0;  ///< (sum x)^2/sum x^2: how many equal numbers would scatter as much; at most count
 
-  /// How many numbers are enough for mean +- 1.96 standard errors to miss with a probability of at most 6 %,
-  /// where 5 % is meant: 25 skewness^2. A sample that has not met the tail of the law underestimates it.
-  /// Source: [cochran_1977, section 2.15].
+  /// The number of values that is enough for mean +- 1.96 standard errors to miss with a probability of at
+  /// most 6 %, where 5 % is meant: 25 skewness^2. A sample that has not met the tail of the distribution
+  /// underestimates it. Source: [cochran_1977, section 2.15].
   double enough() const { return 25.0 * skewness * skewness; }
   /// Whether the sample is too small for its own tail: then the mean and its standard error say little, and
   /// quantiles say more.

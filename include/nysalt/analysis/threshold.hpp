@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where an error crosses a level.
+// The cost or step at which an error crosses a level.
 #pragma once
 
 #include <limits>
@@ -30,7 +30,7 @@ struct threshold_crossing {
 };
 
 /// Where errors first reach a level, from the accurate end on: rows are sorted by rising steps, or by falling
-/// costs. Between the last row below and the first at or above it, errors are a power law,
+/// costs. Between the last row below and the first at or above it, errors are a power of the step or cost,
 ///
 ///   ln x* = (1 - s) ln x_0 + s ln x_1,   s = (ln level - ln e_0)/(ln e_1 - ln e_0),
 ///
@@ -41,7 +41,7 @@ struct threshold_crossing {
 ///
 /// Rows on the same trajectories are correlated: both errors are large where starts are bad, and move x* the
 /// same way. Then 0 makes the standard error too small, by sqrt 2 at most, and 1 is never too small. That the
-/// law bends between two rows is not in it. Errors that are not finite are above any level.
+/// power changes between two rows is not in it. Errors that are not finite are above any level.
 ///
 /// Throws std::invalid_argument if there is no row, an abscissa is not positive and finite, they are not
 /// sorted, an error is negative, or the level is not positive and finite.

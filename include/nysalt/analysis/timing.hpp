@@ -10,7 +10,7 @@
 namespace nysalt {
 
 /// Seconds of a job over some rounds. What else the machine does only adds: the least is nearest to the job's
-/// own, and how far the median lies above it tells how quiet the machine was.
+/// own, and how far the median lies above it measures how quiet the machine was.
 struct timed_job {
   double least = std::numeric_limits<double>::infinity();    ///< of all rounds, in seconds
   double median = std::numeric_limits<double>::quiet_NaN();  ///< of all rounds, in seconds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far apart two distributions are, and how far two samples of one would be.
+// Total variation between two distributions, and its expectation for two samples of one.
 #pragma once
 
 #include <span>
@@ -23,19 +23,19 @@ double mean_total_variation(const histogram& given, std::span<const histogram> e
 /// with its standard error: by the jackknife over the groups of the given one, and over those of each of the
 /// others, whose variances add up.
 ///
-/// It tells how far the number would scatter if all ensembles were drawn again: about its expectation at this
-/// many trajectories, which lies above the distance of the laws. That bias is what sampling_floor measures,
-/// and no part of the standard error. Where the distance is well above the floor the error is right. Near the
-/// floor, where chance alone decides which of p_i and q_i is larger, it is too large, by a factor of
-/// sqrt(1/(1 - 2/pi)) = 1.66 for many bins. NaN with fewer than two groups.
+/// It estimates how far the number would scatter if all ensembles were drawn again: about its expectation at
+/// this many trajectories, which lies above the distance of the distributions. That bias is what
+/// sampling_floor measures, and no part of the standard error. Where the distance is well above the floor the
+/// error is right. Near the floor, where only chance decides which of p_i and q_i is larger, it is too large,
+/// by a factor of sqrt(1/(1 - 2/pi)) = 1.66 for many bins. NaN with fewer than two groups.
 ///
 /// Memory: a histogram. Cost: two passes over all bins for each group of each of the others.
 /// Throws std::invalid_argument if there is no ensemble or no group, and like total_variation.
 estimate mean_total_variation(std::span<const histogram> groups,
                               std::span<const std::vector<histogram>> ensembles);
 
-/// The mean distance over all pairs of independent ensembles of one law: the distance that sampling alone
-/// makes. With n independent numbers in each, it is about sum_i sqrt(p_i (1 - p_i)/(pi n)).
+/// The mean distance over all pairs of independent ensembles of one distribution: the distance that is due to
+/// sampling. With n independent numbers in each, it is about sum_i sqrt(p_i (1 - p_i)/(pi n)).
 /// Throws std::invalid_argument unless there are 4 ensembles at least (three have only 3 pairs).
 double sampling_floor(std::span<const histogram> ensembles);
 

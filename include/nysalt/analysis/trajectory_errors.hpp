@@ -35,7 +35,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
 }  // namespace detail
 
 /// By each of several measures, in their order: runs the reference once along each trajectory, and every
-/// method beside it, as many trajectories at a time as there are lanes; all measures look at the same runs.
+/// method beside it, as many trajectories at a time as there are lanes; all measures read the same runs.
 /// In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
 /// reference's own error is taken on the first 16 trajectories, along noisy paths with error_over_difference.
 /// If no measure needs a reference, none runs but for its noise. Neither lanes, threads nor ranks change a
@@ -47,7 +47,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
 ///                      xi and the same noise, on the first 16 trajectories. There a trajectory is
 ///                      predictable until the errors so far of that run exceed half of the null model's, by
 ///                      root mean squares (by means for averaging::mean), and do so to the end; this is the
-///                      median. Infinite if that does not come to pass, so a longer horizon can tell more.
+///                      median. Infinite if that does not come to pass, so a longer horizon can give more.
 ///
 /// System, reference, ensemble and measures are used by several threads at once. Ranks share the trajectories
 /// by whole leaves, and all get the results. Memory: 24 bytes for each measure, method and trajectory on each

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What methods, and their reference, come to along many trajectories by one measure.
+// Errors of methods, and of their reference, along many trajectories by one measure.
 #pragma once
 
 #include <optional>

@@ -30,8 +30,8 @@ struct trajectory_options {
 };
 
 /// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure
-/// and trajectory, and a stretch of samples of `width` numbers (of all measures) for each method and thread,
-/// fit into the memory of a rank: the scores of all trajectories come to each of them.
+/// and trajectory, and an interval of samples of `width` numbers (of all measures) for each method and
+/// thread, fit into the memory of a rank: the scores of all trajectories come to each of them.
 void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
                   std::size_t measures = 1);
 

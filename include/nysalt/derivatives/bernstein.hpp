@@ -27,7 +27,7 @@ class bernstein_polynomial {
     const auto [least, most] = std::minmax_element(c_.begin(), c_.end());
     return {*least, *most};
   }
-  /// How often the differences of neighbouring coefficients change sign: the derivative has as many roots
+  /// Number of sign changes of the differences of neighbouring coefficients: the derivative has as many roots
   /// inside the interval, or fewer by an even number [farouki_2012]. Differences within `rounding` of the
   /// larger of both coefficients are left out.
   int turns(double rounding) const;
@@ -57,9 +57,9 @@ class bernstein_polynomial {
   std::vector<double> c_;
 };
 
-/// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are told by their
-/// coefficients; those that cannot be told after 40 halvings only touch the bound.
-/// A polynomial that is not a number exceeds every bound.
+/// Some x where |f| exceeds the bound, and nothing if there is none. Halves of the interval are decided by
+/// their coefficients; those that are undecided after 40 halvings only touch the bound. A polynomial that is
+/// not a number exceeds every bound.
 std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40);
 
 }  // namespace nysalt

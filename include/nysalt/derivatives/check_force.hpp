@@ -16,13 +16,13 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
 }  // namespace detail
 
 /// Compares force with -grad V, kick with force, soft_force with the force less the quadratic part (up to 64
-/// coordinates), and force_derivative with differences of the force, and looks at the symmetry of f'(q), at
-/// the given points; at the momenta compares a velocity of the system's own with grad K, or looks at the
+/// coordinates), and force_derivative with differences of the force, and checks the symmetry of f'(q), at
+/// the given points; at the momenta compares a velocity of the system's own with grad K, or checks the
 /// symmetry of its Jacobian. Derivatives are automatic where the system allows, else central differences; up
-/// to 64 coordinates along each, of more along four directions at random. What fails is looked at once more
-/// a little beside: a kink shows there. Forces count as energies over the length of each coordinate, which is
-/// how far the points and the states `seen` beside them lie apart, and differences go a part of it: two
-/// points or more, of the motion, tell the unit; of one it is how far it is from the origin. Cost: some N
+/// to 64 coordinates along each, of more along four directions at random. What fails is checked once more
+/// at a small distance: a kink shows there. Forces count as energies over the length of each coordinate,
+/// which is how far the points and the states `seen` beside them lie apart, and differences go a part of it:
+/// two points or more, of the motion, give the unit; of one it is how far it is from the origin. Cost: some N
 /// forces and potentials a point, at most 64 of them.
 ///
 /// Throws std::invalid_argument if there are no points, if there is not a momentum for each, or if one has

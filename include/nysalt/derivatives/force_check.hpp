@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a check of a force found, and the sentence that it makes.
+// Result of a check of a force, and the sentence that reports it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace nysalt {
 /// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
 struct force_check {
   double gradient_defect = 0.0;      ///< of force = -grad V
-  Eigen::Index coordinate = 0;       ///< where that is worst, from 0; -1: looked along directions at random
+  Eigen::Index coordinate = 0;       ///< where that is worst, from 0; -1: checked along directions at random
   double derivative_defect = 0.0;    ///< of force_derivative, against differences of the force
   double kick_defect = 0.0;          ///< of a kick of the system's own, p += c force(q)
   Eigen::Index kick_coordinate = 0;  ///< where that is worst
@@ -31,9 +31,9 @@ struct force_check {
   double kick_tolerance = 0.0;        ///< of the kick, of ranges and of the soft force
   double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences
   double velocity_tolerance = 0.0;    ///< of the velocity and of its Jacobian's asymmetry
-  bool has_potential = false;         ///< whether there was a V to compare with; else only the symmetry tells
-  bool finite = true;                 ///< whether all functions and their derivatives are, at all points
-  bool passes_beside = false;         ///< whether it fails at the points, but not a little beside them
+  bool has_potential = false;  ///< whether there was a V to compare with; else only the symmetry is checked
+  bool finite = true;          ///< whether all functions and their derivatives are, at all points
+  bool passes_beside = false;  ///< whether it fails at the points, but not a little beside them
 
   /// Whether everything is finite and every defect within its tolerance.
   bool passed() const {

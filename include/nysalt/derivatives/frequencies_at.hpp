@@ -115,7 +115,7 @@ template <SeparableSystem S>
 /// Frequencies along some states.
 struct frequencies_along {
   std::vector<std::vector<double>> of_state;  ///< of each state, from low to high
-  bool are_complete = false;                  ///< false: of each state the highest alone, or none at all
+  bool are_complete = false;                  ///< false: of each state only the highest, or none at all
 
   /// A frequency and where it is met.
   struct maximum {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Both ends of a symmetric spectrum, from products with vectors alone.
+// Both ends of a symmetric spectrum, from products with vectors only.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,8 +10,8 @@
 
 namespace nysalt {
 
-/// All windows. Their ends are roots of trace/2 = +-1, to the last bits that its values tell; windows that
-/// touch where the matrix is +-I are one. The bath is left out. Extrema are isolated by bounds on whole
+/// All windows. Their ends are roots of trace/2 = +-1, to the last bits that the values determine; windows
+/// that touch where the matrix is +-I are one. The bath is left out. Extrema are isolated by bounds on whole
 /// intervals, so that the narrowest window or gap is found unless rounding hides it, or an extremum passes
 /// +-1 by less than 1e-10. Cost: some 0.05 ms for 10 letters, 1 ms for 40. Throws std::invalid_argument if
 /// the word has more than 64 evaluations a step, where it rotates, or unless there is a coefficient for each
@@ -24,7 +24,7 @@ stability_chart chart_stability(const W& word,
   return chart_stability(run_time_word(word), std::vector<double>(coefficients.begin(), coefficients.end()));
 }
 
-/// The windows of chart_stability() alone.
+/// Only the windows of chart_stability().
 template <Word W>
 std::vector<stability_window> stability_windows(
     const W& word, const typename W::template coefficients<double>& coefficients) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How much a word with rotations magnifies an oscillation: what resonances do, and how soon.
+// Transient growth: how much a word with rotations magnifies an oscillation, by resonances above all.
 #pragma once
 
 #include <cstdint>

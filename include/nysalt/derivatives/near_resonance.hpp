@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How near the steps of a word are to half turns of a stiff oscillation.
+// Distance of the steps of a word from half turns of a stiff oscillation.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A generic system whose flow is known as a power series: what orders are told on.
+// A generic system whose flow is known as a power series, on which orders are measured.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-/// Orders are told apart up to this one, which means "this or more".
+/// Orders are distinguished up to this one, which means "this or more".
 inline constexpr int highest_taylor_order = 10;
 
 /// A power series in the step h.
@@ -97,7 +97,7 @@ class order_probe {
   phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
 
   /// Where the flow leads in the time h, by Picard's iteration x <- start + integral of x': each sweep gains
-  /// an order. As h x' stands for x', integration divides the k-th coefficient by k.
+  /// an order. As the series holds h x', integration divides the k-th coefficient by k.
   phase_point<taylor, 3> flow() const {
     auto x = start();
     auto v = x.p;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a step is from the ends of the windows that a system's frequencies must lie in.
+// Stability margin: the distance of a step from the ends of the windows of stability.
 #pragma once
 
 #include <algorithm>

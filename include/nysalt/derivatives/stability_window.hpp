@@ -27,7 +27,7 @@ inline bool is_stable(const std::vector<stability_window>& windows, double low, 
                      [&](const auto& window) { return window.low <= low && high <= window.high; });
 }
 
-/// What of 0..highest lies in no window.
+/// The parts of 0..highest that lie in no window.
 inline std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows,
                                                 double highest) {
   std::vector<stability_window> gaps;

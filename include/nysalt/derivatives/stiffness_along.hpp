@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How stiff, and how unstable, the forces on a system are along its motion.
+// Extreme eigenvalues of the Hessian along the motion: stiffness and instability.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct stiffness_range {
   /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
   std::vector<double> highest_of_state;  ///< largest eigenvalue of each state
-  std::int64_t states = 0;               ///< how many were looked at
+  std::int64_t states = 0;               ///< how many were examined
   std::int64_t evaluations = 0;          ///< of f'(q) v
 
   /// sqrt(highest), 0 if that is negative.
@@ -74,7 +74,8 @@ template <field F = field::whole, NystromSystem S>
       ++found.states;
       start = chance + ends.lowest_direction + ends.highest_direction;
     }
-    if (found.states == 0) throw std::invalid_argument("stiffness_along: there are no states to look at");
+    if (found.states == 0)
+      throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
     return found;
   }
 

@@ -12,7 +12,8 @@
 
 namespace nysalt {
 
-/// How often to look: an energy costs about a force, 2 % of so many steps of a one-stage method.
+/// Steps between two checks: an energy costs about a force, 2 % of this number of steps of a one-stage
+/// method.
 inline constexpr std::int64_t steps_between_checks = 64;
 
 /// One that ran away, and the first bad step that was seen.
@@ -21,9 +22,9 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
-/// Tells runaway states: not finite, or |H - H_0| > 1e3 max(|H_0|, N kT, 1). Without an energy only the
+/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, N kT, 1). Without an energy only the
 /// first, and likewise in a bath that heats without end (noise, but no friction).
-/// Over packs it tells them lane by lane.
+/// Over packs lane by lane.
 template <System S, Scalar T = double>
 class divergence {
  public:

@@ -7,8 +7,8 @@
 
 namespace nysalt::detail {
 
-/// FNV-1a over the bytes of numbers, the lowest byte of each first: tells systems of one size apart that are
-/// made of many numbers.
+/// FNV-1a over the bytes of numbers, the lowest byte of each first: distinguishes systems of one size that
+/// are made of many numbers.
 class fingerprint {
  public:
   /// One more number.

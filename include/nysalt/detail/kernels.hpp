@@ -39,7 +39,7 @@ template <class T>
 using coefficient_of = std::conditional_t<is_dual<T>, T, double>;
 
 /// A system's functions over T. What a system does not serve throws std::logic_error: the facts of a model
-/// tell beforehand.
+/// say so beforehand.
 template <class T>
 class kernels {
  public:
@@ -47,7 +47,8 @@ class kernels {
   using program = step_program<coefficient_of<T>>;
 
   virtual ~kernels() = default;
-  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and looks.
+  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and
+  /// observations.
   virtual void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                        const program& letters, std::int64_t steps, const callback& other,
                        const watch<T>& watched) const = 0;
@@ -101,7 +102,7 @@ class any_system {
       kernels_;
 };
 
-/// What is known of a system while running; concepts tell the same of its type.
+/// What is known of a system while running; concepts say the same of the type.
 struct model_facts {
   Eigen::Index size = 0;
   std::string description{};

@@ -18,11 +18,11 @@
 
 namespace nysalt {
 
-/// The trajectories in the lanes of T, all at the same step. Each goes as it would alone, to the bit: one
+/// The trajectories in the lanes of T, all at the same step. Each has the bits of a run of its own: one
 /// that diverges drops out, and the others go on.
 ///
-/// Divergence is looked for every 64 steps and where go_on ends; where it is found, that stretch is gone
-/// through again to name the first bad step.
+/// Divergence is checked every 64 steps and where go_on ends; where it is found, these steps are taken
+/// again to name the first bad step.
 template <class Stepper, Scalar T>
 class lockstep {
  public:
@@ -41,8 +41,8 @@ class lockstep {
         diverged_(stepper.system(), start),
         live_(first_lanes<T>(count)) {}
 
-  /// Takes up what was put away: open() and diverged_at() of trajectories that began at `start`. If it was
-  /// put away at a step that steps_between_checks divides, it goes on as if nothing had happened, to the bit.
+  /// Resumes what was saved: open() and diverged_at() of trajectories that began at `start`. If it was
+  /// saved at a step that steps_between_checks divides, the run has the bits of an uninterrupted one.
   lockstep(const Stepper& stepper, const state& start, int count, open_run<T, dimension> run,
            const first_in_lanes<T>& diverged_at)
       : stepper_(&stepper),
@@ -61,8 +61,7 @@ class lockstep {
   /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, Take&& take) {
-    if (every < 1)
-      throw std::invalid_argument(sentence("lockstep: observed every {} steps: cannot be", every));
+    if (every < 1) throw std::invalid_argument(sentence("lockstep: every must be >= 1, got {}", every));
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     const auto advance = [&](std::int64_t next) {
       T* here = seen_.data();
@@ -86,7 +85,7 @@ class lockstep {
 
   std::int64_t step() const { return run_.step; }              ///< at which all are
   const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
-  /// The run where the last stretch began, that between two checks.
+  /// The run at the last check.
   const open_run<T, dimension>& begin_of_stretch() const { return good_; }
   /// The states at that step. Of lanes that diverged nothing is known but when; of a single one it is the
   /// first bad state.
@@ -96,7 +95,7 @@ class lockstep {
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[k]; }
 
  private:
-  /// A stretch after the other: advance(next) takes the run to step `next`, seen(next, all_well) comes when
+  /// From check to check: advance(next) takes the run to step `next`, seen(next, all_well) comes when
   /// those that diverged are known.
   void follow(std::int64_t end, const auto& advance, const auto& seen) {
     while (run_.step < end && any(live_)) {
@@ -110,15 +109,15 @@ class lockstep {
     }
   }
 
-  /// The last stretch once more, a step at a time, until the first bad step of each lane that failed is
-  /// known.
+  /// The steps since the last check once more, one at a time, until the first bad step of each lane that
+  /// failed is known.
   void drop(const condition& failed, std::int64_t end) {
     live_ = both(live_, !failed);
     open_run<T, dimension> run = good_;
     condition unknown = failed;
     while (any(unknown)) {
       stepper_->advance(run, 1);
-      condition found = unknown;  // at the end of the stretch at the latest
+      condition found = unknown;  // at the present check at the latest
       if (run.step < end) found = both(unknown, diverged_(stepper_->of_kernel(run)));
       diverged_at_.take(found, run.step);
       unknown = both(unknown, !found);
@@ -156,7 +155,7 @@ void look_at_starts(const phase_point<T, N>& starts, int count, std::size_t widt
 }
 
 /// What was read of trajectories first, first + 1, ... side by side, handed to take(m, n, numbers) of one
-/// after the other, in doubles: of those alone that are good.
+/// after the other, in doubles: only of those that are good.
 template <class Take>
 class one_after_the_other {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which part of a step each letter O of a word covers.
+// The part of a step that each letter O of a word covers.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where a letter O ends one step and another begins the next.
+// Merged half steps of letters O: where one ends a step and another begins the next.
 #pragma once
 
 #include <cmath>
@@ -50,10 +50,10 @@ void apply_noise(const S& system, const ornstein_uhlenbeck::prepared<C>& flow, i
 /// Two letters O that meet between steps, one that ends a step (a_1, s_1) and one that begins the next
 /// (a_2, s_2), take a single draw xi:
 ///   p <- a_2 a_1 p + s xi,  s^2 = a_2^2 s_1^2 + s_2^2.
-/// The state between them, if somebody looks, needs a further draw zeta, which changes nothing of what comes:
+/// The state between them, if it is observed, needs a further draw zeta, which changes nothing of what comes:
 ///   xi_1 = u xi + v zeta,  xi_2 = v xi - u zeta,  u = a_2 s_1/s,  v = s_2/s
 /// are independent standard normal, and a_2 s_1 xi_1 + s_2 xi_2 = s xi. A path has its own xi_1 and xi_2, and
-/// they are taken. Before the first step there is xi_2 alone.
+/// they are taken. Before the first step there is only xi_2.
 template <Scalar C>
 class noise_seam {
  public:

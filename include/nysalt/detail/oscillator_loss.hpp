@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far one step of a word is from the rotation of oscillators: a loss that asks no data.
+// Distance of one step of a word from the rotation of oscillators: a loss without data.
 #pragma once
 
 #include <vector>

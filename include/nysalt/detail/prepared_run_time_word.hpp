@@ -117,7 +117,7 @@ class prepared_word<run_time_word, C, N> {
   void close_kernel(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if (merges_) apply_known(system, run_.undo.front(), x, cursor);
   }
-  /// One step from q and p alone. Cost: the word's evaluations_of_plain_step.
+  /// One step from only q and p. Cost: the word's evaluations_of_plain_step.
   template <class T, System S>
   [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (is_noisy<decltype(cursor)>) {

@@ -45,7 +45,7 @@ auto prepare_letter(const C* c, double h, const surroundings_of_word& around) {
 /// open(system, x)                from a synchronous state to an open one: force and first letter where needed
 /// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
 /// close(system, x, cursor)       an open state becomes synchronous
-/// step(system, x, cursor)        one plain step, letter by letter, from q and p alone
+/// step(system, x, cursor)        one plain step, letter by letter, from only q and p
 /// in_loop()                      itself, as a loop should hold it
 /// The cursor says where the run is in its noise, and goes on with it.
 // clang-format on
@@ -126,7 +126,7 @@ class prepared_word<word<L...>, C, N> {
     if constexpr (W::merges) first::apply(system, undo_, x, cursor.room);
     if constexpr (W::halves_meet) seam_.end(system, cursor, x);
   }
-  /// One step from q and p alone. Cost: W::evaluations_of_plain_step.
+  /// One step from only q and p. Cost: W::evaluations_of_plain_step.
   template <class T, System S>
   void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (W::halves_meet) seam_.begin(system, cursor, x);

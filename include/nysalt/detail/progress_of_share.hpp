@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// One rank's progress, told as that of all.
+// One rank's progress, reported as that of all.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,8 @@
 
 namespace nysalt {
 
-/// What to tell of the progress with `count` trajectories, those of this rank, so that `progress` hears of
-/// all `total`. Shares are equal but for a little: rank 0 tells of its own as if it were the whole, and the
-/// others are silent.
+/// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, those of all
+/// ranks. Shares are nearly equal: rank 0 scales its own count, and the others report nothing.
 std::function<void(std::int64_t)> progress_of_share(const communicator& ranks, std::int64_t count,
                                                     std::int64_t total,
                                                     const std::function<void(std::int64_t)>& progress);

@@ -11,7 +11,7 @@ namespace nysalt {
 
 namespace detail {
 
-// There is something of that name, const or not, whatever it returns.
+// There is a member of that name, const or not, with any result.
 template <class S, class V = vector<double, S::dimension>>
 concept MentionsInverseMass = requires {
   &S::inverse_mass;
@@ -57,7 +57,7 @@ concept MentionsBath = requires {
 }  // namespace detail
 
 /// Compiles if S can be stepped by methods of M's kind (a method or a family), and every optional member
-/// that it has is one that the library will use; else a sentence tells.
+/// that it has is one that the library will use; else a static assertion says what is wrong.
 template <class M, class S>
 constexpr void require_suited() {
   static_assert(System<S>,
@@ -75,9 +75,10 @@ constexpr void require_suited() {
   static_assert(HasVelocity<S, double> || !detail::MentionsVelocity<S>,
                 "nysalt: velocity is not of the form `template <class T> void velocity(p, v) const`");
   static_assert(!HasVelocity<S, double> || HasVelocity<S, D>,
-                "nysalt: a velocity(p, v) over double alone cannot be differentiated; make it a template");
-  static_assert(!HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
-                "nysalt: a kinetic_energy(p) over double alone cannot be differentiated; make it a template");
+                "nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template");
+  static_assert(
+      !HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
+      "nysalt: kinetic_energy(p) must be differentiable, and takes double only; make it a template");
   static_assert(detail::CanDifferentiateForce<S, double> || !detail::MentionsForceDerivative<S>,
                 "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
   static_assert(detail::CanKick<S, double, double> || !detail::MentionsKick<S>,

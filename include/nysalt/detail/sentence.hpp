@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What may stand in a sentence: text, a character, an integer, true or false, a double.
+/// The types of arguments of a sentence: text, a character, an integer, true or false, a double.
 template <class T>
 concept Piece =
     std::convertible_to<const T&, std::string_view> || std::integral<T> || std::same_as<T, double>;

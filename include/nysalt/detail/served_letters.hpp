@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which letters of a word a system has.
+// The letters of a word that a system serves.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a word does to the harmonic oscillator, letter by letter.
+// The step of a word on the harmonic oscillator, letter by letter.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace nysalt {
 
 /// (q, p) after one step of size 1 of the word without its bath, on q'' = -(theta^2 + k) q. R rotates by
-/// theta, S and H know k alone, B and G all of it. times_k(x) is k x, so that k may be a number, the variable
+/// theta, S and H use k only, B and G all of it. times_k(x) is k x, so that k may be a number, the variable
 /// of a polynomial, or, for two modes, a matrix; theta is a number, or an array of two. With a step h: theta
 /// = h omega, k = h^2 kappa, and p counts in units of q/h.
 template <class P, class Theta>

@@ -34,7 +34,7 @@ template <Scalar C>
 struct step_program {
   using letter = step_program_letter<C>;
   std::vector<letter> loop;  ///< of a step that another one follows
-  std::vector<letter> last;  ///< of a step after which the run may be looked at
+  std::vector<letter> last;  ///< of a step after which the run may be observed
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run
   field reads = field::none;
   int threads = 1;     ///< that share a step where the system allows it

@@ -127,7 +127,7 @@ template <field F, class S, class State, class C>
   }
 }
 
-/// A letter for which no force is evaluated: one that merges, when a run is opened or looked at.
+/// A letter for which no force is evaluated: one that merges, when a run is opened or observed.
 template <field F, class S, class State, class C>
 void apply_known(const S& system, const step_program_letter<C>& letter, State& x, auto& room) {
   const C c = letter.coefficient;

@@ -30,7 +30,7 @@ std::vector<T> sums_of_leaves(std::span<const T> terms) {
   return result;
 }
 
-/// The next level of the tree; a last node without neighbour goes up alone.
+/// The next level of the tree; a last node without neighbour goes up unchanged.
 template <class T>
 void add_neighbours(std::vector<T>& level) {
   std::size_t parents = 0;
@@ -46,7 +46,7 @@ void add_neighbours(std::vector<T>& level) {
 
 /// terms[0] + terms[1] + ..., one term a trajectory: leaves of 16 consecutive terms, each summed in order,
 /// then a binary tree in which neighbours are added level by level. The order is fixed by the number of
-/// terms alone; a trajectory that does not count contributes a zero, so that it does not shift the others.
+/// terms only; a trajectory that does not count contributes a zero, so that it does not shift the others.
 /// Throws std::invalid_argument if there is no term. Memory: a sixteenth of the terms.
 template <class T>
 T tree_sum(std::span<const T> terms) {

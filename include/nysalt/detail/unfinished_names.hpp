@@ -16,7 +16,7 @@ class unfinished_name {
   unfinished_name(const unfinished_name&) = delete;
   unfinished_name& operator=(const unfinished_name&) = delete;
 
-  /// The file stays whatever happens.
+  /// The file stays in any case.
   void release() noexcept;
 
  private:

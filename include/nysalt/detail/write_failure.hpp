@@ -5,7 +5,7 @@
 
 namespace nysalt::detail {
 
-/// What could not be written though nothing was wrong with what was asked: the disk is full, or a device failed.
+/// A failure to write that is not due to bad input: the disk is full, or a device failed.
 class write_failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How chains are burned in, and what was found about it.
+// Options and report of a burn-in.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@ struct burn_in_options {
   int threads = 1;                       ///< for the pilots; changes no bit
 };
 
-/// What is watched, all in units of kT: the kinetic temperature between two steps, the virial
+/// The observed quantities, all in units of kT: the kinetic temperature between two steps, the virial
 /// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, V/N, and the energy of the slowest mode
 /// where it is known (slowest_mode.hpp), else 0.
 enum class watched : std::uint8_t { kinetic, virial, potential, slowest };
 inline constexpr std::size_t watched_numbers = 4;  ///< how many are watched
-/// What messages call them.
+/// Names of the observed quantities in messages.
 inline constexpr std::array watched_names = {"half-step kinetic temperature", "virial", "potential energy",
                                              "energy of the slowest mode"};
 
@@ -33,7 +33,7 @@ inline constexpr std::array watched_names = {"half-step kinetic temperature", "v
 template <class T>
 using of_watched = std::array<T, watched_numbers>;
 
-/// What should be 0, a mean over independent chains, and its standard error.
+/// A mean over independent chains whose expectation is 0, and its standard error.
 struct discrepancy {
   double mean = 0.0;            ///< mean over chains
   double standard_error = 0.0;  ///< of that mean
@@ -41,9 +41,9 @@ struct discrepancy {
   bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error); }
 };
 
-/// How long chains are burned in, with what, and what the pilots showed.
+/// Length and parameters of a burn-in, and what the pilots showed.
 struct burn_in_report {
-  double friction = 0.0;   ///< of the chains, to which the law of q is indifferent
+  double friction = 0.0;   ///< of the chains; the distribution of q does not depend on it
   double step = 0.0;       ///< h of BAOAB
   std::int64_t steps = 0;  ///< of every chain
   double length = 0.0;     ///< steps * step

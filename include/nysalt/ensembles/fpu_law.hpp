@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// How the soft springs start.
+/// Initial states of the soft springs.
 struct soft_motion {
   double displacement = 1.0;  ///< x_0 of every pair
   double velocity = 1.0;      ///< y_0 of every pair

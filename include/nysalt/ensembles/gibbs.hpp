@@ -41,16 +41,16 @@ extern template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(st
 
 /// Independent states from exp(-H/kT) of a system in a bath that has a temperature: each is the end of a
 /// chain of its own, which begins at a state of another ensemble with fresh momenta and follows BAOAB. The
-/// law does not depend on the friction, so the chains have a stronger one than the bath, and forget their
-/// starts much sooner. BAOAB is exact in the law of q for harmonic systems, up to h omega = 2, so their step
-/// is large. At the end the momenta are drawn from Maxwell's law, p_i ~ N(0, m_i kT): only the law of q has
-/// an error.
+/// distribution does not depend on the friction, so the chains have a stronger one than the bath, and forget
+/// their starts much sooner. BAOAB is exact in the distribution of q for harmonic systems, up to h omega = 2,
+/// so their step is large. At the end the momenta are drawn from Maxwell's distribution, p_i ~ N(0, m_i kT):
+/// only the distribution of q has an error.
 ///
 /// Friction, step and length are found by pilot chains when the ensemble is made (burn_in.hpp): the length is
 /// 20 times the longest autocorrelation time of kinetic energy, potential energy, virial and, where the
 /// system declares modes that all have a frequency, the energy of the slowest; the step is halved until no
-/// bias against half of it shows, and equipartition is checked; report() tells. What none of the pilots sees
-/// in its time is not sampled: valleys behind barriers that no chain crosses. Nor do means over all tell of
+/// bias against half of it shows, and equipartition is checked; see report(). What none of the pilots sees
+/// in its time is not sampled: valleys behind barriers that no chain crosses. Nor do means over all show
 /// one motion among very many that is much slower than most and is no declared mode.
 ///
 /// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
@@ -58,14 +58,14 @@ template <int N>
 class gibbs {
  public:
   /// Of a system in its bath. Throws std::invalid_argument if the bath has no temperature or that is zero, if
-  /// an option cannot be, or if there is neither a step nor frequency_bands(); std::runtime_error if chains
-  /// diverge, do not become stationary, or a check fails.
+  /// an option is out of range, or if there is neither a step nor frequency_bands(); std::runtime_error if
+  /// chains diverge, do not become stationary, or a check fails.
   template <HasBath S, Ensemble<S> E>
     requires(NystromSystem<S>&& S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
       : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
 
-  /// How chains are burned in, and what was checked.
+  /// The burn-in of the chains, and what was checked.
   const burn_in_report& report() const { return chains_->report(); }
 
   /// The start of trajectory n. Throws std::runtime_error if its chain diverges.
@@ -74,7 +74,7 @@ class gibbs {
   }
 
   /// Those of `count` trajectories from the first on, one in each lane of T, with the bits that each has
-  /// alone. Throws std::runtime_error if one diverges.
+  /// without the others. Throws std::runtime_error if one diverges.
   template <class T>
   phase_point<T, N> block(std::uint64_t seed, std::int64_t first, int count) const {
     if constexpr (std::same_as<T, double> || std::same_as<T, detail::lanes>) {

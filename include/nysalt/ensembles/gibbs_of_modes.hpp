@@ -33,9 +33,8 @@ class gibbs_of_modes {
     if (!(temperature > 0.0) || !std::isfinite(temperature) ||
         !(std::ranges::min(modes_->frequencies()) > 0.0)) {
       throw std::invalid_argument(
-          sentence("gibbs_of_modes: {} at temperature {} has no Gibbs law that is normal: it needs a "
-                   "temperature above "
-                   "0, and a frequency above 0 of each mode",
+          sentence("gibbs_of_modes: temperature and the frequency of each mode must be above 0, got {} at "
+                   "temperature {}",
                    describe(system), temperature));
     }
   }

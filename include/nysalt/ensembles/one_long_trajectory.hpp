@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// How long the trajectory is, and what is kept of it.
+/// Length of the trajectory, and what is kept of it.
 struct long_trajectory_options {
   double length = 25'000.0;            ///< a time, burn-in included
   double burn_in = 0.0;                ///< a time at its beginning, of which no state is kept
@@ -44,13 +44,13 @@ class long_trajectory {
 /// States picked at random, with repetition, from one trajectory of a system in its bath, by BAOAB from start
 /// 0 of another ensemble [li_lu_tao_ye_2023]. They depend on each other as far as the trajectory remembers:
 /// of friction gamma it holds no more than about gamma T/2 independent ones, and without a burn-in its way
-/// down from the start stays among them; independent states of the invariant law are gibbs. On-step momenta
-/// are those of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that are kept.
+/// down from the start stays among them; independent states of the invariant distribution are gibbs. On-step
+/// momenta are those of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that are kept.
 template <int N>
 class one_long_trajectory {
  public:
-  /// Throws std::invalid_argument if the options cannot be, or there is neither a step nor frequency_bands();
-  /// std::runtime_error if the trajectory diverges.
+  /// Throws std::invalid_argument if the options are out of range, or there is neither a step nor
+  /// frequency_bands(); std::runtime_error if the trajectory diverges.
   template <HasBath S, Ensemble<S> E>
     requires(S::dimension == N)
   one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})

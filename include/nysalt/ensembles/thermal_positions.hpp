@@ -16,8 +16,8 @@
 
 namespace nysalt {
 
-/// Positions of a list, such as the draws of a sampler, with momenta of Maxwell's law, p_i ~ N(0, m_i kT).
-/// Each start takes a position of the list at random, so that starts of one list may share it.
+/// Positions of a list, such as the draws of a sampler, with momenta of Maxwell's distribution, p_i ~ N(0,
+/// m_i kT). Each start takes a position of the list at random, so that starts of one list may share it.
 template <int N>
 class thermal_positions {
  public:

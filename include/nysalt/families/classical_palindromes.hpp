@@ -8,8 +8,8 @@
 
 namespace nysalt {
 
-/// The classical methods A B ... B A with so many kicks, as members of a family F of such words. Rotations
-/// may stand for the drifts: of K, order conditions ask but that it is quadratic in p.
+/// The classical methods A B ... B A with that number of kicks, as members of a family F of such words.
+/// Rotations may replace the drifts: of K, order conditions ask but that it is quadratic in p.
 template <class F, int Kicks>
 std::vector<classical_member<F::parameters>> classical_palindromes() {
   if constexpr (Kicks == 2) return {{"mclachlan2", F::of(mclachlan2())}};

@@ -9,7 +9,7 @@
 
 namespace nysalt {
 
-/// What a family is unless it says otherwise: parameters theta1, theta2, ... between -4 and 4; of order 1,
+/// Defaults of a family: parameters theta1, theta2, ... between -4 and 4; of order 1,
 /// not symmetric, for any kinetic energy. A family of one's own adds
 ///   using word = ...;  static constexpr std::string_view name = ...;  start();  coefficients(theta)
 template <int Parameters>

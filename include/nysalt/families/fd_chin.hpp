@@ -12,7 +12,7 @@
 namespace nysalt {
 
 /// B(b) A(1/2) D(1 - 2 b, c) A(1/2) B(b): three evaluations, none of them a derivative. At b = 1/6, c = 1/24
-/// Chin's method 4A with a displaced kick; not symplectic, and for sampling alone.
+/// Chin's method 4A with a displaced kick; not symplectic, and for sampling only.
 struct fd_chin : composition<2> {
   using word = nysalt::word<kick, drift, displaced_kick, drift, kick>;
   static constexpr std::string_view name = "fd_chin";

@@ -45,7 +45,7 @@ struct gradient_composition : composition<3> {
     return {a, b, 0.5 * (1.0 / 6.0 - middle * b * (1.0 - b))};
   }
 
-  /// The parameters that a method of this word has. Rotations may stand for its drifts.
+  /// The parameters that a method of this word has. Rotations may replace the drifts.
   template <class M>
   static std::array<double, 3> of(const M& method) {
     static_assert(std::is_same_v<typename M::word, word> || QuadraticFlow<X>);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where a search may begin if the highest frequency is known.
+// A start of a search where the highest frequency is known.
 #pragma once
 
 #include <optional>

@@ -24,7 +24,7 @@ Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<
 /// that a difference over a step of 1 is the derivative.
 Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x);
 
-/// How far a continuation came.
+/// Result of a continuation.
 struct phase_fitting {
   std::optional<Eigen::VectorXd> theta;  ///< at the z that was asked for; nothing: it ended before
   double reached;                        ///< the last z with a solution

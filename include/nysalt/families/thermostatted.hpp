@@ -10,8 +10,8 @@
 
 namespace nysalt {
 
-/// A family in a bath: the same parameters, with letters O at a placement. Its order is that of damping alone
-/// (sigma = 0): 1 at the end, and in the middle of what is not symmetric; else 2 at most.
+/// A family in a bath: the same parameters, with letters O at a placement. Its order is that of damping
+/// without noise (sigma = 0): 1 at the end, and in the middle of what is not symmetric; else 2 at most.
 template <Family F, placement P>
 struct thermostatted_family {
   using plain = F;  ///< the same without letters O

@@ -16,10 +16,10 @@ struct gradient_kick_coefficients {
 
 /// A kick with the force of b V - c h^2 |grad V|^2 in the metric of M^-1, its second coefficient beside it:
 ///   p += b h f + 2 c h^3 f'(q) M^-1 f,   f = -grad V or -grad V_soft.
-/// [V, [K, V]] depends on q alone, so that this is an exact flow too; where a quadratic K is meant
+/// [V, [K, V]] depends on q only, so that this is an exact flow too; where a quadratic K is meant
 /// [takahashi_imada_1984; chin_1997]. Two evaluations: f'(q) v counts as one, of a black box as two. There it
 /// is a difference along h^2 M^-1 f, which is what f moves q by in a step: in any units of any coordinate,
-/// and by q alone, so that the kick is reversible and keeps volume whatever the differences err by.
+/// and by q only, so that the kick is reversible and keeps volume for any error of the differences.
 template <field Field>
 struct gradient_kick_of {
   static constexpr char letter = Field == field::soft ? 'H' : 'G';

@@ -30,7 +30,7 @@ struct ornstein_uhlenbeck {
   template <System S, Scalar T>
   static constexpr bool serves = true;
 
-  /// e^{-gamma c h} and s. What damps alone (sigma = 0) may go back in time; noise cannot.
+  /// e^{-gamma c h} and s. Damping without noise (sigma = 0) may go back in time; noise may not.
   template <Scalar C>
   struct prepared {
     C decay{1.0};      ///< e^{-gamma c h}

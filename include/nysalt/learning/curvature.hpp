@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What each trajectory, or other block of data, adds to the gradient of a loss: those of this rank.
+/// Contributions of trajectories, or other blocks of data, to the gradient of a loss: those of this rank.
 struct trajectory_scores {
   std::vector<Eigen::VectorXd> of_each;  ///< one gradient for each block of this rank
   shard share;                           ///< which blocks this rank has
@@ -58,7 +58,7 @@ class curvature {
   /// H^+ v, the inverse of the Hessian on what is free and not flat.
   Eigen::VectorXd solve(const Eigen::VectorXd& v) const;
 
-  /// What the uncertainty of the minimum adds to the loss on new data, in the mean: the loss L is least at
+  /// The mean contribution of the uncertainty of the minimum to the loss on new data: the loss L is least at
   /// theta*, and with H = L'' there and C the covariance of the minimum theta,
   ///   E L(theta) - L(theta*) = E (theta - theta*)^T H (theta - theta*)/2 = tr(H C)/2.
   /// C is that of standard_errors(), so that H C has one H^+ less: B/(B - 1) sum_b g_b^T H^+ g_b/2. Along a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether starts are beyond the energies that a method was learned on, or outside by chance alone.
+// A test whether starts are beyond the energies that a method was learned on, or outside by chance.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace nysalt {
 
-/// Of n starts so many have energies outside the range of M trajectories, the farthest by `farthest`.
+/// Of n starts the number with energies outside the range of M trajectories, the farthest by `farthest`.
 ///
-/// A few always have. If all are of one law, their n + M energies are in any order equally likely, and the
-/// number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n passes
-/// that of M depends on the law; where it falls exponentially, as Gibbs' laws do or faster, it is farther
-/// than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT log(M + 1) wide. Chance is
-/// left aside if it would do this once in a thousand times.
+/// A few always have. If all are of one distribution, their n + M energies are in any order equally likely,
+/// and the number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n
+/// passes that of M depends on the distribution; where that falls exponentially, as Gibbs distributions do,
+/// or faster, it is farther than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT
+/// log(M + 1) wide. Chance is left aside if it would do this once in a thousand times.
 struct energies_outside {
   static constexpr double chance = 1e-3;  ///< a probability below which chance is left aside
 
@@ -31,11 +31,11 @@ struct energies_outside {
   /// Whether there are too many, or one is too far.
   bool is_serious() const { return outside > 0 && (probability() < chance || farthest > far()); }
 
-  /// The probability that so many of n, or more, are outside by chance.
+  /// The probability that this number of n, or more, are outside by chance.
   double probability() const;
 
   /// The distance that none of n starts is beyond the range, but by a chance of one in a thousand. Infinite
-  /// from one trajectory, which tells no range.
+  /// from one trajectory, which has no range.
   double far() const;
 
   /// A sentence with the numbers.

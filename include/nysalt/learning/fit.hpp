@@ -5,7 +5,7 @@
 
 namespace nysalt {
 
-/// What learning a run_time_family gives.
+/// Result of learning a run_time_family.
 struct fit {
   Eigen::VectorXd theta;  ///< the learned parameters
   fit_summary summary;    ///< its `usable` says whether to use them

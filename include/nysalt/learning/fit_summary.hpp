@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What there is to know of a fit.
+// Summary of a fit.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-/// What to do with a fit. nothing_gained: it may be used, but a classical method that costs as much is as
+/// Verdict on a fit. nothing_gained: it may be used, but a classical method that costs as much is as
 /// good.
 enum class verdict { usable, nothing_gained, not_usable };
 
@@ -44,13 +44,14 @@ struct fit_summary {
   std::uint64_t held_out_seed = 0;  ///< of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
   std::string loss_name;            ///< see loss_choice
-  int loss_steps = 1;               ///< of the longest stretch that the loss looks at
+  int loss_steps = 1;               ///< of the longest window of the loss
   int trajectory_steps = 1;         ///< of the shortest trajectory of the data
   bool follows = true;     ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
   bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
-  /// What was minimised, at theta; one-step: mean over pairs of the sum over coordinates of r^2/Sigma.
+  /// The loss that was minimised, at theta; one-step: mean over pairs of the sum over coordinates of
+  /// r^2/Sigma.
   double loss = 0.0;
   double held_out_loss = 0.0;        ///< the same on data that was not learned from
   double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
@@ -59,7 +60,7 @@ struct fit_summary {
   std::size_t trajectories = 0;      ///< number of trajectories of the data
   std::size_t held_out_samples = 0;  ///< number of pairs of the held-out data
 
-  /// What the parameters' uncertainty adds to the loss on new data, in the mean. NaN from a single
+  /// The mean contribution of the parameters' uncertainty to the loss on new data. NaN from a single
   /// trajectory, and where the guard holds them.
   double expected_excess = 0.0;
   double deciding_trajectories = 0.0;  ///< on how many that and the standard errors rest
@@ -89,7 +90,7 @@ struct fit_summary {
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
   trial_result trial{};  ///< of the parameters that are handed out, from held-out and further starts
-  double highest_frequency = 0.0;  ///< along the states that the guard looked at; 0: not known
+  double highest_frequency = 0.0;  ///< along the states that the guard examined; 0: not known
   /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
   /// nothing is gained over it, it withstands a trial run. Empty if there is none.
   std::string rival;
@@ -112,7 +113,7 @@ struct fit_summary {
   }
   /// The verdict in words, with the reason or with what to take instead.
   std::string verdict_in_words() const;
-  /// What to take where nothing is gained, in words: a method with its step, or what the rival is.
+  /// The method to take where nothing is gained, in words: a method with its step, or what the rival is.
   std::string what_to_take() const;
   /// Of the held-out losses of the rival and of this: how many times smaller this is.
   double gain() const { return rival_loss / held_out_loss; }
@@ -128,7 +129,7 @@ struct fit_summary {
   /// A sentence about expected_excess.
   std::string uncertainty() const;
 
-  /// Whether the method follows the data to the end, as far as the loss tells.
+  /// Whether the method follows the data to the end, as far as the loss measures it.
   bool follows_to_the_end() const { return follows && loss_steps >= trajectory_steps; }
 
   /// For how many steps the method follows the data, in words; empty where it follows them to the end.

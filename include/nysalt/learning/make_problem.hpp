@@ -14,7 +14,7 @@ namespace nysalt {
 
 namespace detail {
 
-/// A loss other than those of losses(), over the scalar that carries the stretches.
+/// A loss other than those of losses(), over the scalar that carries the windows.
 struct other_loss {
   std::string name;
   std::string description;

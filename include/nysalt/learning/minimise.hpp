@@ -31,9 +31,9 @@ namespace detail {
 
 /// Ceres from theta, which becomes where it ends; parameters that are not free stay. The loss is flat along
 /// a valley, on which Gauss-Newton steps are short: so the search does not end on small changes of the loss,
-/// but on small steps. Where it does not end so, the last quarter of the iterations tells a valley. A search
-/// that may climb takes up to five steps on which the loss grows, by which it crosses the bends of a narrow
-/// valley; it ends at the least loss that it met.
+/// but on small steps. Where it does not end so, the last quarter of the iterations detects a valley. A
+/// search that may climb takes up to five steps on which the loss grows, by which it crosses the bends of a
+/// narrow valley; it ends at the least loss that it met.
 void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
              minimum& found, double function_tolerance = 0.0, bool may_climb = false);
 

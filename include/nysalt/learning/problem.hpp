@@ -21,11 +21,11 @@
 
 namespace nysalt {
 
-/// How many random starts a search in stages takes: 40, 120 or 400, or a fifth of these for two parameters
+/// Number of random starts of a search in stages: 40, 120 or 400, or a fifth of these for two parameters
 /// and fewer.
 enum class effort { quick, normal, thorough };
 
-/// How to search. What is empty is the family's own.
+/// Options of a search. Empty ones are those of the family.
 struct fit_options {
   std::optional<nysalt::coordinates> coordinates{};  ///< in which the error counts; empty: as suits the loss
   std::optional<loss_choice> loss{};       ///< what is minimised, if not an own_loss; empty: usual_loss()
@@ -35,8 +35,8 @@ struct fit_options {
   nysalt::effort effort = nysalt::effort::normal;  ///< of a search in stages
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
-  /// How many steps a run with the method will take at most: so long is a trial run, and over so many, up to
-  /// 10,000, the guard looks at growth. A proposal of Hybrid Monte Carlo takes few.
+  /// The largest number of steps of a run with the method: the length of a trial run, and the steps, up to
+  /// 10,000, over which the guard examines growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
   bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
   std::uint64_t seed = 1;    ///< of the random starts
@@ -51,9 +51,9 @@ struct rival_method {
   std::function<trial_result(std::int64_t trajectories, std::int64_t steps)> trial;  ///< runs it
 };
 
-/// What learn() makes of system and data, and solve() of this. Refers to the system. Where ranks share the
-/// data each has its own part, and the functions are collective: all ranks search together, and find the
-/// same.
+/// The problem that learn() makes of system and data, and solve() solves. Refers to the system. Where ranks
+/// share the data each has its own part, and the functions are collective: all ranks search together, and
+/// find the same.
 struct learning_problem {
   run_time_family family;              ///< what is fitted
   fit_options options;                 ///< as they were given
@@ -61,19 +61,19 @@ struct learning_problem {
   objective loss;                      ///< what is minimised
   std::vector<search_stage> stages{};  ///< what is minimised roughly before, to find where minima lie
   objective one_step_before{};         ///< gives a search in stages one more start; empty: none
-  /// What each trajectory adds to the gradient of `loss`, its part in the weights included.
+  /// The contribution of each trajectory to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
   shard held_out;  ///< which held-out trajectories this rank has
-  /// What each held-out trajectory of this rank adds to the loss.
+  /// The contribution of each held-out trajectory of this rank to the loss.
   std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;
   std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
   std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
-  /// What is least for the best of several minima, see judge_of_minima; of a loss that asks no data, the
-  /// loss.
+  /// The function that is least for the best of several minima, see judge_of_minima; of a loss that asks no
+  /// data, the loss.
   std::function<double(const Eigen::VectorXd&)> judge;
   std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
-  /// Whether the method stays near the data over all steps that the loss looks at: with an error below a
-  /// twentieth of the motion. Where it does not, phases are lost, and the loss tells little. Empty: the loss
+  /// Whether the method stays near the data over all steps of the loss: with an error below a
+  /// twentieth of the motion. Where it does not, phases are lost, and the loss means little. Empty: the loss
   /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
   std::shared_ptr<learning_problem> shorter{};  ///< the same over a quarter of the steps; null: there is none
@@ -84,8 +84,8 @@ struct learning_problem {
   std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
                              std::int64_t steps)>
       trial;
-  /// What each held-out trajectory of this rank adds to the loss of another method, with the letters O of the
-  /// family's word; nothing if the system does not serve its letters.
+  /// The contribution of each held-out trajectory of this rank to the loss of another method, with the
+  /// letters O of the family's word; nothing if the system does not serve its letters.
   std::function<std::optional<rival_method>(const tabulated&)> rival;
   stability_guard guard;          ///< knows the frequencies of the system
   bool is_of_black_box = false;   ///< of a force that only double can be given to

@@ -40,13 +40,13 @@ struct search_stage {
   double lost_above = std::numeric_limits<double>::infinity();
 };
 
-/// What a search is told.
+/// Inputs of a search.
 struct search_task {
   const run_time_family* family;                        ///< its ranges and where it is defined
   objective loss;                                       ///< what is minimised
   std::vector<search_stage> stages{};                   ///< what is minimised roughly before
   objective one_step_loss{};                            ///< its least minimum is a start, too; empty: none is
-  std::vector<named_parameters> kept{};                 ///< further starts of the last stage alone
+  std::vector<named_parameters> kept{};                 ///< further starts of the last stage only
   std::function<double(const Eigen::VectorXd&)> judge;  ///< what is least for the best
   std::function<bool(const Eigen::VectorXd&)> admits;   ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
@@ -65,7 +65,7 @@ Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd thet
 /// The theta nearest to this one that lies in all ranges.
 Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
 
-/// What came of all starts. `unguarded` is the best of all where the guard did not admit it.
+/// Result of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
   candidate best;                      ///< what is to be used
   std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it
@@ -82,7 +82,7 @@ struct search_result {
 /// those that converged or ended in a valley. Where there is none, or where it errs by more than twice what
 /// one does that is not admitted, or by more than a kept start, the search goes on among admitted points
 /// only, from the starts that are and from the refuge: what it finds lies at the edge mostly, and the judge
-/// decides. A single start is what it was, whatever the judge thinks. Cost: a search for each start, twice
+/// decides. A single start is what it was, for any judge. Cost: a search for each start, twice
 /// where the guard acts, and a trial run for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is learned from a wrong force is wrong, and nothing else would tell.
+// Checks of the force before learning: a wrong force would not be noticed otherwise.
 #pragma once
 
 #include "nysalt/flow_map_data.hpp"
@@ -7,7 +7,7 @@
 namespace nysalt {
 
 /// check_force() at four states of the data, from the middle of each quarter of them. A system that is a
-/// potential alone has nothing to check. How far these and their finishes lie apart tells the lengths of
+/// potential only has nothing to check. How far these and their finishes lie apart gives the lengths of
 /// coordinates. Throws std::invalid_argument with its report. The data must be valid.
 void require_sound_force(const model& system, const flow_map_data& data);
 

@@ -18,27 +18,27 @@
 
 namespace nysalt {
 
-/// Which frequencies a criterion looks at: all that were met, or those that are declared or met in a tenth of
+/// Which frequencies a criterion uses: all that were met, or those that are declared or met in a tenth of
 /// the states. A rare one lasts for a part of its period, as that of a close pair of atoms; what it does to a
-/// run only a trial run tells.
+/// run only a trial run shows.
 enum class met { ever, often };
 
 /// Knows the frequencies of a system: the union of its frequency_bands() and of the frequencies of its
 /// linearised motion along some states, with 2 % more on either side. Where no bands are declared the first
 /// is from 0 on, and there are others where frequencies along 64 states or more lie in ranges far apart.
-/// Outside of the bands a word may be unstable: gaps() tells where. Words with rotations are stable on the
-/// quadratic part at any step. The guard looks at how much such words magnify each of its modes under soft
+/// Outside of the bands a word may be unstable: gaps() lists where. Words with rotations are stable on the
+/// quadratic part at any step. The guard computes how much such words magnify each of its modes under soft
 /// forces of any positive stiffness up to the largest along the states, and at pairs of modes that the soft
 /// forces couple. What letters of one's own do to an oscillator it does not know: it admits such words, and
 /// trial runs decide.
 class stability_guard {
  public:
-  /// Looks at growth over so many steps: less than a factor e is admitted. Of words with rotations, if there
-  /// will be some, only where there are states. Cost: that of frequencies_of_states(), and twice that where a
-  /// quadratic part is. Throws what that does, and std::invalid_argument if no bands are declared and there
-  /// are no states.
+  /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
+  /// there will be some, only where there are states. Cost: that of frequencies_of_states(), and twice that
+  /// where a quadratic part is. Throws what that does, and std::invalid_argument if no bands are declared and
+  /// there are no states.
   ///
-  /// The first `typical` states tell what is met often; those after them were chosen as extreme.
+  /// The first `typical` states show what is met often; those after them were chosen as extreme.
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
@@ -88,14 +88,14 @@ class stability_guard {
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// Number of steps over which growth is looked at.
+  /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }
   const std::string& description() const { return description_; }  ///< what it knows, and where from
 
  private:
   void declare(const std::vector<frequency_band>& bands);
 
-  /// What is met along so many states: of each state its frequencies, where they are known.
+  /// Takes in the frequencies along a number of states, where they are known.
   void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many trajectories are enough: until what is still uncertain hardly matters.
+// The number of trajectories that is enough: until the uncertainty hardly matters.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct enough_options {
   std::int64_t most = 100'000;  ///< number of trajectories beyond which it does not go
 };
 
-/// How a fit came to its number of trajectories.
+/// The steps by which a fit came to its number of trajectories.
 struct enough_course {
   /// One fit on the way.
   struct stop {
@@ -35,7 +35,7 @@ struct enough_course {
 /// Learns with M = first, 2 first, ... trajectories until fit_summary::excess_share() is at most the share
 /// asked for, or M is the most that may be. The excess falls as 1/M [li_lu_tao_ye_2023, theorem 3.1], so that
 /// M ends between enough and twice that. It is an estimate itself, off by a fifth from 50 trajectories: begin
-/// with some tens. Where it rests on less than ten of them it does not count. Where it cannot be told, as
+/// with some tens. Where it rests on less than ten of them it does not count. Where it has no estimate, as
 /// where the guard holds the parameters, it stops at once. Throws std::invalid_argument unless 0 < share, and
 /// 2 <= first <= most. Cost: twice that of the last fit.
 enough_course until_enough(std::int64_t first, const enough_options& options,

@@ -23,13 +23,13 @@ namespace nysalt {
 
 /// After how many steps an error counts.
 struct after_steps_options {
-  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a stretch
-  int apart = 1;              ///< steps from where one stretch begins to where the next does
+  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
+  int apart = 1;              ///< steps from the beginning of one window to that of the next
   int every = 1;              ///< trajectory counts whose number this divides
   int threads = 1;            ///< changes no bit
 };
 
-/// The residuals of one stretch, and their derivatives by theta.
+/// The residuals of one window, and their derivatives by theta.
 template <Scalar R>
 struct residuals_of_stretch {
   std::size_t parameters;  ///< how many there are
@@ -40,27 +40,28 @@ struct residuals_of_stretch {
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
 };
 
-/// What is made of them: as many terms as were asked for. Called from several threads at a time.
+/// The terms that are made of the residuals: as many as were asked for. Called from several threads at a
+/// time.
 template <Scalar R>
 using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
 
-/// The mean over all stretches and over some times of each of the sum over residuals of r^2; a stretch_error
+/// The mean over all windows and over some times of each of the sum over residuals of r^2; a stretch_error
 /// says what they are.
 ///
-/// Stretches of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
-/// stretches; neither its lanes nor the threads change a bit of a sum.
-/// What a loss over data offers the learner: scalar, parameters(), share(), residuals(), and sums(theta,
-/// with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
+/// Windows of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
+/// windows; neither its lanes nor the threads change a bit of a sum.
+/// The interface of a loss over data to the learner: scalar, parameters(), share(), residuals(), and
+/// sums(theta, with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
 template <Scalar R = detail::lanes>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
   static constexpr int N = Eigen::Dynamic;
 
  public:
-  using scalar = R;  ///< carries the stretches
+  using scalar = R;  ///< carries the windows
 
   /// Refers to what the error refers to, and copies the data. Throws std::invalid_argument
-  /// if no trajectory is so long, if R is a pack and the system is stepped over double alone, or if the
+  /// if no trajectory is as long, if R is a pack and the system is stepped over double only, or if the
   /// system is in a noisy bath and the data do not hold the noise that the letters O of the word need.
   after_steps(const run_time_family& family, const model& system, const flow_map_data& data,
               stretch_error<R> error, const after_steps_options& options = {})
@@ -90,7 +91,7 @@ class after_steps {
         std::make_shared<const parts>(gather_stretches<R>(data, starts_, options.steps, noise_wanted(data)));
   }
 
-  /// The loss of another family over the same stretches, which both share. The other word must have its
+  /// The loss of another family over the same windows, which both share. The other word must have its
   /// letters O where this one has.
   after_steps(const after_steps& same, const run_time_family& family)
       : family_(family),
@@ -106,17 +107,17 @@ class after_steps {
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
   const shard& share() const { return share_; }  ///< which trajectories this rank has
-  /// Number of those of a stretch, at all of its times.
+  /// Number of those of a window, at all of its times.
   std::size_t residuals() const { return error_.residuals * options_.steps.size(); }
   const stretch_error<R>& error() const { return error_; }  ///< what they are
-  /// Force evaluations of all passes so far at this rank, as `counted` counts them for one stretch after the
+  /// Force evaluations of all passes so far at this rank, as `counted` counts them for one window after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
 
-  /// A pass over the data: each trajectory's mean over all stretches of what of_stretch(r, terms) makes of
-  /// the residuals, so many terms, added in the order of time. Throws what the error does, on all ranks if on
-  /// one: the library's own nothing, inadmissible theta give what arithmetic gives. Cost: a plain step, or a
-  /// run of K steps, over dual<R, 2> for each stretch and two parameters.
+  /// A pass over the data: each trajectory's mean over all windows of the `terms` terms that of_stretch(r,
+  /// terms) makes of the residuals, added in the order of time. Rethrows exceptions of the user's loss on
+  /// every rank. Never throws otherwise; inadmissible theta yield non-finite values. Cost: a plain step, or a
+  /// run of K steps, over dual<R, 2> for each window and two parameters.
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
                                     const terms_of_stretch<R>& of_stretch) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
@@ -261,7 +262,7 @@ class after_steps {
   model system_;
   stretch_error<R> error_;
   double step_;
-  double weight_ = 1.0;  // of a stretch
+  double weight_ = 1.0;  // of a window
   after_steps_options options_;
   shard share_;
   stretch_starts starts_;

@@ -8,7 +8,7 @@
 
 namespace nysalt {
 
-/// (x, y) <- (xx x + xy y, yx x + yy y); the identity unless told.
+/// (x, y) <- (xx x + xy y, yx x + yy y); the identity by default.
 template <Scalar T>
 struct plane_map {
   T xx{1.0};  ///< to x from x
@@ -74,7 +74,7 @@ bool forgets(const plane_map<T>& M) {
   return d < T(1.0) && d > T(-1.0) && t < d + 1.0 && -t < d + 1.0;
 }
 
-/// Infinite: what stands where there is no such covariance.
+/// Infinite: the value where there is no such covariance.
 template <Scalar T>
 plane_covariance<T> no_covariance() {
   const T infinity(std::numeric_limits<double>::infinity());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which loss to learn with.
+// Choice of a loss to learn with.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ struct loss_choice {
   std::string description() const;
 };
 
-/// What is minimised where no loss is asked for: that of trajectories; in a bath that of one step, as
-/// friction and noise make an end of phases, and what trajectories gain in phase they lose in the law of
-/// energies.
+/// The default loss: that of trajectories; in a bath that of one step, as
+/// friction and noise make an end of phases, and what trajectories gain in phase they lose in the
+/// distribution of energies.
 loss_choice usual_loss(const bath& around);
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
@@ -34,7 +34,8 @@ loss_choice loss_named(std::string_view text);
 /// The same; nothing for anything else.
 std::optional<loss_choice> find_loss(std::string_view text);
 
-/// What loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the others.
+/// The names that loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the
+/// others.
 std::string loss_patterns(bool count_steps);
 
 }  // namespace nysalt

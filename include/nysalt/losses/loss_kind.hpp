@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the library and the program know of a loss.
+// Facts about a loss for the library and the program.
 #pragma once
 
 #include <span>
@@ -18,9 +18,9 @@ struct data_loss;    // in src/nysalt/losses/data_loss.hpp
 struct loss_inputs;  // there, too
 }  // namespace detail
 
-/// What is least for the best of several minima: the loss on held-out data; the state's error at the ends of
-/// held-out trajectories; or the loss on the data that were learned from, so that held-out data choose
-/// nothing.
+/// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
+/// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
+/// data choose nothing.
 enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
 
 /// The error after K steps, from four states of each trajectory first, then from each.
@@ -30,19 +30,20 @@ std::vector<after_steps_options> after_each_step(int K, int shortest);
 /// file, src/nysalt/losses/NAME.cpp, and listed in losses.cpp there.
 struct loss_kind {
   std::string_view name;                                   ///< as in "state:K"
-  bool counts_steps = true;                                ///< the number K of steps stands behind its name
+  bool counts_steps = true;                                ///< the number K of steps follows the name
   bool needs_modes = false;                                ///< of the system
   bool needs_bath = false;                                 ///< with friction and temperature
   judge_of_minima judge = judge_of_minima::held_out_loss;  ///< who chooses among several minima
   bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
   bool is_of_proposals =
       false;  ///< trajectories are proposals: no run takes more steps than those of the data
-  bool is_for_sampling = false;  ///< words that keep volume alone may be learned by it
+  bool is_for_sampling = false;  ///< words that only keep volume may be learned by it
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// After how many steps errors count, in trajectories of `shortest` steps or more: what a search minimises
-  /// first, ..., and last the loss itself. K stands behind the name.
+  /// first, ..., and last the loss itself. K follows the name.
   std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
-  /// The loss over data; where the loss itself asks none, what held-out data tell of what was learned.
+  /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
+  /// data.
   detail::data_loss (*over_data)(const detail::loss_inputs& from);
   /// The loss of a step, if it asks no data; else nullptr.
   objective (*without_data)(const model& system, const run_time_family& family, double step) = nullptr;

@@ -14,7 +14,7 @@
 
 namespace nysalt {
 
-/// The mean over all stretches of K steps of the sum of the squares of the residuals that `error` returns:
+/// The mean over all windows of K steps of the sum of the squares of the residuals that `error` returns:
 ///
 ///   const own_loss of_place{"place", 5, []<class T>(const phase_point<T, 2>& start,
 ///                                                   const phase_point<T, 2>& finish,
@@ -22,15 +22,15 @@ namespace nysalt {
 ///                             return finish.q - wanted.q;
 ///                           }};
 ///
-/// A stretch goes from `start`; the method ends it at `finish`, the data at `wanted`. T is any scalar: in it
-/// go derivatives by theta, and stretches side by side, so a function is written as a system's potential is.
+/// A window goes from `start`; the method ends it at `finish`, the data at `wanted`. T is any scalar: in it
+/// go derivatives by theta, and windows in lanes, so a function is written as a system's potential is.
 /// It returns a T, a std::array<T, n> or a vector<T, n>; n may be Eigen::Dynamic, and is then the same for
 /// all states, those of zeros too. What is not finite makes the search turn back. Weights are the function's
 /// own, given and not estimated. It is called from several threads at a time.
 template <class Error>
 struct own_loss {
   std::string name;  ///< what a fit_summary calls it, with K behind: one line, not that of another loss
-  int steps;         ///< K, steps of a stretch
+  int steps;         ///< K, steps of a window
   Error error;       ///< error(start, finish, wanted): the residuals
 
   /// As of the library's losses, such as "place:5".
@@ -42,7 +42,7 @@ own_loss(std::string, int, Error) -> own_loss<Error>;
 
 namespace detail {
 
-/// How many residuals over T a result holds: Eigen::Dynamic if its size tells, 0 if it is none.
+/// Number of residuals over T in a result: Eigen::Dynamic if it has a size(), 0 if it is none.
 template <class Result, class T>
 inline constexpr int residuals_in = 0;
 template <class T>
@@ -59,22 +59,22 @@ void write_residuals(const T& one, std::size_t, T* r) {
 template <class Several, class T>
 void write_residuals(const Several& all, std::size_t count, T* r) {
   if (static_cast<std::size_t>(all.size()) != count) {
-    throw std::invalid_argument("an own loss returns " + std::to_string(count) +
-                                " residuals for one stretch, and " + std::to_string(all.size()) +
-                                " for another: return as many for each");
+    throw std::invalid_argument(
+        "own_loss: the number of residuals must be the same for every pair of states, got " +
+        std::to_string(count) + " and " + std::to_string(all.size()));
   }
   std::copy(all.begin(), all.end(), r);
 }
 
 }  // namespace detail
 
-/// The scalar that carries stretches of S: packs where the system and its derivatives serve them.
+/// The scalar that carries windows of S: packs where the system and its derivatives serve them.
 template <SeparableSystem S>
 using scalar_of_passes =
     std::conditional_t<detail::serves<S, detail::lanes_with_slopes>, detail::lanes, double>;
 
 /// The residuals that a function returns, see own_loss. Throws std::invalid_argument if there are none; while
-/// it is asked, if there are not as many for one stretch as for another.
+/// it is asked, if there are not as many for one window as for another.
 template <class R = void, SeparableSystem S, class Error>
 auto own_error(const S& system, const Error& error) {
   using scalar = std::conditional_t<std::is_void_v<R>, scalar_of_passes<S>, R>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss as the sum of squares that it is: what a pass over the data tells.
+// A loss as the sum of squares that it is: the result of a pass over the data.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
 }
 
-/// A loss as a function of theta alone: whoever searches need not know what is behind it.
+/// A loss as a function of theta only: a search need not know what is behind it.
 using objective = std::function<squares(const Eigen::VectorXd& theta)>;
 
 namespace detail {
@@ -68,7 +68,7 @@ std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen
 
 }  // namespace detail
 
-/// What each trajectory of this rank adds to the loss. Cost: one pass over the data.
+/// The contribution of each trajectory of this rank to the loss. Cost: one pass over the data.
 template <class Loss>
 std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
@@ -87,8 +87,8 @@ double loss_value(const Loss& loss, const Eigen::VectorXd& theta) {
   return loss.share().sum(trajectory_losses(loss, theta));
 }
 
-/// What each trajectory of this rank adds to the gradient of the loss. Cost: a pass with derivatives, as for
-/// all below.
+/// The contribution of each trajectory of this rank to the gradient of the loss. Cost: a pass with
+/// derivatives, as for all below.
 template <class Loss>
 std::vector<Eigen::VectorXd> trajectory_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   std::vector<Eigen::VectorXd> result;
@@ -106,7 +106,7 @@ squares squares_at(const Loss& loss, const Eigen::VectorXd& theta) {
   const auto sum = loss.share().sum(by_trajectory, zero);
   return detail::from_column(sum, loss.parameters());
 }
-/// A loss over data as a function of theta alone. Refers to the loss.
+/// A loss over data as a function of theta only. Refers to the loss.
 template <class Loss>
 objective objective_of(const Loss& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return squares_at(loss, theta); };
@@ -125,7 +125,7 @@ Eigen::VectorXd residual_squares(const Loss& loss, const Eigen::VectorXd& theta)
   return loss.share().sum(by_trajectory, zero);
 }
 
-/// What each trajectory of this rank adds to the gradient of the loss, by residual: a column each.
+/// The contribution of each trajectory of this rank to the gradient of the loss, by residual: a column each.
 template <class Loss>
 std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;

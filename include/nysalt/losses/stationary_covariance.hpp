@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far the law that a thermostatted word keeps is from the Gibbs law, mode by mode and without data.
+// The distance of the stationary distribution of a thermostatted word from the Gibbs distribution, mode by
+// mode.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,20 +44,20 @@ struct mode_alone {
 }  // namespace detail
 
 /// On a mode of frequency omega > 0, x = omega q/sqrt(kT) and y = p/sqrt(kT) have the covariance 1 in the
-/// Gibbs law. A word steps them by (x, y) <- M (x, y) + normal noise, and its law at the end of a step has
-/// the covariance 1 + D that solves a discrete Lyapunov equation. The loss is the sum of D_xx^2 + 2 D_xy^2 +
-/// D_yy^2 over the modes: each gives the residuals D_xx, sqrt(2) D_xy and D_yy. They have no units, and
-/// depend on h omega and gamma h alone.
+/// Gibbs distribution. A word steps them by (x, y) <- M (x, y) + normal noise, and the distribution after a
+/// step has the covariance 1 + D that solves a discrete Lyapunov equation. The loss is the sum of D_xx^2 + 2
+/// D_xy^2 + D_yy^2 over the modes: each gives the residuals D_xx, sqrt(2) D_xy and D_yy. They have no units,
+/// and depend on h omega and gamma h only.
 ///
 /// Why these weights: but for third powers of D the loss is four times the Kullback-Leibler divergence of the
-/// word's law from the Gibbs law, and that adds up over modes. So a frequency that r modes share counts r
-/// times, and by Pinsker's inequality no observable of the modes errs by more than sqrt(loss/8) in total
-/// variation. Positions count as much as momenta, as they do in energies; for the law of positions alone
-/// BAOAB is exact at one evaluation. Where D vanishes no weight matters: for O/2 S O/2 and S O it does where
-/// S turns the circle x^2 + y^2 = 1, as O keeps it.
+/// word's distribution from the Gibbs distribution, and that adds up over modes. So a frequency that r modes
+/// share counts r times, and by Pinsker's inequality no observable of the modes errs by more than
+/// sqrt(loss/8) in total variation. Positions count as much as momenta, as they do in energies; for the
+/// distribution of positions only BAOAB is exact at one evaluation. Where D vanishes no weight matters: for
+/// O/2 S O/2 and S O it does where S turns the circle x^2 + y^2 = 1, as O keeps it.
 ///
-/// Modes of frequency zero are left out, as they have no stationary law of their own, and so is all that is
-/// not quadratic.
+/// Modes of frequency zero are left out, as they have no stationary distribution of their own, and so is all
+/// that is not quadratic.
 class stationary_covariance {
  public:
   /// Of the word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
@@ -73,16 +74,16 @@ class stationary_covariance {
     }
     if (multiplicity_of_.empty()) {
       throw std::invalid_argument(sentence(
-          "{} has no mode of a frequency above zero, hence none with a law of its own", describe(system)));
+          "covariance loss: {} must have a mode of a frequency above 0, and has none", describe(system)));
     }
     require_served<S, double>(word, system);
     split_at_bath();
   }
 
   /// Three for each distinct frequency, from the lowest up, times the root of its multiplicity.
-  /// Infinite where the word keeps no law: its spectral radius is not below 1, or a letter O goes back in
-  /// time. T is double or a dual of it. Cost: each letter twice for each frequency, on one number. Throws
-  /// std::invalid_argument unless there is a coefficient for each slot.
+  /// Infinite where the word has no stationary distribution: its spectral radius is not below 1, or a letter
+  /// O goes back in time. T is double or a dual of it. Cost: each letter twice for each frequency, on one
+  /// number. Throws std::invalid_argument unless there is a coefficient for each slot.
   template <Scalar T>
   std::vector<T> residuals(const std::vector<T>& coefficients) const {
     word_.require_one_for_each_slot(coefficients);
@@ -132,7 +133,7 @@ class stationary_covariance {
     return discrete_lyapunov(M, R);
   }
 
-  /// What letters without O make of (x, y), as the stepper does it.
+  /// The map of (x, y) by letters without O, as the stepper does it.
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
     const detail::mode_alone mode{omega};
@@ -151,7 +152,7 @@ class stationary_covariance {
   std::vector<piece> pieces_;
 };
 
-/// The loss as a function of theta alone, for a family with the letters of the loss.
+/// The loss as a function of theta only, for a family with the letters of the loss.
 objective objective_of(const stationary_covariance& loss, const run_time_family& family);
 
 }  // namespace nysalt

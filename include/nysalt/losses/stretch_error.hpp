@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the residuals of a stretch of steps are.
+// The residuals of a window of steps.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace nysalt {
 
-/// What a loss over data squares and adds up, of whatever kind: state_error(), energy_error(), own_error().
-/// The kind is no part of the type, as a pass over the data is dear to compile: one serves all kinds. It
-/// calls `of` once for each pack of stretches and each two parameters, which costs little beside their steps.
+/// Residuals of a loss over data, of any kind: state_error(), energy_error(), own_error().
+/// The kind is no part of the type, as a pass over the data is expensive to compile: one serves all kinds. It
+/// calls `of` once for each pack of windows and each two parameters, which costs little beside their steps.
 template <Scalar R = detail::lanes>
 struct stretch_error {
   using scalar = dual<R, directions_at_a_time>;       ///< residuals with their derivatives
   using data_point = phase_point<R, Eigen::Dynamic>;  ///< states of the data, in the lanes of R
   using point = phase_point<scalar, Eigen::Dynamic>;  ///< a state that the method comes to
 
-  std::size_t residuals;  ///< how many a stretch has
-  /// Writes r[0..residuals) of the stretch from start, which the method ends at finish, and the data at
+  std::size_t residuals;  ///< how many a window has
+  /// Writes r[0..residuals) of the window from start, which the method ends at finish, and the data at
   /// wanted. Called from several threads at a time.
   std::function<void(const data_point& start, const point& finish, const data_point& wanted, scalar* r)> of;
   /// Where weights are estimates from the data: row k, column m is what trajectory m adds to the relative

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Stretches of trajectories side by side in the lanes of a scalar, gathered once for many passes over the
+// Windows of trajectories in the lanes of a scalar, gathered once for many passes over the
 // data.
 #pragma once
 
@@ -19,24 +19,24 @@
 
 namespace nysalt {
 
-/// Stretches of some consecutive trajectories, as many in each entry as R has lanes; the last one fills what
+/// Windows of some consecutive trajectories, as many in each entry as R has lanes; the last one fills what
 /// is left of the last entry.
 template <Scalar R>
 struct stretches_in_lanes {
   static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
-  /// One stretch in each lane.
+  /// One window in each lane.
   struct entry {
-    phase_point<R, N> start;                ///< where the stretches begin
+    phase_point<R, N> start;                ///< where the windows begin
     std::vector<phase_point<R, N>> finish;  ///< where the data are at each time that counts
     std::vector<vector<R, N>> noise;        ///< that of each letter O of the word, step after step
   };
-  std::size_t first_trajectory;  ///< that of the first stretch, at this rank
-  std::size_t begin;             ///< number of the first stretch, as in stretch_starts
+  std::size_t first_trajectory;  ///< that of the first window, at this rank
+  std::size_t begin;             ///< number of the first window, as in stretch_starts
   std::size_t end;               ///< one more than that of the last
-  std::vector<entry> entries;    ///< all stretches, lane by lane
+  std::vector<entry> entries;    ///< all windows, lane by lane
 };
 
-/// The noise of entry m, as that of trajectory m of a run with so many letters O a step. Refers to the
+/// The noise of entry m, as that of trajectory m of a run with that number of letters O a step. Refers to the
 /// entries.
 template <Scalar R>
 struct noise_of_entries {
@@ -55,20 +55,20 @@ struct noise_of_entries {
   }
 };
 
-/// What the letters O of a word need of the noise in data.
+/// The noise in data that the letters O of a word need.
 struct wanted_noise {
   noise_intervals intervals;   ///< in the parts of the data
   double damping_of_part = 0;  ///< gamma times the length of a part
 };
 
-/// The pairs with which stretches of a number of steps begin, trajectory by trajectory. first_of is as in
+/// The pairs with which windows of a number of steps begin, trajectory by trajectory. first_of is as in
 /// flow_map_data.
 struct stretch_starts {
-  std::vector<std::size_t> pairs;        ///< where stretches begin
-  std::vector<std::size_t> first_of{0};  ///< trajectory m has stretches first_of[m] .. first_of[m + 1] - 1
+  std::vector<std::size_t> pairs;        ///< where windows begin
+  std::vector<std::size_t> first_of{0};  ///< trajectory m has windows first_of[m] .. first_of[m + 1] - 1
 
-  /// Of the stretches of so many steps that fit into trajectories of the data whose number, among those of
-  /// all ranks, `every` divides, and begin so far apart.
+  /// Of the windows of `steps` steps that fit into trajectories of the data whose number, among those of
+  /// all ranks, `every` divides, and begin `apart` steps apart.
   stretch_starts(const flow_map_data& data, std::size_t steps, std::size_t apart, std::int64_t every = 1) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       const bool counts = (data.share().first() + static_cast<std::int64_t>(m)) % every == 0;
@@ -122,7 +122,7 @@ stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_
 
 }  // namespace detail
 
-/// All stretches, with the data after these numbers of steps, in parts of whole trajectories that a thread
+/// All windows, with the data after these numbers of steps, in parts of whole trajectories that a thread
 /// can take: of some thousand steps or more, so that lanes are left idle for one in a hundred at most.
 template <Scalar R>
 std::vector<stretches_in_lanes<R>> gather_stretches(const flow_map_data& data, const stretch_starts& starts,

@@ -141,8 +141,8 @@ using omelyan_fg4 = classical<"omelyan_fg4">;
 /// them where h omega is near a multiple of pi.
 using impulse = classical<"impulse">;
 
-/// B(1/2) A(1/2) O A(1/2) B(1/2), one evaluation: exact in the law of q for harmonic systems, on which it is
-/// stable for h omega < 2.
+/// B(1/2) A(1/2) O A(1/2) B(1/2), one evaluation: exact in the distribution of q for harmonic systems, on
+/// which it is stable for h omega < 2.
 using baoab = classical<"baoab">;
 /// Two half steps of BAOAB: what every two-stage method in a bath must beat, at its cost.
 using baoab_2x = classical<"baoab_2x">;

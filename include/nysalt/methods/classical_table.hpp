@@ -43,7 +43,7 @@ struct classical_row {
 
 // clang-format off
 /// All of them, in the order in which the program lists them. Orders in a bath, of words with letters O, are
-/// weak ones; the invariant law's error is of that order too, or better.
+/// weak ones; the error of the invariant distribution is of that order too, or better.
 inline constexpr classical_row classical_table[] = {
     {"verlet", "BAB", palindrome<3>({}), 2, "verlet_1967"},
     {"verlet_aba", "ABA", palindrome<3>({}), 2, "verlet_1967"},
@@ -150,7 +150,7 @@ inline constexpr classical_row classical_table[] = {
 /// Classical kernels with processors P = B A B A ..., with which P(-h) K^n P(h)^-1 agrees with the flow to
 /// h^order for every n: 5 equations for the order 4, 11 for the order 6 [blanes_casas_ros_1999], which
 /// docs/notation.md lists. Of their solutions these have a small sum of squares. They are words as data
-/// alone.
+/// only.
 inline constexpr classical_row processed_table[] = {
     {.name = "takahashi_imada_processed", .letters = "AGA|BABABA",
      .coefficients = [] {

@@ -7,7 +7,7 @@
 
 namespace nysalt {
 
-/// What all symmetric compositions of drifts and kicks have in common; a method adds its name, order and
+/// Common members of all symmetric compositions of drifts and kicks; a method adds its name, order and
 /// coefficients.
 template <Flow Outer, Flow Inner, std::size_t Length>
 struct palindromic {

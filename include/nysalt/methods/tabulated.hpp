@@ -13,14 +13,14 @@
 
 namespace nysalt {
 
-/// What a method promises beside its coefficients.
+/// Declared properties of a method beside its coefficients.
 struct method_properties {
   int order;                        ///< in h, as declared
   bool symmetric;                   ///< whether a step back undoes a step
   bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
 
-/// A method as data: letters, coefficients and what it promises. Whatever comes from a file is one, and any
+/// A method as data: letters, coefficients and what it promises. A method from a file is one, and any
 /// other method can be made one, so that a program need not be compiled for each.
 /// A step costs what that of the type-level method does, and one decision a letter.
 class tabulated : public method_properties {

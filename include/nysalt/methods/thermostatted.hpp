@@ -18,7 +18,7 @@ template <placement P, Method M>
 class thermostatted_method {
  public:
   using word = thermostatted_word<typename M::word, P>;  ///< with letters O
-  /// Where the bath damps alone: 2 at most.
+  /// Where the bath has no noise: 2 at most.
   static constexpr int order = thermostatted_order(P, M::order, M::symmetric);
   static constexpr bool symmetric = P != placement::end && M::symmetric;  ///< not with O at the end
   static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;  ///< as without the bath

@@ -59,7 +59,7 @@ struct sine_and_cosine {
 }
 
 /// The pair's squared distance from 0, -2 log u: the upper 52 bits choose u = (k + 1/2)/2^52, which is exact
-/// and neither 0 nor 1. No pair lies farther out than 8.57; the law has 2^-53 there.
+/// and neither 0 nor 1. No pair lies farther out than 8.57; the distribution has 2^-53 there.
 [[gnu::always_inline]] inline pack<double> squared_distance(const words& bits) {
   const pack<double> one_to_two = ((bits >> 12) | bits_of_one).as_doubles();
   return minus_two_log(one_to_two - (1.0 - 0x1p-53));

@@ -19,12 +19,12 @@
 
 namespace nysalt {
 
-/// What a random number is for, so that no two uses share one.
+/// The purpose of a random number, so that no two uses share one.
 enum class noise_purpose : std::uint8_t {
   initial_state = 1,   ///< of a trajectory
   bath = 2,            ///< of a run
-  bath_halves = 3,     ///< which tell the two halves of a letter O apart
-  finer_path = 4,      ///< which tell the halves of a step of a path apart
+  bath_halves = 3,     ///< which split a letter O into halves
+  finer_path = 4,      ///< which split a step of a path into halves
   burn_in = 5,         ///< of the run that makes an initial state
   burn_in_halves = 6,  ///< as bath_halves, of that run
   search = 7,          ///< from where one begins
@@ -42,7 +42,7 @@ struct noise_counter {
   noise_purpose purpose{};       ///< what the numbers are for
 };
 
-/// How many slots hold so many numbers.
+/// The number of slots that hold n numbers.
 constexpr std::uint64_t slots_for(std::uint64_t numbers) { return numbers / 2 + numbers % 2; }
 
 namespace detail {
@@ -83,7 +83,7 @@ template <class T>
   }
 }
 
-/// The pairs of some slots, each with so many trajectories in its lanes, become the numbers from the first
+/// The pairs of some slots, each with one trajectory in each lane, become the numbers from the first
 /// on.
 template <int Trajectories, class T>
 [[gnu::always_inline]] inline void copy_pairs(const std::array<pack<double>, 2>& pairs, std::span<T> out,
@@ -98,8 +98,8 @@ template <int Trajectories, class T>
 
 }  // namespace detail
 
-/// Independent standard normal numbers, a pure function of seed and counter, whatever T, the number of
-/// numbers and the order of calls: Philox 4x32-10 with the seed as its key [salmon_2011], then Box and
+/// Independent standard normal numbers, a pure function of seed and counter, independent of T, of the number
+/// of numbers and of the order of calls: Philox 4x32-10 with the seed as its key [salmon_2011], then Box and
 /// Muller's formula on uniform numbers of 52 bits. out[i] is number i % 2 of slot first.slot + i/2; lane l of
 /// a pack belongs to trajectory first.trajectory + l. The counter's words of 32 bits are
 ///   trajectory mod 2^32,  trajectory div 2^32 + 2^16 (step div 2^32),  step mod 2^32,  slot + 2^24 purpose.
@@ -113,7 +113,7 @@ template <class T>
   // All lanes of words are filled: with trajectories, and with several slots if these are few.
   constexpr int trajectories = std::min(static_cast<int>(std::bit_ceil(unsigned{lanes})), words::lanes);
   constexpr int slots = words::lanes / trajectories;
-  constexpr std::size_t most = 8;  // registers at a time: more than the processor looks ahead
+  constexpr std::size_t most = 8;  // registers at a time: more than the processor reorders
   const std::uint64_t needed = slots_for(out.size());
   detail::check_counter(first, lanes, needed);
 

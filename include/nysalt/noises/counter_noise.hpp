@@ -9,7 +9,7 @@
 namespace nysalt {
 
 /// Fresh noise: a pure function of seed, trajectory, step and letter. Two runs with one seed see the same
-/// numbers at the same places, whatever lanes, threads and order.
+/// numbers at the same places, for any lanes, threads and order.
 class counter_noise {
  public:
   static constexpr bool draws_freely = true;

@@ -8,7 +8,7 @@
 
 namespace nysalt {
 
-/// Fresh noise of some step, told again for that step halved k times: the same path, seen more finely. With
+/// Fresh noise of some step, for that step halved k times: the same path, seen more finely. With
 /// a = e^{-gamma h} of the half step h, and zeta further numbers, the halves of xi are
 ///   xi_1 = (a xi + zeta)/sqrt(1 + a^2),  xi_2 = (xi - a zeta)/sqrt(1 + a^2).
 /// Of words with one letter O.

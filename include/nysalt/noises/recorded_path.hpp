@@ -19,7 +19,7 @@ namespace nysalt {
 /// Standard normal numbers of n consecutive intervals become those of all of them in one: with a the decay of
 /// one interval, exp(-gamma tau),
 ///   xi = sqrt((1 - a^2)/(1 - a^{2 n})) sum_{j = 1..n} a^{n - j} xi_j,
-/// so that the noise of O is the same exactly, whatever sigma [li_lu_tao_ye_2023, equation (3.11), with the
+/// so that the noise of O is the same exactly, for any sigma [li_lu_tao_ye_2023, equation (3.11), with the
 /// exponent that does not reverse time].
 class coarse_graining {
  public:
@@ -86,7 +86,7 @@ class recorded_path {
   std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< number of the one after the last
 
   void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of interval end()
-  /// Forgets the intervals before that number: whoever goes along the path in stretches keeps little of it.
+  /// Forgets the intervals before that number: a reader that advances in intervals keeps little of the path.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());
     normals_.erase(normals_.begin(), normals_.begin() + (known - begin_));

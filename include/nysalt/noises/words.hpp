@@ -12,7 +12,7 @@
 namespace nysalt::detail {
 
 /// Unsigned integers in lanes, with what random bits need; + wraps. There are as many lanes as in
-/// pack<double>, whatever scalar the normals are for: two registers, which hide each other's latency.
+/// pack<double>, for normals of any scalar: two registers, which hide each other's latency.
 class words {
  public:
   using doubles = pack<double>;

@@ -17,7 +17,7 @@ namespace nysalt {
 
 /// The exact flow of a linear system, mode by mode: x(t) = cos(w t) x + sin(w t)/w y,
 /// y(t) = -w sin(w t) x + cos(w t) y with x = U^T M^{1/2} q, y = U^T M^{-1/2} p. Its error is rounding.
-/// It is the flow of one linear system and refuses any other, as nothing else would tell the error.
+/// It is the flow of one linear system and refuses any other, as the error would not be noticed otherwise.
 class exact_linear {
  public:
   // Not of itself, first of all: whether that is a system depends on whether it can be copied.

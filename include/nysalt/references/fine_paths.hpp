@@ -16,8 +16,8 @@
 
 namespace nysalt {
 
-/// Paths of a system in a bath in small steps, with their noise in larger ones. Its error is what a finer one
-/// along the same path tells.
+/// Paths of a system in a bath in small steps, with their noise in larger ones. Its error is the difference
+/// from a finer one along the same path.
 template <Method M = baoab>
 class fine_paths {
   static_assert(M::word::stochastic_letters == 1, "nysalt: fine paths need a method with one letter O");
@@ -27,7 +27,7 @@ class fine_paths {
   explicit fine_paths(double step, const M& method = M{}) : fine_paths(step, method, 0) {}
 
   /// x becomes the state a time t later on its path, the `at.step`-th such time of it; xi[k] become the
-  /// standard normal numbers of the noise over the k-th of so many equal parts of that time. Throws
+  /// standard normal numbers of the noise over the k-th of as many equal parts of that time. Throws
   /// std::invalid_argument unless each part is a positive multiple of the step, to 1e-9 relative.
   template <HasBath S, Scalar T>
   void advance(const S& system, phase_point<T, S::dimension>& x, double t, const path_place& at,

@@ -14,7 +14,7 @@ namespace nysalt {
 ///
 /// Odeint hands the state out after each step and may change it, so every step is a plain one: nothing is
 /// merged, and a word that begins and ends with a kick costs one evaluation more than in our own loop.
-/// A tuned method looks at each step whether it may take it.
+/// A tuned method checks at each step that it may take the step.
 template <Method M>
 class odeint_stepper {
  public:

@@ -28,7 +28,7 @@ struct dense_polynomial {
   }
   friend dense_polynomial operator*(double c, dense_polynomial a) { return a *= c; }
 
-  /// What is left of the value at x, divided by x^first, without the terms below x^first.
+  /// The value at x, divided by x^first, without the terms below x^first.
   double tail(std::size_t first, double x) const {
     double sum = 0.0;
     for (std::size_t k = coefficient.size(); k-- > first;) sum = sum * x + coefficient[k];

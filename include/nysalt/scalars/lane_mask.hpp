@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Which lanes of a pack.
+// A set of lanes of a pack.
 #pragma once
 
 #include <array>

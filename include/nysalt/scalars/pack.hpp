@@ -16,7 +16,7 @@ namespace nysalt {
 
 /// W lanes of T = double. Every operation acts lane by lane and rounds as it does for double, so that lane k
 /// of a step over packs has the bits of a step over double. Elementary functions but sqrt are libm's, one
-/// lane after the other. A double next to a pack stands for all its lanes.
+/// lane after the other. A double next to a pack means the same value in all lanes.
 template <class T, int W = default_lanes>
   requires(std::same_as<T, double> && 1 <= W && W <= 16)
 class pack {

@@ -17,7 +17,7 @@ template <System S>
 struct counted : S {
   explicit counted(const S& system) : S(system) {}  ///< counts from 0
 
-  /// One evaluation. Of a black box it is over double alone, so that each call that differences make counts.
+  /// One evaluation. Of a black box it is over double only, so that each call that differences make counts.
   template <class T>
     requires(BlackBoxForce<S> ? std::is_same_v<T, double> : SystemOver<S, T>)
   void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {

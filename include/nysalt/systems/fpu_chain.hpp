@@ -97,7 +97,7 @@ class fpu_chain {
     }
   }
 
-  /// The force of the soft bonds alone.
+  /// The force of the soft bonds only.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     T left = quartic_pull(q[0]);

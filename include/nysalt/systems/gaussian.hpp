@@ -15,9 +15,10 @@
 
 namespace nysalt {
 
-/// Independent oscillators of unit mass, V = sum over i of omega_i^2 q_i^2/2: exp(-V/kT) is the normal law
-/// with the deviations sqrt(kT)/omega_i. For sampling in any dimension: a force costs one multiplication a
-/// coordinate, and there is no matrix of modes (harmonic_oscillator and linear_chain have one).
+/// Independent oscillators of unit mass, V = sum over i of omega_i^2 q_i^2/2: exp(-V/kT) is the normal
+/// density with the deviations sqrt(kT)/omega_i. For sampling in any dimension: a force costs one
+/// multiplication a coordinate, and there is no matrix of modes (harmonic_oscillator and linear_chain have
+/// one).
 class gaussian {
  public:
   static constexpr int dimension = Eigen::Dynamic;

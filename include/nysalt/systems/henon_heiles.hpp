@@ -24,7 +24,7 @@ struct henon_heiles {
     f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];
   }
 
-  /// The force of the cubic part alone.
+  /// The force of the cubic part only.
   template <class T>
   void soft_force(const vector<T, 2>& q, vector<T, 2>& f) const {
     f[0] = q[0] * q[1] * -2.0;

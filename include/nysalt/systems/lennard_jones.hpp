@@ -35,7 +35,8 @@ class lennard_jones {
       throw std::invalid_argument(sentence("lennard_jones: space has 2 or 3 dimensions, not {}", space));
     }
     if (atoms < 2 || (Atoms != Eigen::Dynamic && atoms != Atoms)) {
-      throw std::invalid_argument(sentence("lennard_jones: cannot be of {} atoms", atoms));
+      throw std::invalid_argument(
+          sentence("lennard_jones: atoms must be >= 2, and those of the type, got {}", atoms));
     }
   }
 

@@ -88,7 +88,7 @@ class logistic_regression {
     }
   }
 
-  /// From that of the prior alone to the bound by which no curvature is larger.
+  /// From that of the prior to the bound by which no curvature is larger.
   std::vector<frequency_band> frequency_bands() const { return {{std::sqrt(precision_), fastest_}}; }
   /// Made once: it takes all the data.
   std::string description() const { return description_; }

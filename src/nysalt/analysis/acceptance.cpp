@@ -38,9 +38,8 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
   }
   if (is_even) return;
   throw std::invalid_argument(sentence(
-      "acceptance: the kinetic energy must be even, K(-p) = K(p), and at start {} it is not: with p -> -p "
-      "the "
-      "motion does not run back, and Hybrid Monte Carlo would sample another law; take a K that is even",
+      "acceptance: the kinetic energy must be even, K(-p) = K(p), and at initial state {} is not; take a K "
+      "that is even, or Hybrid Monte Carlo samples another distribution",
       m));
 }
 

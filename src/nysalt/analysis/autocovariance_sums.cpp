@@ -11,7 +11,7 @@ namespace nysalt {
 std::size_t checked_lags(int lags) {
   constexpr int most = 100'000;
   if (1 <= lags && lags <= most) return static_cast<std::size_t>(lags);
-  throw std::invalid_argument(fmt::format("autocovariance: {} lags cannot be, take 1 to {}", lags, most));
+  throw std::invalid_argument(fmt::format("autocovariance: lags must be 1 to {}, got {}", most, lags));
 }
 
 }  // namespace nysalt

@@ -16,7 +16,7 @@
 
 namespace nysalt {
 
-/// How far methods may share noise with a reference: in how many parts of a step it is told, and whose.
+/// The noise that methods share with a reference: in how many parts of a step, and of which reference.
 struct shared_noise {
   int parts = 0;           ///< 0: there is none
   std::uint64_t seed = 0;  ///< of the noise
@@ -24,7 +24,7 @@ struct shared_noise {
 };
 
 /// Methods beside the reference, from the same starts and with its noise; one trajectory in each lane. All
-/// measures look at the same runs.
+/// measures read the same runs.
 template <class T>
 class compared_block {
  public:
@@ -54,7 +54,7 @@ class compared_block {
   compared_block(const compared_block&) = delete;
   compared_block& operator=(const compared_block&) = delete;
 
-  /// Follows the reference and all methods, a stretch after the other, so that no path is kept.
+  /// Follows the reference and all methods, one interval after the other, so that no path is kept.
   void run(std::int64_t steps) {
     const auto read = [&](const state& x, std::span<T> numbers) { measures_.read(x, numbers); };
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
@@ -99,7 +99,7 @@ class compared_block {
   joined_measures measures_;
   double step_;
   sample_weights weights_;
-  path_type path_;  // of the stretch at hand
+  path_type path_;  // of the present interval
   compared_reference<T> reference_;
   std::vector<stepper_type> steppers_;
   std::vector<watched_run> runs_;

@@ -17,7 +17,7 @@
 
 namespace nysalt {
 
-/// On how many of the trajectories at hand, from the first on, a reference is compared with itself.
+/// On how many of the trajectories, from the first on, a reference is compared with itself.
 struct reference_checks {
   int finer = 0;                            ///< with its finer self
   int perturbed = 0;                        ///< with itself from perturbed starts
@@ -25,16 +25,16 @@ struct reference_checks {
   bool null_model = false;                  ///< whether that is compared too, on all trajectories
 };
 
-/// What measures expect along trajectories side by side: the numbers of the reference, or those at the start.
-/// Beside them go the reference's finer self, one from perturbed starts on the same noise, and the null model
-/// in which all stays as it was at the start; each only as far as it is wanted.
+/// Expected values of measures along trajectories in lanes: the numbers of the reference, or those at the
+/// start. Beside them go the reference's finer self, one from perturbed starts on the same noise, and the
+/// null model in which all stays as it was at the start; each only as far as it is wanted.
 template <class T>
 class compared_reference {
  public:
   using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
-  /// Refers to all but the start, and to itself. The noise is added to the path in so many parts of a step.
+  /// Refers to all but the start, and to itself. The noise is added to the path in `parts` parts of a step.
   compared_reference(const model& system, const detail::reference_value& reference,
                      std::span<const error_measure> measures, double step, const state& start, int count,
                      const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
@@ -82,7 +82,7 @@ class compared_reference {
     }
   }
 
-  /// What measure i expects at sample n of the last stretch.
+  /// The expected values of measure i at sample n of the last interval.
   std::span<const T> expected(std::size_t i, std::int64_t n) const {
     return measures_.reads(i) ? seen_by(*reference_, i, n) : std::span<const T>(at_start_[i]);
   }

@@ -24,12 +24,12 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
         steps * word.force_derivatives);
   }
   const model watched = system.separate();
-  const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // whatever noise
+  const auto stepper = make_stepper(watched, method, step, counter_noise(0));  // any noise
   auto run = stepper.open(start);
   std::int64_t before_last = watched.calls();
   for (std::int64_t n = 0; n < std::min<std::int64_t>(steps, 2); ++n) {
     before_last = watched.calls();
-    stepper.advance(run, 1);  // the first may find no force at hand
+    stepper.advance(run, 1);  // before the first no force may be known
   }
   const std::int64_t more = std::max<std::int64_t>(steps - 2, 0) * (watched.calls() - before_last);
   stepper.synchronous(run);

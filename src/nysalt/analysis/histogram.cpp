@@ -17,9 +17,8 @@ histogram::histogram(const equal_bins& bins) : bins_(bins), per_width_(1.0 / bin
   const bool sound = bins.low < bins.high && std::isfinite(per_width_) && per_width_ > 0.0;
   if (!sound || bins.count < 1 || bins.count > most) {
     throw std::invalid_argument(
-        fmt::format("histogram: {} bins from {} to {}: cannot be, take 1 to {} bins "
-                    "between finite numbers that rise",
-                    bins.count, bins.low, bins.high, most));
+        fmt::format("histogram: count must be 1 to {}, and low < high and finite, got {} bins from {} to {}",
+                    most, bins.count, bins.low, bins.high));
   }
   counts_.resize(static_cast<std::size_t>(bins.count) + 2);
 }
@@ -66,9 +65,9 @@ std::vector<double> histogram::density() const {
 
 void histogram::require_bins_of(const histogram& other) const {
   if (bins_ == other.bins_) return;
-  throw std::invalid_argument(
-      fmt::format("histograms of {} bins from {} to {} and of {} from {} to {} cannot be joined or compared",
-                  bins_.count, bins_.low, bins_.high, other.bins_.count, other.bins_.low, other.bins_.high));
+  throw std::invalid_argument(fmt::format(
+      "histogram: both must have the same bins, got {} bins from {} to {} and {} bins from {} to {}",
+      bins_.count, bins_.low, bins_.high, other.bins_.count, other.bins_.low, other.bins_.high));
 }
 
 }  // namespace nysalt

@@ -10,10 +10,10 @@
 
 namespace nysalt {
 
-/// Several measures that look at the same states: the numbers of all lie one after the other.
+/// Several measures that read the same states: the numbers of all lie one after the other.
 class joined_measures {
  public:
-  /// All of them, or those alone that need a reference: of the others then nothing is read.
+  /// All of them, or only those that need a reference: of the others then nothing is read.
   enum class which { all, of_reference };
 
   /// Refers to the measures.
@@ -27,7 +27,7 @@ class joined_measures {
 
   std::size_t size() const { return measures_.size(); }                          ///< number of measures
   const error_measure& operator[](std::size_t i) const { return measures_[i]; }  ///< measure i
-  /// How many numbers are read of a state.
+  /// Number of values that are read of a state.
   std::size_t width() const { return begins_.back(); }
   /// Whether anything is read for measure i.
   bool reads(std::size_t i) const { return begins_[i + 1] > begins_[i]; }

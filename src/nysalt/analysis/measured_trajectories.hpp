@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is left of trajectories that were compared.
+// Scores of all trajectories by one measure, gathered over the ranks.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace nysalt::detail {
 
-/// What is left of all trajectories by one measure.
+/// Scores of all trajectories by one measure.
 struct measured_trajectories {
   /// Nothing yet.
   measured_trajectories(std::size_t methods, std::size_t trajectories, std::size_t checked, bool null,
@@ -19,8 +19,8 @@ struct measured_trajectories {
 
   /// Each rank has filled in its own, and all get all. The few that checks are of are in the first leaf.
   void gather(const shard& own);
-  /// What all come to. Throws std::invalid_argument where what errors are relative to is 0, or a scale is of
-  /// both signs.
+  /// Summary over all trajectories. Throws std::invalid_argument where what errors are relative to is 0, or a
+  /// scale is of both signs.
   trajectory_errors_result summary(const error_measure& measure, const std::string& reference) const;
 
   std::vector<std::vector<run_score>> runs;  // of each method

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What measures read along a reference.
+// Readings of measures along a reference.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace nysalt {
 
-/// What measures read along a reference, a stretch of samples at a time; one trajectory in each lane. In a
-/// bath the noise of that stretch is kept for those who follow.
+/// Readings of measures along a reference, an interval of samples at a time; one trajectory in each lane. In
+/// a bath the noise of that interval is kept for the methods that follow.
 template <class T>
 class reference_along {
  public:
@@ -28,7 +28,7 @@ class reference_along {
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< noise, in parts of a step
 
   /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
-  /// place's. The noise of each step is added to the path in so many parts.
+  /// place's. The noise of each step is added to the path in `parts` parts.
   reference_along(const model& system, const detail::reference_value& reference,
                   const joined_measures& measures, const state& start, int count, const path_place& at = {},
                   path_type* path = nullptr, int noise_parts = 0)
@@ -46,7 +46,7 @@ class reference_along {
   void go_on(double step, std::int64_t samples) {
     const std::size_t width = measures_->width();
     numbers_.resize(static_cast<std::size_t>(samples) * width);
-    // A letter O that ends the step before the stretch is still to come.
+    // A letter O that ends the step before the interval is still to come.
     if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
     for (std::int64_t i = 0; i < samples; ++i) {
       if (!flow_) flow_ = reference_->template prepare<T>(*system_, step);
@@ -59,7 +59,7 @@ class reference_along {
     }
   }
 
-  /// The numbers of sample i of the last stretch.
+  /// The numbers of sample i of the last interval.
   std::span<const T> at(std::int64_t i) const {
     const std::size_t width = measures_->width();
     return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);

@@ -30,7 +30,7 @@ tail tail_of(std::span<const double> numbers) {
   const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); });
   const double third = mean_of([&](double x) { return (x - mean) * (x - mean) * (x - mean); });
   result.deciding = result.count * mean * mean / (variance + mean * mean);
-  // What differs by rounding alone is equal: half a unit in the last place of each number and of the mean.
+  // What differs only by rounding is equal: half a unit in the last place of each number and of the mean.
   const double deviation = std::sqrt(variance);
   if (deviation > std::numeric_limits<double>::epsilon()) {
     result.skewness = third / (variance * deviation);

@@ -17,7 +17,7 @@ namespace nysalt::detail {
 
 namespace {
 
-/// Of so many coordinates each is looked along.
+/// Up to this number of coordinates each is a direction of a check.
 constexpr Eigen::Index looked_along_singly = 64;
 
 /// Along coordinates, each as far as its length, or four at random, the same at every point. A defect d of
@@ -220,7 +220,7 @@ class force_examination {
 
 }  // namespace
 
-/// At all points; what fails is looked at once more a little beside them.
+/// At all points; what fails is checked once more at a small distance from them.
 force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
                         const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen) {
   if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");

@@ -50,8 +50,8 @@ std::string force_check::objection() const {
   }
   if (soft_defect > kick_tolerance) {
     return fmt::format(
-        "the soft_force is not the force without the quadratic part that modes() tell: {} is off by {:.2e} "
-        "of the largest force; check both",
+        "the soft_force is not the force without the quadratic part that modes() declares: {} is off by "
+        "{:.2e} of the largest force; check both",
         where(soft_coordinate), soft_defect);
   }
   if (derivative_defect > derivative_tolerance) {

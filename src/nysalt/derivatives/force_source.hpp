@@ -15,7 +15,7 @@
 
 namespace nysalt::detail {
 
-/// What a model says of its force, and derivatives of it: automatic ones, or differences.
+/// The force of a model, and derivatives of it: automatic ones, or differences.
 class force_source {
  public:
   using column = Eigen::VectorXd;

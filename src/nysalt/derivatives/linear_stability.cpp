@@ -207,7 +207,7 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
     }
   }
   std::sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  // A double root of the slope may look like two. In 1e-6 of x, values between two extrema change by its
+  // A double root of the slope may seem to be two. In 1e-6 of x, values between two extrema change by its
   // cube.
   for (std::size_t i = 0; i + 1 < ends.size();) {
     const bool is_pair = ends[i].is_extremum && ends[i + 1].is_extremum;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How long, with what friction and what step chains must run until they have forgotten their starts.
+// Burn-in of chains: length, friction and step with which they forget their starts.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace nysalt {
 
 namespace detail {
 
-/// Throws std::invalid_argument if an option cannot be.
+/// Throws std::invalid_argument if an option is out of range.
 void require_burn_in(const burn_in_options& options);
 /// Throws std::runtime_error where a discrepancy of number i shows; `what` says what it is.
 void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
@@ -32,7 +32,7 @@ template <class T>
 class burn_in_search {
  public:
   /// Of chains that start at states of `from`, of a system that comes without its bath; refers to both.
-  /// Throws std::invalid_argument if an option cannot be.
+  /// Throws std::invalid_argument if an option is out of range.
   burn_in_search(const model& alone, double temperature, const initial_states& from,
                  const burn_in_options& options)
       : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {

@@ -15,7 +15,7 @@
 namespace nysalt {
 
 /// BAOAB with noise of its own purpose: the numbers of (seed, chain, step) and no other run's. Momenta are
-/// drawn from Maxwell's law p_i ~ N(0, m_i kT) where that is asked for.
+/// drawn from Maxwell's distribution p_i ~ N(0, m_i kT) where that is asked for.
 class burn_in_chains {
  public:
   /// BAOAB on the system in the chains' bath.
@@ -40,7 +40,7 @@ class burn_in_chains {
     return {stepper_, start, count, first};
   }
 
-  /// Draws momenta from Maxwell's law, with the noise of a step; lane 0 is chain `first`.
+  /// Draws momenta from Maxwell's distribution, with the noise of a step; lane 0 is chain `first`.
   template <class T>
   void draw_momenta(phase_point<T, Eigen::Dynamic>& x, std::int64_t first, std::int64_t step) const {
     constexpr int after_the_letter = 1;

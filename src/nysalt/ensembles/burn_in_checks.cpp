@@ -20,7 +20,7 @@ void detail::require_burn_in(const burn_in_options& options) {
   sound("length", options.length);
   if (options.pilots >= 16 && options.pilots <= 100'000 && options.most_steps >= 1) return;
   throw std::invalid_argument(
-      fmt::format("gibbs: {} pilots of at most {} steps: cannot be; take 16 to 100000", options.pilots,
+      fmt::format("gibbs: pilots must be 16 to 100000 and most_steps >= 1, got {} and {}", options.pilots,
                   options.most_steps));
 }
 

@@ -22,7 +22,7 @@ inline std::optional<double> highest_frequency(const model& system) {
 inline double step_of_frequency(const model& system, double z, const char* who) {
   if (const auto omega = highest_frequency(system)) return z / *omega;
   throw std::invalid_argument(sentence(
-      "{}: the step has no default, for {} tells no frequency_bands(); give one", who, describe(system)));
+      "{}: the step has no default, as {} has no frequency_bands(); give a step", who, describe(system)));
 }
 
 }  // namespace nysalt

@@ -49,7 +49,7 @@ import numpy as np
 
 try:
     from ase.md.md import MolecularDynamics
-@BATH_IMPORT@except ImportError:  # for the self-test alone
+@BATH_IMPORT@except ImportError:  # for the self-test only
     MolecularDynamics = object
 @BATH_STANDS_IN@
 LETTERS = "@LETTERS@"

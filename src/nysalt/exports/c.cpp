@@ -32,7 +32,7 @@ typedef struct {
             {"BATH_TEST", ", &bath"}});
   return fill(R"(@HEADER@//
 @EXPLAINED@
-// A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish
+// A run is start once, steps, and finish on a copy of q and p that is observed; without a processor start and finish
 // do nothing. A force that is known is not evaluated again, also from step to step.
 // Test: cc -DNYSALT_SELF_TEST FILE -lm && ./a.out
 #include <math.h>

@@ -22,7 +22,7 @@ exported_letters composition_in_bath_of(const exported_method& method, const std
   const exported_letters all = kernel_of(method);
   if (method.method.letters().is_processed()) {
     refuse_export(
-        "export: {} has a processor, and {} takes a list of letters alone: export to c, cpp, fortran, "
+        "export: {} has a processor, and {} takes a list of letters only: export to c, cpp, fortran, "
         "python or julia, or take the method without the processor",
         method.method.name(), host);
   }
@@ -49,7 +49,7 @@ exported_letters composition_in_bath_of(const exported_method& method, const std
 exported_letters composition_of(const exported_method& method, const std::string& host) {
   if (has_bath(method)) {
     refuse_export(
-        "export: {} has letters O, of a bath, and {} takes drifts and kicks alone: take the method without "
+        "export: {} has letters O, of a bath, and {} takes drifts and kicks only: take the method without "
         "a bath, or export to c, cpp, fortran, python, julia, jax, ase, openmm or lammps",
         method.method.name(), host);
   }

@@ -20,7 +20,7 @@ exported_letters composition_in_bath_of(const exported_method& method, const std
 /// Whether it reads the same from both ends, to rounding: the coefficients of schemes are sums.
 bool is_palindrome(const exported_letters& word);
 
-/// Drifts and kicks as stages of two letters, zero where a stage has one alone; the letters that are `first`
+/// Drifts and kicks as stages of two letters, zero where a stage has only one; the letters that are `first`
 /// in a stage, and the others.
 std::pair<std::vector<double>, std::vector<double>> in_stages(const exported_letters& word, char first);
 

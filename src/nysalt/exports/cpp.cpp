@@ -31,7 +31,7 @@ std::string export_to_cpp(const exported_method& method) {
             {"BATH_TEST", ", 1.5, 0.7, sines{0}"}});
   return fill(R"(@HEADER@//
 @EXPLAINED@
-// A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish
+// A run is start once, steps, and finish on a copy of q and p that is observed; without a processor start and finish
 // do nothing. A force that is known is not evaluated again, also from step to step.
 // Test: c++ -DNYSALT_SELF_TEST -x c++ FILE && ./a.out
 #ifndef NYSALT_@NAME@_HPP

@@ -22,15 +22,15 @@ struct exported_letters {
   std::string letters;               ///< A, B, D and O
   std::vector<double> coefficients;  ///< one for A, B and O; b and c for D
 
-  /// How many of them are `letter`.
+  /// Number of letters `letter`.
   std::size_t count(char letter) const;
 };
 
 /// The kernel that is stepped.
 exported_letters kernel_of(const exported_method& method);
-/// What acts before the first step; empty without a processor.
+/// The word before the first step; empty without a processor.
 exported_letters start_of(const exported_method& method);
-/// What acts on a copy of the state that is looked at; empty without a processor.
+/// The word on a copy of the state that is observed; empty without a processor.
 exported_letters finish_of(const exported_method& method);
 
 /// Whether the method has letters O, of a bath.
@@ -42,7 +42,7 @@ exported_method with_displaced_kicks(const exported_method& method);
 
 /// The pinned problem of self-tests: two coupled oscillators with the masses 1 and 2,
 /// f = (-q1 - 2 q1 q2, -q2 - q1^2 + q2^2), from q = (0.3, 0.2), p = (0.1, -0.25), 10 steps of 0.1; letters O
-/// in a bath of friction 1.5 and kT 0.7, where sin(1), sin(2), ... stand for normal numbers, in the order in
+/// in a bath of friction 1.5 and kT 0.7, where sin(1), sin(2), ... replace normal numbers, in the order in
 /// which they are drawn.
 struct self_test {
   std::vector<double> q, p;  ///< where nysalt's own stepper ends

@@ -60,7 +60,7 @@ std::string export_to_fortran(const exported_method& method) {
             {"BATH_TEST", ", 1.5d0, 0.7d0, sines"}});
   return fill(R"(@HEADER@!
 @EXPLAINED@
-! A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish do
+! A run is start once, steps, and finish on a copy of q and p that is observed; without a processor start and finish do
 ! nothing. A force that is known is not evaluated again, also from step to step.
 ! Test: a program of three lines: use nysalt_@NAME@; call self_test(off); print *, off
 module nysalt_@NAME@

@@ -49,7 +49,7 @@ import numpy as np
 
 try:
     import jax.numpy as jnp
-except ImportError:  # for the self-test alone
+except ImportError:  # for the self-test only
     jnp = np
 
 LETTERS = "@KERNEL@"

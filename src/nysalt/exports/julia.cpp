@@ -26,7 +26,7 @@ std::string export_to_julia(const exported_method& method) {
        {"BATH_TEST", ", 1.5, 0.7, sines"}});
   return fill(R"(@HEADER@#
 @EXPLAINED@
-# A run is start! once, steps!, and finish! on a copy of q and p that is looked at; without a processor start! and
+# A run is start! once, steps!, and finish! on a copy of q and p that is observed; without a processor start! and
 # finish! do nothing. A force that is known is not evaluated again, also from step to step.
 # Test: julia -e 'include("FILE"); exit(nysalt_@NAME@.self_test() < 1e-13 ? 0 : 1)'
 module nysalt_@NAME@

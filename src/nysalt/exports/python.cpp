@@ -28,7 +28,7 @@ std::string export_to_python(const exported_method& method) {
         "range(*shape)])"}});
   return fill(R"(@HEADER@#
 @EXPLAINED@
-# A run is start once, steps, and finish on a copy of q and p that is looked at; without a processor start and finish do
+# A run is start once, steps, and finish on a copy of q and p that is observed; without a processor start and finish do
 # nothing. A force that is known is not evaluated again, also from step to step.
 # Test: python3 FILE
 import numpy as np

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What cannot be exported, in one line.
+// Refusals of exports, in one line.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whether starts are outside of the energies that were learned on by chance alone.
+// A test whether starts are outside of the energies that were learned on, or outside by chance.
 #include "nysalt/learning/energies_outside.hpp"
 
 #include <fmt/format.h>

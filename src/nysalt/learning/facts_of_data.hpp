@@ -19,11 +19,11 @@ double error_of_reference(const flow_map_data& data, const metric& measure);
 /// The number of steps of the shortest trajectory.
 int shortest_of(const flow_map_data& data);
 
-/// The mean over stretches and times of each squared residual of the distance from where a stretch begins.
+/// The mean over windows and times of each squared residual of the distance from where a window begins.
 Eigen::VectorXd motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how);
 
-/// The stages of a search look at some of the trajectories alone, 16 at least, where all have more
-/// coordinates together than tell where minima lie: a hundred trajectories of a dozen.
+/// The stages of a search use only some of the trajectories, 16 at least, where all have more
+/// coordinates together than are needed to find minima: a hundred trajectories of a dozen.
 int trajectories_apart(const flow_map_data& data, Eigen::Index coordinates);
 
 }  // namespace nysalt::detail

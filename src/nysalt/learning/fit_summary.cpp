@@ -23,7 +23,7 @@ std::string fit_summary::verdict_in_words() const {
 std::string fit_summary::what_to_take() const {
   if (rival == "equal steps") return "take a method of one evaluation with smaller steps";
   if (rival == "phase_fitted") {
-    return "the member of this family that follows from the highest frequency alone is as good";
+    return "the member of this family that follows from only the highest frequency is as good";
   }
   if (const auto times = rival.find(" x "); times != std::string::npos) {
     const double n = std::stod(rival.substr(0, times));

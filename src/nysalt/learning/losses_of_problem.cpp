@@ -40,7 +40,7 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
   const bool has_several_steps = is_of_trajectories && shortest > 1;
   bool has_all = false;  // the last stage
   for (auto stage : stages) {
-    // Two stretches a trajectory tell where minima lie.
+    // Two windows a trajectory show where minima lie.
     const int apart = is_of_trajectories ? std::max(stage.apart, whole / 2) : stage.apart;
     has_all = every == 1 && apart == stage.apart;
     stage.every = every;

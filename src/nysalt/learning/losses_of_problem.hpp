@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What of a problem of learning depends on the loss, and on how many steps it looks at.
+// The parts of a problem of learning that depend on the loss and on its number of steps.
 #pragma once
 
 #include <cstdint>

@@ -54,9 +54,9 @@ void require_name(const std::string& name) {
   if (!name.empty() && !is_taken && name.find_first_of("\n\r") == std::string::npos) return;
   const auto last = taken.back();
   taken.pop_back();
-  throw std::invalid_argument(fmt::format(
-      "learn: an own loss cannot be called '{}': take a name of one line that is none of {} and {}", name,
-      fmt::join(taken, ", "), last));
+  throw std::invalid_argument(
+      fmt::format("learn: the name of an own loss must be one line and none of {1} and {2}, got '{0}'", name,
+                  fmt::join(taken, ", "), last));
 }
 
 /// Where a word has its letters O; nothing if it has none, or not as placement says.
@@ -74,7 +74,7 @@ stability_guard guard_along(const model& system, const flow_map_data& data, cons
                             bool rotations, const fit_options& options) {
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
-  // Over ten thousand steps, as at first: what grows more slowly a trial run tells.
+  // Over ten thousand steps, as at first: what grows more slowly a trial run shows.
   constexpr std::int64_t most_steps = 10'000;
   return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
 }

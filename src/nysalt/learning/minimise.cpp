@@ -129,7 +129,7 @@ minimum minimise(const objective& loss, const std::function<bool(const Eigen::Ve
   minimum found{start};
   if (free.empty()) {
     found.loss = loss(start).value;
-    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // nobody asks in which direction
+    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // the direction is not needed
     found.converged = true;
     return found;
   }

@@ -34,11 +34,12 @@ std::string objection(const fit_summary& fit, bool settled, const std::string& i
                        one_step_loss);
   }
   if (!instability.empty()) return instability;
-  if (!fit.is_at_no_bound) return "a parameter ran away to the end of its range: the data do not tell it";
+  if (!fit.is_at_no_bound)
+    return "a parameter ran away to the end of its range: the data do not determine it";
   if (!fit.is_of_data) return {};
   // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
-  // that other data prefer now the one and now the other. Half as much again is more than chance, whatever a
-  // few trajectories say of their noise. Equal to rounding is no objection either.
+  // that other data prefer now the one and now the other. Half as much again is more than chance, for any
+  // noise that a few trajectories show. Equal to rounding is no objection either.
   const double chance =
       std::min(3.0 * fit.held_out_noise, 0.5 * fit.held_out_start_loss) + 1e-9 * fit.held_out_start_loss;
   // Else the guard has objections to the start, or trajectories from there diverge.

@@ -11,10 +11,9 @@ namespace nysalt::detail {
 namespace {
 
 /// What defects of z^2 are multiplied with to be those of the matrix itself, its four entries counted. Of a
-/// kernel the phase alone counts, which is the first: a processor does the rest.
+/// kernel only the phase counts, which is the first: a processor does the rest.
 Eigen::VectorXd weights_of_defects(Eigen::Index count, double z, bool is_kernel) {
-  const double root =
-      std::numbers::sqrt2;  // the half trace stands for two entries, and so does the difference
+  const double root = std::numbers::sqrt2;  // the half trace is of two entries, and so does the difference
   Eigen::VectorXd weights(4);
   weights << root * std::pow(z, 4), std::pow(z, 3), std::pow(z, 3), root * z * z;
   if (is_kernel) weights.tail(3).setZero();

@@ -43,7 +43,7 @@ candidate descend(const search_task& task, const std::function<bool(const Eigen:
   return found;
 }
 
-/// A parameter is held at the end of all ranges: the data do not tell it, and such a fit is not usable.
+/// A parameter is held at the end of all ranges: the data do not determine it, and such a fit is not usable.
 bool has_run_away(const candidate& one, const std::vector<Eigen::Index>& free) {
   return std::ranges::any_of(free, [&](Eigen::Index k) {
     return std::ranges::find(one.free, k) == one.free.end() && std::abs(one.theta[k]) == farthest_parameter;
@@ -149,7 +149,7 @@ std::pair<std::vector<named_parameters>, double> most_promising(const search_tas
 }
 
 /// Of the minima of the one-step loss that the first few starts lead to, the least, and that of the least
-/// loss: where errors are tiny one step tells several minima apart that trajectories see as one narrow
+/// loss: where errors are tiny one step distinguishes several minima that trajectories see as one narrow
 /// valley.
 std::vector<named_parameters> one_step_minima(const search_task& task,
                                               const std::vector<named_parameters>& starts) {

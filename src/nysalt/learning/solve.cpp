@@ -52,7 +52,7 @@ std::optional<named_parameters> phase_fitted_member(const learning_problem& prob
   return phase_fitted_start(problem.family, z);
 }
 
-/// Whether a trial run tells what rare frequencies do to a method: it is long enough to meet states many
+/// Whether a trial run shows what rare frequencies do to a method: it is long enough to meet states many
 /// times over that are one in a thousand.
 bool tells_of_rare_states(const trial_result& trial) {
   constexpr std::int64_t many_steps = 100'000;
@@ -148,7 +148,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
                        }));
     return tried.back().second;
   };
-  // Where no trial can tell, the guard has the last word on all frequencies that were met.
+  // Where no trial can decide, the guard has the last word on all frequencies that were met.
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
     if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
     if (const std::string failed = trial.objection(); !failed.empty()) return failed;
@@ -303,7 +303,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
 
 }  // namespace
 
-/// Over fewer steps where the data cannot be followed over so many. Throws std::invalid_argument for options
+/// Over fewer steps where the data cannot be followed over all. Throws std::invalid_argument for options
 /// that the family cannot take. Cost: see learn().
 fit solve(const learning_problem& problem) {
   const attempt first = solve_as_it_is(problem);

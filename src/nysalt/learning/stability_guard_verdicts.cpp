@@ -18,7 +18,7 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
   const Eigen::Index n = size(system);
   if (n > most_for_all_frequencies) {
-    description_ += "; pairs of modes are not looked at";
+    description_ += "; pairs of modes are not examined";
     return;
   }
   // So that all pairs of modes of all states take some milliseconds.
@@ -31,7 +31,7 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   std::size_t number = 0;
   force_jacobian<field::soft, model> jacobian(system, states);
   for (const auto& state : states) {
-    // Evenly spread: the k-th of those that are looked at is the state count * k / enough.
+    // Evenly spread: the k-th of those that are examined is the state count * k / enough.
     const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
     ++number;
     if (count > enough && !is_looked_at) continue;

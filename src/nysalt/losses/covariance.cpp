@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// covariance, of a thermostatted word that of its stationary law: no data are asked.
+// covariance, the loss of the stationary distribution of a thermostatted word: no data are needed.
 #include <stdexcept>
 
 #include "data_loss.hpp"
@@ -11,9 +11,8 @@ namespace nysalt::detail {
 namespace {
 objective of_law(const model& system, const run_time_family& family, double step) {
   if (!has_modes(system) || !system.bath().acts()) {
-    throw std::invalid_argument(
-        sentence("the covariance loss needs a system in a bath that tells its modes(), and {} is none",
-                 describe(system)));
+    throw std::invalid_argument(sentence(
+        "covariance loss: the system must be in a bath and declare modes(), got {}", describe(system)));
   }
   return objective_of(stationary_covariance(system, family.letters, step), family);
 }

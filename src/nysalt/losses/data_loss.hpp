@@ -21,7 +21,7 @@ struct loss_inputs {
   const flow_map_data& data;
   std::shared_ptr<const metric> measure;  // which the loss keeps
   after_steps_options how;
-  bool in_lanes;  // whether stretches go side by side
+  bool in_lanes;  // whether windows are in lanes
 };
 
 /// Functions of theta; all are collective where ranks share the data.
@@ -31,14 +31,15 @@ struct data_loss {
   std::function<std::vector<double>(const Eigen::VectorXd&)> by_trajectory;  // of those of this rank
   std::function<double(const Eigen::VectorXd&)> value;
   std::function<Eigen::VectorXd(const Eigen::VectorXd&)> by_residual;  // the mean square of each
-  std::function<std::int64_t()> evaluations;  // of the force at this rank so far
+  std::function<std::int64_t()> evaluations;                           // of the force at this rank so far
   /// The same of a method, which has no parameters; by_trajectory() at the empty theta.
   std::function<std::vector<double>(const run_time_family& method)> by_trajectory_of;
 };
 
-/// What each trajectory adds to the gradient of the loss, by its residuals and by its part in the weights:
-/// those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out larger
-/// by some part counts less by that part. Without this the standard errors are two to three times too small.
+/// The contribution of each trajectory to the gradient of the loss, by its residuals and by its part in the
+/// weights: those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out
+/// larger by some part counts less by that part. Without this the standard errors are two to three times too
+/// small.
 template <class Loss>
 trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
   const Eigen::MatrixXd* deviations = loss.error().weight_deviations;
@@ -75,14 +76,14 @@ data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::share
   };
 }
 
-/// The mean over stretches of the squares of these residuals.
+/// The mean over windows of the squares of these residuals.
 data_loss after_steps_of(const loss_inputs& from, const stretch_error<lanes>& error);
 data_loss after_steps_of(const loss_inputs& from, const stretch_error<double>& error);
 
 /// That of the state's error.
 data_loss of_states(const loss_inputs& from);
 
-/// After how many steps energies of proposals are looked at.
+/// After how many steps energies of proposals are read.
 std::vector<after_steps_options> stages_of_acceptance(int K, int shortest);
 
 /// That of the energy's error. Throws std::invalid_argument if the energy of the system is not known.

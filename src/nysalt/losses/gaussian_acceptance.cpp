@@ -12,7 +12,7 @@ namespace nysalt::detail {
 
 namespace {
 
-/// How many oscillators have a frequency, by frequency: the modes; where none are declared, as many as there
+/// Number of oscillators by frequency: the modes; where none are declared, as many as there
 /// are degrees of freedom, spread evenly over the bands.
 std::map<double, double> spectrum_of(const model& system) {
   std::map<double, double> count_of;
@@ -40,7 +40,7 @@ std::map<double, double> spectrum_of(const model& system) {
   return count_of;
 }
 
-/// What acceptance_at() makes an acceptance of: half of rho at h omega for each oscillator.
+/// The argument of acceptance_at(): half of rho at h omega for each oscillator.
 objective of_spectrum(const model& system, const run_time_family& family, double step) {
   if (!family.symmetric || family.letters.rotates() || family.letters.is_processed()) {
     throw std::invalid_argument(sentence(

@@ -11,7 +11,7 @@ namespace nysalt {
 
 namespace {
 
-/// The number K of steps, of decimal digits alone; nothing for any other text.
+/// The number K of steps, of decimal digits only; nothing for any other text.
 std::optional<int> steps_in(std::string_view text) {
   int steps = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), steps);

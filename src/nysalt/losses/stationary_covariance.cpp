@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far the law that a thermostatted word keeps is from the Gibbs law.
+// The distance of the stationary distribution of a thermostatted word from the Gibbs distribution.
 #include "nysalt/losses/stationary_covariance.hpp"
 
 #include <fmt/format.h>
@@ -37,12 +37,13 @@ void stationary_covariance::require_law() const {
     throw std::invalid_argument(fmt::format("the step must be positive and finite, got {}", step_));
   }
   if (word_.stochastic_letters == 0) {
-    throw std::invalid_argument(
-        fmt::format("the word {} has no letter O and keeps no law: thermostat it", word_.letters()));
+    throw std::invalid_argument(fmt::format(
+        "covariance loss: the word must have a letter O, got {}; thermostat it", word_.letters()));
   }
   if (bath_.friction() == 0.0 || bath_.sigma() == 0.0) {
-    throw std::invalid_argument(fmt::format(
-        "in a {} there is no law to keep: give it friction and a temperature", bath_.description()));
+    throw std::invalid_argument(
+        fmt::format("covariance loss: the bath must have friction and a temperature above 0, got a {}",
+                    bath_.description()));
   }
 }
 

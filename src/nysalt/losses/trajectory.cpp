@@ -10,13 +10,13 @@ namespace nysalt::detail {
 
 namespace {
 
-/// Of the first stages, which find where minima lie and should cost little: two stretches a trajectory.
+/// Of the first stages, which find where minima lie and should cost little: two windows a trajectory.
 after_steps_options at_first(std::vector<int> steps, int shortest) {
   const int apart = std::max(steps.back(), shortest / 2);
   return {.steps = std::move(steps), .apart = apart};
 }
 
-/// A step does not see the phase that errors add up to, and the end of a long trajectory alone sees it only
+/// A step does not see the phase that errors add up to, and the end of a long trajectory sees it only
 /// up to whole turns: so times grow from stage to stage, and all times of a stage count.
 std::vector<after_steps_options> stages_of_trajectory(int, int shortest) {
   constexpr int times = 16;

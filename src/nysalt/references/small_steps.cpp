@@ -13,7 +13,7 @@ namespace {
 
 constexpr int dynamic = Eigen::Dynamic;
 
-/// What one trajectory's steps cost, and those of `count`.
+/// Cost of one trajectory's steps, and of those of `count`.
 std::int64_t cost_of(const model& system, const run_time_word& word, std::int64_t steps, int count) {
   const std::int64_t all = word.evaluations_to_open + steps * word.evaluations_per_step;
   return count * evaluations_of(system, all, steps * word.force_derivatives);

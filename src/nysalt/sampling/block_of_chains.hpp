@@ -23,7 +23,7 @@
 
 namespace nysalt::detail {
 
-/// What one chain adds up.
+/// Sums of one chain.
 struct chain_sums {
   double acceptance = 0.0;
   double squares = 0.0;  // of (H' - H)/kT

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What draws of several chains tell of their convergence.
+// Convergence of several chains, estimated from their draws.
 #include <cmath>
 #include <cstddef>
 #include <limits>

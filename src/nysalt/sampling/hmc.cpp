@@ -45,12 +45,11 @@ void require_options(const model& system, const hmc_options& options) {
   }
   if (!has_quadratic_kinetic(system)) {
     throw std::invalid_argument(sentence(
-        "hmc: the kinetic energy of {} must be quadratic in p, as momenta are drawn from a normal law",
-        describe(system)));
+        "hmc: the kinetic energy of {} must be quadratic in p, as momenta are normal", describe(system)));
   }
   if (!has_potential(system)) {
     throw std::invalid_argument(
-        sentence("hmc: {} must tell its potential, by which proposals are accepted; add potential(q)",
+        sentence("hmc: {} must have a potential, by which proposals are accepted; add potential(q)",
                  describe(system)));
   }
 }

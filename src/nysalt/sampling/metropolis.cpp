@@ -12,7 +12,7 @@ void require_metropolis_applies(const char* who, const model& system, const tabu
                                 double temperature) {
   if (!method.symmetric) {
     throw std::invalid_argument(
-        sentence("{}: {} is not reversible, and Hybrid Monte Carlo would sample another law; take "
+        sentence("{}: {} is not reversible, so Hybrid Monte Carlo would sample another distribution; take "
                  "a symmetric method",
                  who, method.name()));
   }

@@ -102,7 +102,7 @@ class sampler {
     return trajectories * (word.evaluations_to_open + word.evaluations_to_look) +
            steps * static_cast<double>(per_step);
   }
-  /// Before masses are known nothing tells how long a trajectory should be: some steps.
+  /// Before masses are known the length of a trajectory is some steps.
   bool is_before_masses(std::int64_t trajectory) const {
     return options_.diagonal_masses && trajectory < options_.burn_in / 2;
   }

@@ -57,7 +57,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
   } catch (const json::exception&) {
     refuse("{} is not whole, or was edited: remove it to begin anew", (folder / journal_name).string());
   } catch (...) {
-    if (kept.is_empty()) {  // on rank 0 alone there is something to remove
+    if (kept.is_empty()) {  // only rank 0 has something to remove
       kept.remove();
       std::error_code ignored;
       for (auto path = made.rbegin(); path != made.rend(); ++path) std::filesystem::remove(*path, ignored);
@@ -83,7 +83,7 @@ int compare(const compare_command& command, const common_settings& common) {
   warn_of_threads(common);
   const std::filesystem::path folder(command.output);
   if (command.output.empty()) {
-    if (command.resume) refuse("--resume goes on with what stands in a folder: name it as --output");
+    if (command.resume) refuse("--resume continues a comparison in a folder: name it as --output");
     journal nowhere;
     all.learn_and_measure(nowhere);
   } else {

@@ -36,8 +36,8 @@ void require_name(const std::string& name) {
       "write",     "open",      "close",     "link",      "main",       "std"};
   if (!is_plain_name(name) || taken.contains(name)) {
     refuse(
-        "a system cannot be called '{}': take lower-case letters, digits and _, a letter first, and no word "
-        "of C++",
+        "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++, "
+        "got '{}'",
         name);
   }
 }
@@ -80,7 +80,7 @@ struct NAME {
   }
 };
 
-/// Normal around rest: the state of trajectory n is a function of the seed and n alone.
+/// Normal around rest: the state of trajectory n is a function of the seed and n only.
 inline auto starts_of(const NAME& system, double spread) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.masses);
   return nysalt::normal_around<Eigen::Dynamic>({rest, rest}, 0.1 * spread, 0.15 * spread);

@@ -60,7 +60,7 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
     warn(warning);
 }
 
-/// Throws refusal for what cannot be of the files of a run, before any work.
+/// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
   require_table(command.output, command.plot, command.method);
   if (command.checkpoint.empty()) {
@@ -70,7 +70,7 @@ void require_files(const run_command& command) {
   }
   if (!command.every) refuse("--checkpoint needs --every: after how many steps is one made?");
   require_at_least_one("--every", *command.every);
-  if (command.output.empty()) refuse("--checkpoint needs --output: what was printed cannot be gone on with");
+  if (command.output.empty()) refuse("--checkpoint needs --output: printed results cannot be continued");
   require_writable(command.checkpoint);
   std::vector<std::string> others{command.method, command.output};
   for (const char* beside : {".part", ".new.part", ".sorted.part", ".manifest.json"})
@@ -89,7 +89,7 @@ void require_files(const run_command& command) {
   }
 }
 
-/// Steps between two looks for a signal, some seconds, where there is a checkpoint to make then.
+/// Steps between two checks for a signal, some seconds, where there is a checkpoint to make then.
 std::optional<std::int64_t> stretch_of(const run_command& command, std::int64_t dimension) {
   if (!command.every) return std::nullopt;
   return std::min(*command.every, 10 * short_stretch(dimension));

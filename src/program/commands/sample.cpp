@@ -68,7 +68,7 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
   return options;
 }
 
-/// Throws refusal for what cannot be of files, before any work.
+/// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false, command.method);
   if (command.checkpoint.empty()) {
@@ -158,7 +158,7 @@ void save(const sample_command& command, const json& question, const hmc_state& 
   });
 }
 
-/// What came out, as a document.
+/// The results, as a document.
 json document_of(const sample_command& command, const method_source& source, const prepared_problem& system,
                  const hmc_options& options, const hmc_result& found,
                  const std::vector<summary_of_scalar>& all) {

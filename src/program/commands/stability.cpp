@@ -54,7 +54,7 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
          *source.family);
 }
 
-/// What is found, for programs and for people.
+/// The findings, as JSON and as text.
 struct answer {
   json document;
   std::string text;
@@ -205,7 +205,7 @@ void add_rotation(answer& result, const tabulated& method, const prepared_proble
   document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
   result.text +=
       fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
-                  stable ? "linearly stable on what was looked at" : "NOT stable", guard.description());
+                  stable ? "linearly stable on what was examined" : "NOT stable", guard.description());
   if (worst.frequency > 0.0) {
     result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
                                worst.frequency, worst.factor, guard.steps());
@@ -254,8 +254,7 @@ int stability(const stability_command& command, const common_settings& common) {
   const subject target = subject_of(command, system.get(), common.force, warnings);
   const bool rotates = has_rotation(target.method.letters());
   if (rotates && !command.output.empty()) {
-    refuse("{} rotates: its trace/2 is cos z, and there is nothing to draw; leave --output away",
-           target.name);
+    refuse("{} rotates, so trace/2 is cos z and there is nothing to draw; leave out --output", target.name);
   }
   const stability_chart chart = rotates ? stability_chart() : chart_of(target.method);
   answer result = about(target, chart);
@@ -265,7 +264,8 @@ int stability(const stability_command& command, const common_settings& common) {
     result.document["step"] = *command.step;
     progress shown;
     warn_of_threads(common);
-    prepare_starts(*system, common, shown);  // a bath drives the starts to where its law is
+    prepare_starts(*system, common,
+                   shown);  // a bath drives the initial states to its stationary distribution
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);
     if (rotates) {

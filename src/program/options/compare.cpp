@@ -39,7 +39,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   command.add_option("--range", typed->range, "LOW,HIGH of the histogram [of the starts]");
   add_number(command, "--bins", asked.bins, "of the histogram");
   command.add_option("--levels", typed->levels,
-                     "errors, joined by commas, whose cost the report tells [those of the data]");
+                     "errors, joined by commas, whose cost the report has [those of the data]");
   add_number(command, "--longest-lag", asked.longest_lag, "of the autocovariance, a time");
   add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, asked.learning, "--learn-");

@@ -43,8 +43,8 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   command.add_option("--observable", asked.observable, "of path [that of the system]");
   add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
   add_number(command, "--looks", asked.looks,
-             "how often each trajectory of later runs is looked at: processed methods pay for each look");
-  command.add_flag("--reversible", asked.reversible, "symmetric methods alone");
+             "observations of each trajectory of later runs: processed methods pay for each observation");
+  command.add_flag("--reversible", asked.reversible, "symmetric methods only");
   command.add_option("--families", typed->families, "to learn, joined by commas [all that suit]");
   add_search(command, asked.learning, "--learn-");
   add_horizon(command, asked.learning, "--learn-");

@@ -28,11 +28,11 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
   add_number(command, "--trajectories", asked.trajectories, "how many");
   command.add_option("--observables", typed->observables, "what to sample [that of the system]");
-  add_number(command, "--sample-every", asked.sample_every, "so many steps");
+  add_number(command, "--sample-every", asked.sample_every, "steps between samples");
   command.add_option("--output", asked.output, "file: CSV, or .h5, .npy [standard output]");
   command.add_flag("--plot", asked.plot, "draw the first trajectory beside the output");
   command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the run is stopped");
-  add_number(command, "--every", asked.every, "so many steps a checkpoint is made");
+  add_number(command, "--every", asked.every, "steps between checkpoints");
   command.add_flag("--resume", asked.resume, "go on from the checkpoint");
   add_common(command, common);
   add_force(command, common, "run a scheme at another step or system than it was learned for");

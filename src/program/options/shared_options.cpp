@@ -18,7 +18,7 @@ namespace nysalt::program {
 
 void add_common(CLI::App& command, common_settings& common) {
   add_number(command, "--seed", common.seed, "of all random numbers");
-  add_number(command, "--threads", common.threads, "at most so many; results do not depend on it")
+  add_number(command, "--threads", common.threads, "at most N threads; results do not depend on it")
       ->default_str("all cores");
   command.add_flag("--json", common.json, "one JSON document on standard output");
   command.fallthrough();  // for --config, which belongs to the program
@@ -106,7 +106,8 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system,
   add_number(command, "--friction", system.bath.friction, "of a bath: gamma; with --sigma or --temperature");
   add_number(command, "--sigma", system.bath.sigma, "of its noise");
   add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
-  add_number(command, "--spread", system.spread, "of the law of starts: multiplies its deviations [1]");
+  add_number(command, "--spread", system.spread,
+             "multiplies the standard deviations of the initial distribution [1]");
   command.add_option("--start", system.start, start);
   std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
   added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));

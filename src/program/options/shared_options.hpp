@@ -20,10 +20,10 @@ std::vector<CLI::Option*> add_system(
     CLI::App& command, system_settings& system,
     const char* start = "law, gibbs or trajectory, or a CSV file of positions [gibbs in a bath, else law]");
 
-/// How methods meet a bath.
+/// Options of methods in a bath.
 void add_placement(CLI::App& command, std::string& placement);
 
-/// How to search, and what to learn from; some options begin with the prefix, "--" or "--learn-".
+/// Options of the search and of the data; some options begin with the prefix, "--" or "--learn-".
 void add_search(CLI::App& command, learning_options& how, const std::string& prefix);
 void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix);
 void add_learning(CLI::App& command, learning_options& how, const std::string& prefix);

@@ -34,7 +34,7 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   command.add_option("--output", asked.output, "write trace/2 over z as CSV");
   command.add_flag("--plot", asked.plot, "draw it beside the output: windows, and the system's z");
   add_common(command, common);
-  add_force(command, common, "look at a scheme at another step or system than it was learned for");
+  add_force(command, common, "examine a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt stability --family nystrom --parameters 0.5,0.4\n"

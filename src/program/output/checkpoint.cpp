@@ -51,7 +51,7 @@ checkpoint state_of(const json& head) {
   return state;
 }
 
-/// Throws std::exception for what cannot be of one run.
+/// Throws std::exception for parts that are not of one run.
 void require_sound(const checkpoint& state) {
   const std::int64_t trajectories = count_in(state.question.at("trajectories"));
   const std::int64_t steps = count_in(state.question.at("steps"));

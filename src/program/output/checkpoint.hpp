@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a run leaves on disk to go on from, should it be stopped.
+// Checkpoint of a run, from which it is resumed.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
 /// Throws refusal for what is no checkpoint of that command, not whole, edited, or of a newer format.
 checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command);
 
-/// Of what is whole, and cannot be of a run all the same.
+/// For a file that is whole, but not of a run.
 [[noreturn]] void refuse_edited_checkpoint(const std::filesystem::path& file);
 
 /// A count of the head. Throws std::exception unless it is a whole number, and not negative.
@@ -34,8 +34,8 @@ std::int64_t count_in(const json& value);
 /// Throws refusal, naming what differs, if the checkpoint is of another question.
 void require_question(const json& asked_then, const json& question, const std::filesystem::path& file);
 
-/// Of going on with what another version of the program wrote; empty: this one. To be told when nothing will
-/// be refused any more, as a refusal is one line.
+/// Of going on with what another version of the program wrote; empty: this one. To be printed when nothing
+/// will be refused any more, as a refusal is one line.
 void warn_of_version(const std::string& version_then, const std::filesystem::path& file);
 
 }  // namespace nysalt::program

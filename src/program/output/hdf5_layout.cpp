@@ -44,11 +44,11 @@ class handle {
 /// To be called first.
 void set_up_library() {
   H5dont_atexit();  // after a full disk the library would try again at exit, and crash
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported by us
 }
 
-/// How files are opened, which this process may have locked itself; the version of the format is always the
-/// same.
+/// The access properties of files, which this process may have locked itself; the version of the format is
+/// always the same.
 class file_access : public handle {
  public:
   file_access() : handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose) {

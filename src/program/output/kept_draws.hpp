@@ -40,7 +40,7 @@ class kept_draws {
   std::vector<double> numbers_;  // chain after chain
 };
 
-/// What is known of a scalar.
+/// Statistics of a scalar.
 struct summary_of_scalar {
   std::string name;
   double mean = 0.0;

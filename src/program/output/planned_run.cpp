@@ -29,7 +29,7 @@ void require_observables(const run_command& command, const prepared_problem& sys
 trajectories_plan plan_of(const run_command& command, const common_settings& common) {
   require_positive("--step", command.step);
   require_at_least_one("--trajectories", command.trajectories);
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // that noise can tell apart
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
   if (command.trajectories > most)
     refuse("--trajectories must be at most 2^48 = {}, got {}", most, command.trajectories);
   require_at_least_one("--sample-every", command.sample_every);

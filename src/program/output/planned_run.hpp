@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What `run` is asked, when all of it can be: a system, a method, and steps.
+// Plan of a `run`, checked as a whole: a system, a method, and steps.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 namespace nysalt::program {
 
 struct planned_run {
-  /// Names the observable of the system where none is asked for. Throws refusal for whatever cannot be,
+  /// Names the observable of the system where none is asked for. Throws refusal for bad options,
   /// before any work is done.
   planned_run(const run_command& asked, const common_settings& common);
 
@@ -31,7 +31,7 @@ struct planned_run {
   std::vector<std::string> warnings_of_starts() const;
   /// All that decides the bytes of the output, for a run that may be stopped and gone on with.
   json question() const;
-  /// What a file of arrays tells of itself: the same, in words too, with versions and units; nothing that
+  /// The description of a file of arrays: the same, in words too, with versions and units; nothing that
   /// changes from time to time, from machine to machine, or with the number of threads or ranks.
   json about() const;
 };

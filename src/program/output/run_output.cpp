@@ -138,7 +138,7 @@ void run_output::take(std::int64_t trajectory, const record& segment) {
 
 void run_output::reached(const run_progress& at) {
   if (checkpoint_.empty()) return;
-  // Of one trajectory alone what is written is in order, wherever it is cut.
+  // Of a single trajectory what is written is in order, wherever it is cut.
   if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
   const std::int64_t step = at.batch.step;
   const bool is_due = at.first != saved_at_.first || step / every_ != saved_at_.step / every_;

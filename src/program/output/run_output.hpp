@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the samples of a run go.
+// Output of the samples of a run.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ class run_output {
   /// And what belongs to the output is there too.
   void finish();
 
-  /// Of what was written, of every so many samples.
+  /// Of what was written, of every n-th sample.
   first_trajectory read_first(std::int64_t every) const { return samples_->read_first(output_, every); }
   /// Adds to a document where the samples are, or themselves.
   void describe(json& document) const;

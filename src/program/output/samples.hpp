@@ -50,9 +50,9 @@ class sample_writer {
   virtual void lay_out(unfinished_file&) {}
   /// Goes on in a file that was left by another run; false if it is not as that one wrote it.
   virtual bool go_on(unfinished_file& file, const file_sum& written) = 0;
-  /// What a checkpoint knows of a file of such samples, finished or not; nothing if it is none.
+  /// The record in a checkpoint of a file of such samples, finished or not; nothing if it is none.
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
-  /// Of a finished file, of every so many samples. Throws refusal if it cannot be read.
+  /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
   virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;
   /// Adds to a document what it says of the samples.
   virtual void describe(json&) const {}
@@ -64,7 +64,7 @@ class sample_writer {
 /// Lines of CSV go to `write`; if it is empty, rows are kept for the document.
 std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<void(std::string_view)> write);
 /// Writes the lines of one table of samples into another: its head, and the rows by the trajectory that each
-/// begins with; those of one trajectory keep their order. Memory: 24 bytes for each stretch of a trajectory.
+/// begins with; those of one trajectory keep their order. Memory: 24 bytes for each interval of a trajectory.
 /// Throws std::runtime_error if it cannot be read or written; then an older file is as it was.
 void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to);
 

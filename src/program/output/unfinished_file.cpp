@@ -82,7 +82,7 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     return;
   }
   if (std::filesystem::exists(part_, ignored) && !std::filesystem::is_regular_file(part_, ignored)) {
-    refuse("cannot write {}: it is no ordinary file; name another --output", part_.string());
+    refuse("cannot write {}: it is not a regular file; name another --output", part_.string());
   }
   const int create = from == origin::made ? O_CREAT : 0;
   file_.number = open(part_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | create, 0666);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// An output that grows over hours, and outlives whoever stops its writer.
+// An output that grows over hours, and outlives the process that writes it.
 #pragma once
 
 #include <boost/crc.hpp>
@@ -16,7 +16,7 @@
 
 namespace nysalt::program {
 
-/// What a file is known by: its length and CRC-32.
+/// The identity of a file: length and CRC-32.
 struct file_sum {
   std::uint64_t length = 0;
   std::uint32_t crc = 0;
@@ -33,8 +33,8 @@ std::optional<file_sum> sum_of(const std::filesystem::path& file,
                                const std::vector<byte_range>& left_out = {});
 
 /// FILE.part, which becomes FILE when it is finished; FILE.new.part, if no run will go on with it. One
-/// process alone can hold the file. One that was made here goes with its writer, until it is kept, also if a
-/// signal ends the process. A link is followed: the file behind it is replaced.
+/// process at a time can hold the file. One that was made here goes with its writer, until it is kept, also
+/// if a signal ends the process. A link is followed: the file behind it is replaced.
 class unfinished_file {
  public:
   enum class origin {
@@ -67,7 +67,7 @@ class unfinished_file {
   file_sum written() const { return {length_, sum_.checksum()}; }
 
   void keep();
-  /// FILE.part becomes FILE. Throws refusal if that cannot be.
+  /// FILE.part becomes FILE. Throws refusal if renaming fails.
   void finish();
   /// FILE was made of FILE.part in another way.
   void remove();

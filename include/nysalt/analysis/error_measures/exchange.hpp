@@ -22,7 +22,7 @@ concept HasStiffEnergiesOver = System<S> &&
 template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 
-/// How wrongly the stiff springs exchange their energies I_j, relative to their sum I: the mean over
+/// Error of the exchange of energies I_j between the stiff springs, relative to their sum I: the mean over
 /// trajectories and times of sum_j |I_j - I_j^ref|, over that of I^ref. The system is copied. There is no
 /// such error where I^ref is 0 on all trajectories at all times.
 template <HasStiffEnergies S>
