@@ -2,6 +2,7 @@
 // The loop allocates nothing, however many steps it takes.
 #include <boost/test/unit_test.hpp>
 
+#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -105,6 +106,22 @@ BOOST_AUTO_TEST_CASE(the_noisy_loop_allocates_nothing) {
   BOOST_TEST(allocations_of(dynamic, baoab(), 1000, noise) == 1U);
   BOOST_TEST(allocations_of(dynamic, obabo(), 2, noise) == allocations_of(dynamic, obabo(), 1000, noise));
   BOOST_TEST(allocations_of(quiet, baoab(), 1000, noise) == 0U);
+}
+
+// But where a list is made: not at rest, and once in a while in motion.
+BOOST_AUTO_TEST_CASE(a_liquid_allocates_where_its_list_is_made) {
+  const auto allocations_at = [](double temperature, std::int64_t steps) {
+    const lennard_jones_liquid liquid(256, 0.8442);
+    const auto stepper = make_stepper(liquid, verlet{}, 0.004);
+    auto run = stepper.open(lennard_jones_liquid_law(liquid, temperature)(1, 0));
+    stepper.advance(run, 1);
+    const std::size_t before = allocations;
+    const std::int64_t made = liquid.lists_made();
+    stepper.advance(run, steps);
+    return std::pair(allocations - before, liquid.lists_made() - made);
+  };
+  BOOST_TEST((allocations_at(0.0, 200) == std::pair<std::size_t, std::int64_t>(0, 0)));
+  BOOST_TEST(allocations_at(3.0, 200).second > 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_count_would_see_an_allocation) {

@@ -29,9 +29,9 @@ struct lennard_jones_liquid_options {
 /// its Taylor polynomial of degree `smoothness` in r^2 around r_c^2:
 ///   V = sum_{i<j, r_ij < r_c} u(r_ij^2) - T(r_ij^2),   u(r^2) = 4 (r^-12 - r^-6).
 /// Smoothness 0 shifts the energy alone, as others do by default: the force jumps at r_c by 0.039 for r_c =
-/// 2.5, and no method has more than order 1 in the energy for short steps. Smoothness 1 is the potential of
-/// Stoddard and Ford [stoddard_ford_1973], whose force is continuous; a method of order 4 wants 2 or 3. The
-/// pair's well becomes shallower: by 0.02, 0.05, 0.11 and 0.18 at r = 2^{1/6}.
+/// 2.5, so that the energy errors of all methods end at a floor that no order lowers. Smoothness 1 is the
+/// potential of Stoddard and Ford [stoddard_ford_1973], whose force is continuous; a method of order 4 wants
+/// 2 or 3. The pair's well becomes shallower: by 0.02, 0.06, 0.12 and 0.20 at r = 2^{1/6}.
 ///
 /// Atom i has the coordinates q[3 i] .. q[3 i + 2], which may leave the box: what counts is the nearest image
 /// of each pair. Positions are rounded to 2^-52 of the side.

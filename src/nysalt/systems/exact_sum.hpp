@@ -26,8 +26,8 @@ constexpr reals all_lanes(double x) { return x - reals{}; }
 /// sum is the same. A rest halfway between two multiples of 2^-60 would be rounded as the bin happens to be
 /// even or odd: the last bit of the rest, at most 2^-73, is set, so that no rest is.
 class exact_sum {
-  static constexpr double upper_start = 0x1.8p33;   // numbers from 2^33 to 2^34 are multiples of 2^-19
-  static constexpr double lower_start = 0x1.8p-8;   // numbers from 2^-8 to 2^-7 of 2^-60
+  static constexpr double upper_start = 0x1.8p33;  // numbers from 2^33 to 2^34 are multiples of 2^-19
+  static constexpr double lower_start = 0x1.8p-8;  // numbers from 2^-8 to 2^-7 of 2^-60
 
  public:
   [[gnu::always_inline]] void add(const reals& summand) {
