@@ -1,0 +1,51 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSL-1.0
+# A method is learned for a chain of 3 pairs, and steps one of 64 pairs after a trial run there.
+set -eu
+
+# [learn]
+nysalt learn --system fpu --step 0.0888 --effort quick --trajectories 50 --output small.json >learned.txt
+nysalt compare --system fpu --pairs 64 --steps 0.0148 --equal-cost --metric state --horizon 5 --trajectories 16 \
+  --methods small.json,verlet,pefrl,blanes_moan_s6,phase_fitted_mclachlan5
+# [/learn]
+
+# Another stiffness is another kind.
+nysalt run --system fpu --pairs 64 --omega 51 --method small.json --step 0.0888 --horizon 8.88 || echo "exit code $?"
+
+# Frequencies that grow with the number of atoms: this step is too long for thirteen, and the trial says so.
+# [refused]
+nysalt learn --system lennard_jones --atoms 2 --family nystrom --step 0.06 --trajectories 30 --effort quick \
+  --output pair.json >learned.txt
+nysalt run --system lennard_jones --atoms 13 --method pair.json --step 0.06 --horizon 6 || echo "exit code $?"
+# [/refused]
+
+# Expected output:
+# fpu_chain(pairs=64, omega=50), 16 trajectories over 5
+# starts: fpu_law(omega=50)
+# steps are per force evaluation: equal steps, equal cost
+#
+# state error
+#
+# step sizes  reference                           its own error, at most  null model, at least  predictable until
+# ----------  ----------------------------------  ----------------------  --------------------  -----------------
+# 0.0148~srkn11b with step~the end
+# 0.0592~srkn11b with step~the end
+# 0.074~srkn11b with step~the end
+# 0.0888~srkn11b with step~the end
+#
+# method                     step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
+# -----------------------  ------  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
+# small.json               0.0148              67.8~2.13e-03~0/16~
+# verlet                   0.0148              67.8~1.99e+01~0/16~
+# pefrl                    0.0148              67.6~2.62e+01~0/16~
+# blanes_moan_s6           0.0148              67.8~1.27e+01~0/16~
+# phase_fitted_mclachlan5  0.0148              67.6~6.04e-03~0/16~
+# null model                    -               0.0        0         -  2.96e+01               -             -                     -         -       -
+#
+# at equal cost    step     error       best of the others  its error  its error / learned  its ns / learned
+# -------------  ------  --------  -----------------------  ---------  -------------------  ----------------
+# small.json ~phase_fitted_mclachlan5~
+#
+# peak memory: ~ MB
+# exit code 2
+# exit code 2
