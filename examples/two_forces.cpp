@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A cheap stiff force and a dear soft one: r-RESPA, and what is learned in its place.
+// A cheap stiff force and a expensive soft one: r-RESPA, and what is learned in its place.
 //
 // Four masses are held by stiff bonds, and feel each other as charges: the bonds ask for short steps, the
 // charges for few evaluations. r-RESPA kicks with the charges once in n short steps with the bonds. It pays
