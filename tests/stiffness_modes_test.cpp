@@ -34,7 +34,9 @@ BOOST_AUTO_TEST_CASE(they_diagonalise_the_weighted_stiffness) {
     stiffness = 0.5 * (stiffness + Eigen::MatrixXd(stiffness.transpose()));
     Eigen::VectorXd inverse_masses(n);
     for (double& x : inverse_masses) x = random.uniform(0.2, 5.0);
-    const auto [basis, frequencies] = stiffness_modes(stiffness, inverse_masses, "test");
+    const normal_modes modes = stiffness_modes(stiffness, inverse_masses, "test");
+    const Eigen::MatrixXd& basis = modes.basis;
+    const Eigen::VectorXd& frequencies = modes.frequencies;
     const Eigen::VectorXd root = inverse_masses.cwiseSqrt();
     const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness * root.asDiagonal();
     // An eigensolver errs by some n eps |K|, the product of three matrices adds 3 n eps |K|.

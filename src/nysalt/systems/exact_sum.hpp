@@ -12,7 +12,7 @@ namespace nysalt::detail {
 /// Pairs of atoms at a time. No result depends on it.
 inline constexpr int pairs_at_a_time = std::min(native_lanes, 4);
 using reals = native_vector<pairs_at_a_time>::type;
-using words = native_vector<pairs_at_a_time>::mask;
+using integers = native_vector<pairs_at_a_time>::mask;
 
 constexpr reals all_lanes(double x) { return x - reals{}; }
 
@@ -34,7 +34,7 @@ class exact_sum {
     const reals sum = upper_ + summand;
     const reals rest = summand - (sum - upper_);
     upper_ = sum;
-    lower_ += reinterpret_cast<reals>(reinterpret_cast<words>(rest) | 1);
+    lower_ += reinterpret_cast<reals>(reinterpret_cast<integers>(rest) | 1);
   }
   double total() const {
     double upper = 0.0;

@@ -29,7 +29,7 @@ namespace {
 
 using detail::exact_sum;
 using detail::reals;
-using detail::words;
+using detail::integers;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -84,8 +84,8 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
   for_each_block(list.blocks(), 1, threads, [&of_block](std::int64_t block, int) { of_block(block); });
 }
 
-reals only(const words& mask, const reals& x) {
-  return reinterpret_cast<reals>(reinterpret_cast<words>(x) & mask);
+reals only(const integers& mask, const reals& x) {
+  return reinterpret_cast<reals>(reinterpret_cast<integers>(x) & mask);
 }
 
 }  // namespace
@@ -185,7 +185,7 @@ void lennard_jones_liquid::force_derivative(const Eigen::VectorXd& q, const Eige
         const reals wy = mine[1] - theirs.y;
         const reals wz = mine[2] - theirs.z;
         const auto [push, slope] = pair.push_and_slope<smoothness.value>(d.square, d.inverse);
-        const words near = d.square < pair.limit;
+        const integers near = d.square < pair.limit;
         const reals along = slope * (d.x * wx + d.y * wy + d.z * wz);
         x.add(only(near, push * wx + along * d.x));
         y.add(only(near, push * wy + along * d.y));

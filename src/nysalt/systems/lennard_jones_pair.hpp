@@ -89,7 +89,7 @@ class lennard_jones_pair {
 
   /// Not a number where atoms are too near.
   reals forbidden(const reals& square, const reals& x) const {
-    return reinterpret_cast<reals>(reinterpret_cast<words>(x) | words(square < nearest_));
+    return reinterpret_cast<reals>(reinterpret_cast<integers>(x) | integers(square < nearest_));
   }
   /// The derivative of T of that order.
   template <int Smoothness, int Order>

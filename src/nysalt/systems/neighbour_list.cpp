@@ -29,7 +29,7 @@ const auto lanes_of_set = [] {
   return result;
 }();
 
-[[gnu::always_inline]] inline unsigned set_of(const words& mask) {
+[[gnu::always_inline]] inline unsigned set_of(const integers& mask) {
 #if defined __AVX__
   return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
 #else
@@ -73,7 +73,7 @@ neighbour_list::neighbour_list(std::int64_t atoms, double side, double reach, do
 std::int32_t neighbour_list::far_from(const place& at) const {
   std::int64_t number = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
-    const std::int64_t quarter = (at.axis[axis] & fraction_bits) >> (places_bits - 2);
+    const std::int64_t quarter = (at.axis[axis] & bits_of_position) >> (places_bits - 2);
     number = 4 * number + (quarter + 2) % 4;
   }
   return static_cast<std::int32_t>(atoms_ + number);

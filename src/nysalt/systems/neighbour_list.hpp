@@ -62,7 +62,7 @@ class neighbour_list {
   };
 
   std::int64_t cell_of(std::int64_t place) const {
-    return ((place & fraction_bits) * per_side_) >> places_bits;
+    return ((place & bits_of_position) * per_side_) >> places_bits;
   }
   cells cells_within(double centre, double distance) const;
   std::int64_t going_round(std::int64_t cell) const;

@@ -12,7 +12,7 @@
 namespace nysalt::detail {
 
 inline constexpr int places_bits = 52;  // those of the fraction of a double
-inline constexpr std::int64_t fraction_bits = (std::int64_t{1} << places_bits) - 1;
+inline constexpr std::int64_t bits_of_position = (std::int64_t{1} << places_bits) - 1;
 inline constexpr std::int64_t half_a_box = std::int64_t{1} << (places_bits - 1);
 
 /// A position in units of 2^-52 of the side of the box, modulo 2^52; what is above these bits is of no
@@ -30,7 +30,7 @@ inline std::int64_t place_of(double x) {
 }
 
 /// From 0 to below 1.
-inline double fraction_of(std::int64_t place) { return static_cast<double>(place & fraction_bits) * 0x1p-52; }
+inline double fraction_of(std::int64_t place) { return static_cast<double>(place & bits_of_position) * 0x1p-52; }
 
 /// The way to one place from others, by the nearest image, in units of the side.
 struct ways {
@@ -43,17 +43,17 @@ struct ways {
 /// An atom, in all lanes, moved by half a box.
 struct centre {
   explicit centre(const place& at)
-      : x(words{} + (at.axis[0] + half_a_box)),
-        y(words{} + (at.axis[1] + half_a_box)),
-        z(words{} + (at.axis[2] + half_a_box)) {}
-  words x;
-  words y;
-  words z;
+      : x(integers{} + (at.axis[0] + half_a_box)),
+        y(integers{} + (at.axis[1] + half_a_box)),
+        z(integers{} + (at.axis[2] + half_a_box)) {}
+  integers x;
+  integers y;
+  integers z;
 };
 
-[[gnu::always_inline]] inline reals way(const words& to_moved, const words& from) {
+[[gnu::always_inline]] inline reals way(const integers& to_moved, const integers& from) {
   constexpr std::int64_t exponent_of_one = std::int64_t{1023} << places_bits;
-  return reinterpret_cast<reals>(((to_moved - from) & fraction_bits) | exponent_of_one) - 1.5;
+  return reinterpret_cast<reals>(((to_moved - from) & bits_of_position) | exponent_of_one) - 1.5;
 }
 
 /// Three numbers of each atom, which is followed by one that is not used, with an axis in each register.
@@ -95,7 +95,7 @@ template <class V>
 /// From the atoms place(k) of the lanes to the centre.
 [[gnu::always_inline]] inline ways ways_to(const centre& to, const auto& place) {
   const auto from =
-      transposed<words>([&](int k) __attribute__((always_inline)) { return place(k).axis.data(); });
+      transposed<integers>([&](int k) __attribute__((always_inline)) { return place(k).axis.data(); });
   ways result{way(to.x, from.x), way(to.y, from.y), way(to.z, from.z), {}};
   result.square = result.x * result.x + result.y * result.y + result.z * result.z;
   return result;
