@@ -108,7 +108,7 @@ template <int Planets>
 class planet_interaction {
  public:
   static constexpr int dimension = 3 * Planets;
-  static constexpr int lanes = 1;
+  static constexpr int lanes = 1;  ///< one trajectory at a time
 
   explicit planet_interaction(const jacobi_masses<Planets>& masses) : kepler_(masses) {}
 
