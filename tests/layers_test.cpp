@@ -24,7 +24,7 @@ const std::vector<std::vector<std::string>> layers{
     {"system", "detail/requirements", "force", "energy", "detail/energy_range", "lanes", "bath", "noise",
      "detail/noise_intervals", "detail/modal_coordinates", "detail/stiffness_modes", "systems/", "noises/"},
     {"flow", "flows/", "word", "run_time_word", "detail/conservative_part", "detail/noise_seam",
-     "detail/pairs_in_loop", "detail/own_letter", "detail/prepared_word", "detail/step_program", "detail/take_steps",
+     "detail/pairs_in_loop", "detail/own_letter", "detail/known_letters", "detail/prepared_word", "detail/step_program", "detail/take_steps",
      "detail/prepared_run_time_word", "detail/palindrome", "detail/word_of_letters", "detail/served_letters",
      "stepper", "detail/step_on_oscillator"},
     {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
