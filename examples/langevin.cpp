@@ -2,9 +2,9 @@
 // Your own Hamiltonian in a bath: learn with the noise, and judge paths and distribution.
 //
 // A light atom hangs by a stiff bond on a heavy one in a soft well, and both feel friction and noise. We say
-// the temperature, draw starts from its Gibbs distribution, follow fine paths together with their noise, learn two
-// stages between two halves of the bath, and compare with BAOAB: along common noise, and in the mean energy
-// of the bond, which is kT for any masses.
+// the temperature, draw starts from its Gibbs distribution, follow fine paths together with their noise,
+// learn two stages between two halves of the bath, and compare with BAOAB: along common noise, and in the
+// mean energy of the bond, which is kT for any masses.
 #include <fmt/format.h>
 
 #include <vector>

@@ -4,8 +4,8 @@
 // The ellipse of a planet should not turn. Its direction is that of the vector of Laplace, Runge and Lenz,
 // A = p x L - q/|q|, which the motion conserves and a method does not. So we do not ask for the least error
 // of a step, which is the loss of the library, but for the least change of A in a revolution of 24 steps. A
-// loss is a name, a number of steps, and a function that says what the residuals after that number of steps are. One
-// direction is one condition: of the family's two parameters we keep Chin's b = 1/6, and learn c.
+// loss is a name, a number of steps, and a function that says what the residuals after that number of steps
+// are. One direction is one condition: of the family's two parameters we keep Chin's b = 1/6, and learn c.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -2,7 +2,8 @@
 // Learning with several processes, here or on a cluster: mpirun -n 4 example_several_processes
 //
 // Each process makes the trajectories that are its own and keeps them to itself. What all of them need are a
-// few sums, which are added up in one order, independent of the ranks: any number of processes prints the same lines.
+// few sums, which are added up in one order, independent of the ranks: any number of processes prints the
+// same lines.
 #include <fmt/format.h>
 
 #include <cmath>

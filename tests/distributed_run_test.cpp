@@ -9,10 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
@@ -30,14 +27,7 @@ namespace {
 
 using state = phase_point<double, Eigen::Dynamic>;
 
-/// Of order 1, whose letters do not merge.
-tabulated euler(const std::string& letters) {
-  return tabulated("symplectic Euler " + letters, run_time_word(letters), {1.0, 1.0}, {1, false, false});
-}
-
-const std::vector<tabulated> words{tabulated(verlet()),  tabulated(verlet_aba()),
-                                   euler("AB"),          euler("BA"),
-                                   tabulated(srkn11b()), tabulated(member<nystrom>({0.5, 0.4}))};
+const std::vector<tabulated> words = words_in_turn();
 
 /// Reads its share of a state that all ranks know.
 distributed_run::start from(const state& all, Eigen::Index components) {

@@ -22,6 +22,7 @@
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "support/refusal.hpp"
+#include "support/with_memory.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -131,42 +132,26 @@ BOOST_AUTO_TEST_CASE(of_other_trajectories_it_is_refused) {
 
 namespace {
 
-/// A force with memory: two threads in one object at a time are noted. A copy begins anew.
-struct with_memory {
-  static constexpr int dimension = 1;
-  static inline std::atomic<int> meetings = 0;
-  mutable std::atomic<int> inside = 0;
-
-  with_memory() = default;
-  with_memory(const with_memory&) {}
-  with_memory& operator=(const with_memory&) { return *this; }
-  ~with_memory() = default;
-  void force(const vector<double, 1>& q, vector<double, 1>& f) const {
-    if (++inside != 1) ++meetings;
-    std::this_thread::yield();
-    f[0] = -q[0];
-    --inside;
-  }
-};
-static_assert(BlackBoxForce<with_memory>);
+using black_box_with_memory = with_memory<struct ensemble_runs>;
+static_assert(BlackBoxForce<black_box_with_memory>);
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(each_block_of_a_black_box_has_a_copy_of_the_system) {
-  const model system{with_memory()};
+  const model system{black_box_with_memory()};
   const auto stepper = make_stepper(system, classical_methods().front(), 0.1);
   const vector<double, Eigen::Dynamic> rest = vector<double, Eigen::Dynamic>::Zero(1);
   const normal_around<Eigen::Dynamic> starts({rest, rest}, 0.1, 0.1);
   ensemble_run<double, std::remove_const_t<decltype(stepper)>> run(stepper, starts, 1, 0, 64, 4);
   run.go_on(
       2000, 2000, 1, read_q1<double>, [](auto&&...) {}, 4);
-  BOOST_TEST(with_memory::meetings == 0);
+  BOOST_TEST(black_box_with_memory::meetings == 0);
   // The test can fail: one object that several threads use.
-  const with_memory one;
+  const black_box_with_memory one;
   for_each_block(64, 1, 4, [&](std::int64_t, int) {
     vector<double, 1> q(0.1);
     vector<double, 1> f(0.0);
     for (int i = 0; i < 2000; ++i) one.force(q, f);
   });
-  BOOST_TEST(with_memory::meetings > 0);
+  BOOST_TEST(black_box_with_memory::meetings > 0);
 }

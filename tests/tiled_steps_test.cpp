@@ -7,10 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "support/draws.hpp"
 #include "support/local_systems.hpp"
@@ -24,19 +21,7 @@ namespace {
 
 using state = phase_point<double, Eigen::Dynamic>;
 
-/// Of order 1, whose letters do not merge.
-tabulated euler(const std::string& letters) {
-  return tabulated("symplectic Euler " + letters, run_time_word(letters), {1.0, 1.0}, {1, false, false});
-}
-
-/// That begin with drifts and with kicks, merge or not, and keep their last force or not.
-const std::vector<tabulated> words{tabulated(verlet()),
-                                   tabulated(verlet_aba()),
-                                   euler("AB"),
-                                   euler("BA"),
-                                   tabulated(srkn6b()),
-                                   tabulated(srkn11b()),
-                                   tabulated(member<nystrom>({0.5, 0.4}))};
+const std::vector<tabulated> words = words_in_turn();
 
 /// Whether a run of the model, watched every so many steps, shows the states of a plain loop.
 bool moves_as_in_a_loop(const auto& system, const tabulated& method, std::int64_t steps, std::int64_t every,

@@ -5,69 +5,22 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/own_letter.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/flows/displaced_kick.hpp"
-#include "nysalt/flows/drift.hpp"
-#include "nysalt/flows/gradient_kick.hpp"
-#include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
 
-/// Every flow that a word can name by its letter at run time: what is said of letters elsewhere is asked of
-/// these.
-using known_letters = std::tuple<drift, kick, gradient_kick, displaced_kick, rotation, soft_kick,
-                                 soft_gradient_kick, ornstein_uhlenbeck>;
-
-namespace detail {
-/// f(flow) for the flow of that letter among the given ones; false if there is none.
-template <class... L>
-[[gnu::always_inline]] inline bool with_letter(char letter, std::tuple<L...>, auto&& f) {
-  return ((L::letter == letter && (f(L{}), true)) || ...);
-}
-}  // namespace detail
-
-namespace detail {
-template <class L, class Known>
-inline constexpr bool is_among = false;
-template <class L, class... Known>
-inline constexpr bool is_among<L, std::tuple<Known...>> = (std::same_as<L, Known> || ...);
-/// One of known_letters.
-template <class L>
-inline constexpr bool is_known_letter = is_among<L, known_letters>;
-
-template <class L, class Known>
-inline constexpr bool is_named_among = false;
-template <class L, class... Known>
-inline constexpr bool is_named_among<L, std::tuple<Known...>> = ((L::letter == Known::letter) || ...);
-/// Its character is that of one of known_letters.
-template <class L>
-inline constexpr bool names_known_letter = is_named_among<L, known_letters>;
-}  // namespace detail
-
-/// Whether all letters of a word are of known_letters, so that it can be data without a system.
-template <TypeLevelWord W>
-consteval bool are_known_letters() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    return (detail::is_known_letter<typename W::template letter<I>> && ...);
-  }
-  (std::make_index_sequence<W::length>());
-}
-
-/// The facts that word<...> knows at compile time, computed when the word is made: which letters merge, where
-/// the force is known, and how many evaluations that leaves.
+/// What word<...> knows at compile time, found when it is made: which letters merge, where the force is at
+/// hand, and how many evaluations that leaves.
 class run_time_word {
  public:
   /// One for each slot; C is double or the scalar of the states.
@@ -90,13 +43,13 @@ class run_time_word {
   /// The same with letters of one's own, as they act on this system, which is copied: the word steps no
   /// other, over double and packs, and their derivatives by two parameters.
   template <TypeLevelWord W, System S>
-  run_time_word(W, const S& system) : run_time_word(W::letters(), own_letters_of<W>(system)) {}
+  run_time_word(W, const S& system) : run_time_word(W::letters(), detail::bound_letters<W>(system)) {}
 
   /// Other letters, of which those of one's own are what they are here.
   run_time_word with_letters(std::string letters) const { return {std::move(letters), own_letters_}; }
 
  private:
-  using own_letters = std::vector<std::shared_ptr<const detail::own_letter>>;
+  using own_letters = detail::own_letters;
 
   run_time_word(std::string letters, own_letters own)
       : length(std::min(letters.find(processor_mark), letters.size())),
@@ -254,32 +207,6 @@ class run_time_word {
     if (is_known) return result;
     throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}", letters_,
                                          letters_[i], listed([](auto) { return true; })));
-  }
-
-  template <class W, class S>
-  static own_letters own_letters_of(const S& system) {
-    own_letters result;
-    std::vector<const std::type_info*> types;
-    const auto add = [&]<class L>(std::type_identity<L>) {
-      if constexpr (!detail::is_known_letter<L>) {
-        static_assert(!detail::names_known_letter<L>,
-                      "nysalt: a letter of one's own takes a character that no known letter has");
-        for (std::size_t k = 0; k < result.size(); ++k) {
-          if (result[k]->facts.letter != L::letter) continue;
-          if (*types[k] == typeid(L)) return;
-          throw std::invalid_argument(sentence(
-              "the word {} has two letters of one's own that are named {}; name one of them otherwise",
-              W::letters(), L::letter));
-        }
-        types.push_back(&typeid(L));
-        result.push_back(std::make_shared<const detail::bound_letter<L, S>>(system));
-      }
-    };
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (add(std::type_identity<typename W::template letter<I>>()), ...);
-    }
-    (std::make_index_sequence<W::length>());
-    return result;
   }
 
   std::string letters_;

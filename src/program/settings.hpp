@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "comparison/settings.hpp"
 #include "comparison/exported_source.hpp"
+#include "comparison/settings.hpp"
 #include "plugin/potential.hpp"
 
 namespace nysalt::program {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// A target with a mistake: it aborts on most inputs, though not on those of its corpus, which are of one letter each.
+// A target with a mistake: it aborts on most inputs, though not on those of its corpus, which are of one
+// letter each.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,5 @@
-// expect: nysalt: the letters A, B, D, G split H into K and V, and R, S, H into its quadratic part and the rest:
+// expect: nysalt: the letters A, B, D, G split H into K and V, and R, S, H into its quadratic part and the
+// rest:
 //   a word has those of one splitting
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/flows/kick.hpp"

@@ -5,33 +5,16 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
-#include <thread>
 
+#include "../support/with_memory.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 
 using namespace nysalt;
 
 namespace {
 
-/// Two threads in one object at a time are counted. A copy begins anew.
-struct with_memory {
-  static constexpr int dimension = 1;
-  static inline std::atomic<int> meetings = 0;
-  mutable std::atomic<int> inside = 0;
-
-  with_memory() = default;
-  with_memory(const with_memory&) {}
-  with_memory& operator=(const with_memory&) { return *this; }
-  ~with_memory() = default;
-  void force(const vector<double, 1>& q, vector<double, 1>& f) const { f[0] = -q[0]; }
-  double potential(const vector<double, 1>& q) const {
-    if (++inside != 1) ++meetings;
-    std::this_thread::yield();
-    --inside;
-    return 0.5 * q[0] * q[0];
-  }
-};
-static_assert(BlackBoxForce<with_memory>);
+using black_box_with_memory = test::with_memory<struct observables>;
+static_assert(BlackBoxForce<black_box_with_memory>);
 
 /// value() on 4 threads, many times.
 void call_on_threads(const auto& value) {
@@ -43,22 +26,20 @@ void call_on_threads(const auto& value) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(one_thread_at_a_time_evaluates_an_observable_of_a_black_box) {
-  const model system{with_memory()};
+  const model system{black_box_with_memory()};
   const phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd::Constant(1, 2.0), Eigen::VectorXd::Zero(1)};
-  const auto potential =
-      program::of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) {
-        return of.potential(at.q);
-      });
-  const auto energy_of_system =
-      program::of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) {
-        return energy<T>(of, at);
-      });
+  const auto potential = program::of_system(
+      system,
+      []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) { return of.potential(at.q); });
+  const auto energy_of_system = program::of_system(
+      system,
+      []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) { return energy<T>(of, at); });
   std::atomic<int> wrong = 0;
   call_on_threads([&] { wrong += potential(x) != 2.0 || energy_of_system(x) != 2.0; });
   BOOST_TEST(wrong == 0);
-  BOOST_TEST(with_memory::meetings == 0);
+  BOOST_TEST(black_box_with_memory::meetings == 0);
   // The test can fail: one object that several threads use.
-  const with_memory one;
+  const black_box_with_memory one;
   call_on_threads([&] { one.potential(vector<double, 1>(2.0)); });
-  BOOST_TEST(with_memory::meetings > 0);
+  BOOST_TEST(black_box_with_memory::meetings > 0);
 }

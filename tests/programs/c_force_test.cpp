@@ -96,9 +96,10 @@ BOOST_AUTO_TEST_CASE(each_thread_has_data_of_its_own) {
       "void* nysalt_open(void) { return calloc(1, sizeof(int)); }\nvoid nysalt_close(void* data) { "
       "free(data); }\n";
   BOOST_REQUIRE_EQUAL(built(folder, "mine", text), "");
-  const auto done = run(folder,
-                        "run --system ./mine.so --spread 0.3 --method verlet --step 0.05 --horizon 500 --trajectories 40 "
-                        "--threads 4 --observables energy --output o.csv");
+  const auto done =
+      run(folder,
+          "run --system ./mine.so --spread 0.3 --method verlet --step 0.05 --horizon 500 --trajectories 40 "
+          "--threads 4 --observables energy --output o.csv");
   BOOST_TEST(done.code == 0, done.err);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Every command line that the program, the README, the tour or "choose a method" shows does what it is shown for.
+// Every command line that the program, the README, the tour or "choose a method" shows does what it is shown
+// for.
 #include <boost/test/unit_test.hpp>
 
 #include <sstream>

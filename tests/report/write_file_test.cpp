@@ -66,11 +66,13 @@ BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {
   const scratch folder("write_file_way");
   write_file(folder / "precious", "kept");
   std::filesystem::create_symlink("precious", folder / "a.txt.new.part");
-  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
+  BOOST_TEST(
+      refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
   BOOST_TEST(contents(folder / "precious") == "kept");
   std::filesystem::remove(folder / "a.txt.new.part");
   BOOST_TEST(mkfifo((folder / "a.txt.new.part").c_str(), 0600) == 0);
-  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
+  BOOST_TEST(
+      refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
   std::filesystem::remove(folder / "a.txt.new.part");
   std::ofstream(folder / "a.txt.new.part") << "left by a process that was stopped";
   write_file(folder / "a.txt", "text");

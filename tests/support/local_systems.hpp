@@ -3,9 +3,15 @@
 // far reach.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "nysalt/families/nystrom.hpp"
 #include "nysalt/local_system.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/phi4_lattice.hpp"
@@ -78,6 +84,22 @@ struct deaf_to_the_left : phi4_chain<> {
     if (begin < end) f(0, begin) += q(0, begin) - q(0, begin - 1);
   }
 };
+
+/// Symplectic Euler, of order 1: its two letters do not merge.
+inline tabulated euler(const std::string& letters) {
+  return tabulated("symplectic Euler " + letters, run_time_word(letters), {1.0, 1.0}, {1, false, false});
+}
+
+/// Drifts and kicks in turn, which begin with either, merge or not, and keep their last force or not.
+inline std::vector<tabulated> words_in_turn() {
+  return {tabulated(verlet()),
+          tabulated(verlet_aba()),
+          euler("AB"),
+          euler("BA"),
+          tabulated(srkn6b()),
+          tabulated(srkn11b()),
+          tabulated(member<nystrom>({0.5, 0.4}))};
+}
 
 template <class S>
 Eigen::Index row_of(const S& system) {

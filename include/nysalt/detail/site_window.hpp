@@ -28,7 +28,7 @@ class site_window {
 
   /// The most kicks of a sweep that pay.
   int kicks_of_sweep() const { return kicks_; }
-  /// Numbers of a halo for so many kicks: q and then p of the sites that they reach.
+  /// Length of a halo for `kicks` kicks: q and then p of the sites that these kicks reach.
   std::size_t halo_size(int kicks) const;
   /// Whether there is a neighbour on that side; a periodic image counts.
   bool has_neighbour(side at) const;

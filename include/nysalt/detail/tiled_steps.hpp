@@ -12,7 +12,7 @@
 
 namespace nysalt::detail {
 
-/// The letters of many steps of drifts and kicks in turn, in portions with at most so many kicks.
+/// The letters of many steps of drifts and kicks in turn, in portions of bounded numbers of kicks.
 class letters_in_portions {
  public:
   /// Refers to the program, whose `pairs` are not empty.

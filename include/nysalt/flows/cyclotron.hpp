@@ -48,7 +48,7 @@ struct cyclotron_flow : exact_flow<'m'> {
 /// q.
 struct velocity_drift : exact_flow<'v'> {
   static constexpr bool symplectic = false;
-  static constexpr bool reversible = false;  ///< it is reversible or not, as check_letter() tries
+  static constexpr bool reversible = false;  ///< R(q, p) = (q, -p) does not reverse it, as v is not p
 
   template <System S, Scalar T>
   static constexpr bool serves = HasMagneticField<S>;

@@ -53,10 +53,10 @@ class tabulated : public method_properties {
       : tabulated(method.name(), run_time_word(word_of(method)), to_vector(method.coefficients()),
                   {method.order, method.symmetric, method.requires_quadratic_kinetic}) {
     if constexpr (TypeLevelWord<typename M::word>) {
-      static_assert(
-          are_known_letters<typename M::word>(),
-          "nysalt: a table knows the letters of known_letters alone, in nysalt/run_time_word.hpp; step "
-          "the word as a type, or make the table with its system: tabulated(method, system)");
+      static_assert(are_known_letters<typename M::word>(),
+                    "nysalt: a table must have letters of known_letters only, in "
+                    "nysalt/detail/known_letters.hpp; step "
+                    "the word as a type, or make the table with its system: tabulated(method, system)");
     }
     static_assert(
         !requires { method.require_validity(std::string(), 1.0); },

@@ -26,8 +26,8 @@ constexpr Eigen::Index most_values_of_tile = 256 * 1024 / sizeof(double);
 // factor of two on the processors of docs/performance.md, and the best number of kicks goes with the square
 // root.
 constexpr double kicks_of_a_move = 8.0;
-// A tile computes at most one part in so many twice. Where a kick takes longer than on a chain, moving costs
-// less beside it, and more of the tile would be lost than moving gains.
+// The halo, which is computed twice, is at most the 16th part of a tile. Where a kick takes longer than on a
+// chain, moving costs less beside it, and more of the tile would be lost than moving gains.
 constexpr Eigen::Index most_overlap = 16;
 // Beyond this, moving is less than a tenth of the work.
 constexpr Eigen::Index most_kicks = 64;
@@ -71,7 +71,7 @@ void from_columns(const columns& from, Eigen::Index first, Eigen::Index componen
   }
 }
 
-/// So many numbers from `begin` on.
+/// `count` numbers from `begin` on.
 template <class T>
 std::span<T> numbers(T* begin, Eigen::Index count) {
   return {begin, static_cast<std::size_t>(count)};

@@ -26,8 +26,8 @@ std::string digits(const std::vector<double>& values, char exponent = 'e');
 /// The lines of the header, each after `mark`.
 std::string header(const exported_method& method, std::string_view mark);
 
-/// What all texts are filled with: NAME, HEADER, EXPLAINED (what the letters do), Q and P (where the self-test
-/// ends), MAIN (the self-test as a program in Python).
+/// What all texts are filled with: NAME, HEADER, EXPLAINED (what the letters do), Q and P (where the
+/// self-test ends), MAIN (the self-test as a program in Python).
 gap_texts values_of_header(const exported_method& method, std::string_view mark, char exponent = 'e');
 /// Those, and of KERNEL, START and FINISH letters and coefficients.
 gap_texts values_of(const exported_method& method, std::string_view mark, char exponent = 'e');

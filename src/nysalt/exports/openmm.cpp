@@ -9,7 +9,8 @@ namespace nysalt::detail {
 std::string export_to_openmm(const exported_method& method) {
   if (method.method.letters().is_processed()) {
     refuse_export(
-        "export: {} has a processor, which needs a copy of the state, and a CustomIntegrator of openmm has none: "
+        "export: {} has a processor, which needs a copy of the state, and a CustomIntegrator of openmm has "
+        "none: "
         "export to c, cpp, fortran, python or julia, or take the method without the processor",
         method.method.name());
   }

@@ -28,8 +28,8 @@ struct lennard_jones_liquid::scratch {
 namespace {
 
 using detail::exact_sum;
-using detail::reals;
 using detail::integers;
+using detail::reals;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 

@@ -30,7 +30,9 @@ inline std::int64_t place_of(double x) {
 }
 
 /// From 0 to below 1.
-inline double fraction_of(std::int64_t place) { return static_cast<double>(place & bits_of_position) * 0x1p-52; }
+inline double fraction_of(std::int64_t place) {
+  return static_cast<double>(place & bits_of_position) * 0x1p-52;
+}
 
 /// The way to one place from others, by the nearest image, in units of the side.
 struct ways {
