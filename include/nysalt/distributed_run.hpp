@@ -42,8 +42,8 @@ class distributed_run {
                   const communicator& ranks = alone)
       : distributed_run(system, detail::table_for(method, system, step), step, at, ranks) {}
   ~distributed_run();
-  distributed_run(distributed_run&&) noexcept;
-  distributed_run& operator=(distributed_run&&) noexcept;
+  distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state
+  distributed_run& operator=(distributed_run&&) noexcept;  ///< likewise
 
   /// Takes `steps` steps. Throws std::invalid_argument if steps < 0.
   void advance(std::int64_t steps);

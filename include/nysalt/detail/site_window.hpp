@@ -57,9 +57,9 @@ class site_window {
   std::unique_ptr<workers> workers_;
 };
 
-/// Whether a trajectory is better stepped in tiles: not a system of few coordinates, which is stepped sooner
-/// than its tile is filled, nor, by one thread, one that reaches so far that tiles overlap by much.
-bool pays_in_tiles(const site_layout& layout, int threads);
+/// How many of the threads step a trajectory in tiles. 0, so that it is better stepped without tiles, of a
+/// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much.
+int threads_in_tiles(const site_layout& layout, int threads);
 
 /// Sites whose energies are summed in order, before the sums are added in a tree: a multiple of sites_of_row.
 Eigen::Index sites_of_leaf(const site_layout& layout);

@@ -106,8 +106,9 @@ class typed_kernels final : public kernels<T> {
                const watch<T>& watched) const final {
     if constexpr (std::same_as<T, double> && N == Eigen::Dynamic && LocalSystem<S>) {
       const typed_site_kernels<S> sites(*system_);
-      if (!letters.pairs.empty() && pays_in_tiles(sites.layout(), letters.threads)) {
-        tiled_steps tiles(sites, letters.threads);
+      const int threads = threads_in_tiles(sites.layout(), letters.threads);
+      if (!letters.pairs.empty() && threads > 0) {
+        tiled_steps tiles(sites, threads);
         state_in_place<T, N> x{q, p, f};
         return watch_steps(
             steps, watched,

@@ -213,6 +213,7 @@ class fpu_chain {
     return frequency_bands(std::max(2.0, 12.5 * temperature));
   }
   std::string description() const { return sentence("fpu_chain(pairs={}, omega={})", pairs(), omega_); }
+  /// The description without the size.
   std::string kind() const { return sentence("fpu_chain(omega={})", omega_); }
 
  private:

@@ -34,6 +34,7 @@ class in_time {
   static constexpr int dimension = P::dimension + 1;
   using point = phase_point<double, P::dimension>;  ///< a state without its time
 
+  /// The system that P describes.
   explicit in_time(const P& driven = {}) : driven_(driven) {}
 
   const P& driven() const { return driven_; }  ///< what was written
@@ -43,11 +44,13 @@ class in_time {
     for (int i = 0; i < P::dimension; ++i) x[i] = q[i];
     return driven_.potential(x, q[P::dimension]);
   }
+  /// v = p/m, and 1 of the time.
   template <class T>
   void velocity(const vector<T, dimension>& p, vector<T, dimension>& v) const {
     for (int i = 0; i < P::dimension; ++i) v[i] = p[i] * inverse_mass_of(i);
     v[P::dimension] = T(1.0);
   }
+  /// K = sum p^2/2m + p_t.
   template <class T>
   T kinetic_energy(const vector<T, dimension>& p) const {
     T sum = p[P::dimension];

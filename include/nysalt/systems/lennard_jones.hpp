@@ -97,6 +97,7 @@ class lennard_jones {
   }
 
   std::string description() const { return sentence("lennard_jones(space={}, atoms={})", space(), atoms()); }
+  /// The description without the number of atoms.
   std::string kind() const { return sentence("lennard_jones(space={})", space()); }
 
  private:

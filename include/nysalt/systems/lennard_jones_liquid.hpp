@@ -55,10 +55,10 @@ class lennard_jones_liquid {
   /// the cut-off and skin, as an atom would else have neighbours by two images.
   lennard_jones_liquid(Eigen::Index atoms, double density, const lennard_jones_liquid_options& options = {});
 
-  lennard_jones_liquid(const lennard_jones_liquid& other);  ///< with no list yet
-  lennard_jones_liquid(lennard_jones_liquid&&) noexcept;
-  lennard_jones_liquid& operator=(const lennard_jones_liquid& other);
-  lennard_jones_liquid& operator=(lennard_jones_liquid&&) noexcept;
+  lennard_jones_liquid(const lennard_jones_liquid& other);             ///< with no list yet
+  lennard_jones_liquid(lennard_jones_liquid&&) noexcept;               ///< with the other's list
+  lennard_jones_liquid& operator=(const lennard_jones_liquid& other);  ///< with no list yet
+  lennard_jones_liquid& operator=(lennard_jones_liquid&&) noexcept;    ///< with the other's list
   ~lennard_jones_liquid();
 
   Eigen::Index size() const { return 3 * atoms_; }

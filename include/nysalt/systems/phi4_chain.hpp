@@ -126,6 +126,7 @@ class phi4_chain {
     return frequency_bands(std::max(usual_well_energy, 12.5 * temperature));
   }
   std::string description() const { return sentence("phi4_chain(masses={})", size()); }
+  /// The description without the size.
   std::string kind() const { return "phi4_chain()"; }
 
  private:

@@ -106,6 +106,7 @@ class phi4_lattice {
   std::string description() const {
     return sentence("phi4_lattice(side={}, mass_squared={}, coupling={})", side_, mass_squared_, coupling_);
   }
+  /// The description without the side.
   std::string kind() const {
     return sentence("phi4_lattice(mass_squared={}, coupling={})", mass_squared_, coupling_);
   }

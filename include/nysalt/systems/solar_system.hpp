@@ -61,9 +61,10 @@ template <int Planets>
 class kepler_motions {
  public:
   static constexpr int dimension = 3 * Planets;
-  static constexpr int lanes = 1;  // kepler_flow iterates as often as each state needs
-  static constexpr std::size_t planets = Planets;
+  static constexpr int lanes = 1;                  // kepler_flow iterates as often as each state needs
+  static constexpr std::size_t planets = Planets;  ///< without the star
 
+  /// The part of a solar system of these masses.
   explicit kepler_motions(const jacobi_masses<Planets>& masses) : masses_(masses) {}
 
   const jacobi_masses<Planets>& masses() const { return masses_; }  ///< those of the star and its planets
@@ -110,6 +111,7 @@ class planet_interaction {
   static constexpr int dimension = 3 * Planets;
   static constexpr int lanes = 1;  ///< one trajectory at a time
 
+  /// The part of a solar system of these masses.
   explicit planet_interaction(const jacobi_masses<Planets>& masses) : kepler_(masses) {}
 
   template <class T>

@@ -31,6 +31,10 @@ constexpr double kicks_of_a_move = 8.0;
 constexpr Eigen::Index most_overlap = 16;
 // Beyond this, moving is less than a tenth of the work.
 constexpr Eigen::Index most_kicks = 64;
+// A sweep that makes fewer of them costs more on one thread than it gains. Measured on square lattices.
+constexpr Eigen::Index many_kicks = 8;
+// Two threads with less than this each lose more by meeting than they gain. Measured on chains and lattices.
+constexpr Eigen::Index values_of_thread = 4096;
 // Where the window is a single tile without a halo: so that a sweep is long beside its call.
 constexpr int kicks_without_halo = 4096;
 
@@ -277,12 +281,15 @@ site_layout required(const site_layout& layout, Eigen::Index size) {
   return result;
 }
 
-bool pays_in_tiles(const site_layout& layout, int threads) {
+int threads_in_tiles(const site_layout& layout, int threads) {
   constexpr Eigen::Index few = 64;
-  if (layout.components * layout.sites < few || layout.sites < 4 * layout.reach) return false;
-  // One thread gains from two kicks in a sweep on, or where nothing is computed twice.
+  const Eigen::Index values = layout.components * layout.sites;
+  if (values < few || layout.sites < 4 * layout.reach) return 0;
+  const int useful = static_cast<int>(std::clamp<Eigen::Index>(values / values_of_thread, 1, threads));
+  if (useful > 1) return useful;
+  // One thread gains where a sweep makes many kicks, or nothing is computed twice.
   const bool is_one_tile = !layout.is_periodic && layout.sites <= sites_that_fit(layout);
-  return threads > 1 || is_one_tile || sites_that_fit(layout) >= 2 * most_overlap * layout.reach;
+  return is_one_tile || sites_that_fit(layout) >= most_overlap * many_kicks * layout.reach ? 1 : 0;
 }
 
 Eigen::Index sites_of_leaf(const site_layout& layout) {
