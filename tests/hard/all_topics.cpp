@@ -4,8 +4,8 @@
 namespace nysalt::hard {
 
 std::vector<topic> all_topics() {
-  return {stability(),        stiffness(), orbits(),    collisions(),
-          rough_potentials(), baths(),     long_runs(), magnitudes()};
+  return {stability(),        stiffness(), several_forces(), orbits(),    collisions(),
+          rough_potentials(), baths(),     long_runs(),      magnitudes()};
 }
 
 }  // namespace nysalt::hard

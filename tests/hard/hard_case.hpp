@@ -62,6 +62,7 @@ struct topic {
 // One file each.
 topic stability();
 topic stiffness();
+topic several_forces();
 topic orbits();
 topic collisions();
 topic rough_potentials();
