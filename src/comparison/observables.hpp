@@ -3,8 +3,6 @@
 #pragma once
 
 #include <charconv>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,14 +53,9 @@ inline bool is_built_in_observable(const initial_value_problem& made, const std:
          (pairs > 0 && (name == "stiff_energy" || index_after(name, "stiff_energy_", pairs) > 0));
 }
 
-/// value(system, state) as a function of the state. A black box may have memory: the function has a copy of
-/// the system, which one thread at a time evaluates.
+/// value(system, state) as a function of the state. Refers to the system.
 inline nysalt::detail::over_scalars<nysalt::detail::of_state> of_system(const model& system, auto value) {
-  if (!is_black_box(system)) return [&system, value](const auto& x) { return value(system, x); };
-  return [own = system.separate(), guard = std::make_shared<std::mutex>(), value](const auto& x) {
-    const std::lock_guard lock(*guard);
-    return value(own, x);
-  };
+  return [&system, value](const auto& x) { return value(system, x); };
 }
 
 /// A function of the state of one trajectory, or of those in the lanes of packs. Refers to what

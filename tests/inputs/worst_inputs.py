@@ -80,7 +80,8 @@ def commands_of_text():
         yield f"step, {name}", ["run", "--method", "verlet", "--step", text, "--horizon", "1", "--threads", "1"]
     for number in ("1000000000000000000", "9223372036854775807", "1e308", "100000000", "300000"):
         for system, option in (("fpu", "--pairs"), ("linear_chain", "--masses"), ("phi4", "--masses"),
-                               ("lennard_jones", "--atoms"), ("phi4_lattice", "--side"), ("gaussian", "--size")):
+                               ("lennard_jones", "--atoms"), ("lennard_jones_liquid", "--atoms"),
+                               ("phi4_lattice", "--side"), ("gaussian", "--size")):
             yield f"{system} {option} {number}", [*RUN, "--system", system, option, number]
         if float(number) > 2**48:  # fewer are what is asked for, if it takes a day
             yield f"trajectories {number}", [*RUN, "--trajectories", number, "--observables", "energy"]

@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   };
   BOOST_TEST(
       names("systems") ==
-      "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones phi4 phi4_lattice gaussian "
-      "logistic_regression ");
+      "fpu oscillator linear_chain pendulum henon_heiles kepler lennard_jones lennard_jones_liquid phi4 "
+      "phi4_lattice gaussian logistic_regression ");
   BOOST_TEST(
       names("families") ==
       "nystrom aba4 aba5 aba6 bab2 bab3 bab4 bab5 bab6 aba3_free aba4_free aba6_free bab6_free fg_chin "

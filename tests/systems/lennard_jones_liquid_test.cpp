@@ -282,6 +282,8 @@ BOOST_AUTO_TEST_CASE(bad_liquids_are_refused) {
     BOOST_TEST(refuses<wrong>([&] { liquid(500, 0.8, {.skin = bad}); }, {"skin", "positive and finite"}));
     BOOST_TEST(refuses<wrong>([&] { liquid(500, 0.8, {.cutoff = bad}); }, {"cut-off", "at least 1"}));
   }
+  // No number of atoms would do.
+  BOOST_TEST(refuses<wrong>([] { liquid(500, 1e300); }, {"take a shorter cut-off"}));
   BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.smoothness = 4}); }, {"smoothness", "0 to 3", "got 4"}));
   BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.smoothness = -1}); }, {"smoothness", "got -1"}));
   BOOST_TEST(refuses<wrong>([] { liquid(500, 0.8, {.threads = 0}); }, {"threads", "at least 1", "got 0"}));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -80,7 +81,14 @@ template <class S>
 using held_system = typename std::conditional_t<BlackBoxForce<S>, std::type_identity<counted<S>>,
                                                 std::type_identity<S>>::type;
 
-/// The functions of S over T.
+/// In place of a mutex, where threads may share a system.
+struct no_mutex {
+  void lock() {}
+  void unlock() {}
+};
+
+/// The functions of S over T. A black box may have memory: threads that share a copy, as for energies, ask it
+/// for forces and energies one at a time. To be stepped, each has a copy of its own.
 template <class S, class T>
 class typed_kernels final : public kernels<T> {
   static constexpr int N = S::dimension;
@@ -126,6 +134,7 @@ class typed_kernels final : public kernels<T> {
   }
   void force(field of, const column& q, column& f) const final {
     if constexpr (serves_force) {
+      const auto one_at_a_time = lock();
       if constexpr (HasSoftForce<S, T>) {
         if (of == field::soft) return system_->soft_force(as_fixed<N>(q), as_fixed<N>(f));
       }
@@ -163,6 +172,7 @@ class typed_kernels final : public kernels<T> {
     }
   }
   T kinetic_energy(const column& p) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves_kinetic) {
       return system_->kinetic_energy(as_fixed<N>(p));
     } else if constexpr (serves_energy<S, T>()) {
@@ -175,6 +185,7 @@ class typed_kernels final : public kernels<T> {
     }
   }
   T potential(const column& q) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves_potential) {
       return system_->potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasPotential<S, double> && lanes_in<T> > 1) {
@@ -184,6 +195,7 @@ class typed_kernels final : public kernels<T> {
     }
   }
   T energy(const column& q, const column& p) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves_energy<S, T>()) {
       return nysalt::kinetic_energy<T>((*system_), as_fixed<N>(p)) + system_->potential(as_fixed<N>(q));
     } else if constexpr (serves_force && HasEnergy<S> && lanes_in<T> > 1) {
@@ -217,7 +229,11 @@ class typed_kernels final : public kernels<T> {
     return result;
   }
 
+  using mutex = std::conditional_t<BlackBoxForce<S>, std::mutex, no_mutex>;
+  std::lock_guard<mutex> lock() const { return std::lock_guard<mutex>(mutex_); }
+
   const held_system<S>* system_;
+  [[no_unique_address]] mutable mutex mutex_;
 };
 
 /// S as an any_system.

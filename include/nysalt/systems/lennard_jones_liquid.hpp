@@ -84,6 +84,8 @@ class lennard_jones_liquid {
   std::int64_t lists_made() const;
   /// Atoms, density, cut-off and smoothness: what the bits depend on.
   std::string description() const;
+  /// The description without the number of atoms.
+  std::string kind() const;
 
  private:
   struct scratch;

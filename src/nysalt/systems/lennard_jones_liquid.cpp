@@ -106,10 +106,14 @@ lennard_jones_liquid::lennard_jones_liquid(Eigen::Index atoms, double density,
   side_ = std::cbrt(static_cast<double>(atoms) / density);
   const double least = 2.0 * (options.cutoff + options.skin);
   if (!(side_ >= least)) {
+    const double enough = std::ceil(least * least * least * density);
     throw std::invalid_argument(
         sentence("lennard_jones_liquid: the side (atoms/density)^(1/3) must be at least 2 (cut-off + skin) = "
-                 "{}, got {}; take at least {} atoms at this density, or a shorter cut-off",
-                 least, side_, static_cast<std::int64_t>(std::ceil(least * least * least * density))));
+                 "{}, got {}; take {}a shorter cut-off",
+                 least, side_,
+                 enough <= static_cast<double>(most)
+                     ? sentence("at least {} atoms at this density, or ", static_cast<std::int64_t>(enough))
+                     : std::string()));
   }
 }
 
@@ -242,6 +246,11 @@ std::int64_t lennard_jones_liquid::lists_made() const { return scratch_ ? scratc
 std::string lennard_jones_liquid::description() const {
   return sentence("lennard_jones_liquid(atoms={}, density={}, cutoff={}, smoothness={})", atoms_, density_,
                   options_.cutoff, options_.smoothness);
+}
+
+std::string lennard_jones_liquid::kind() const {
+  return sentence("lennard_jones_liquid(density={}, cutoff={}, smoothness={})", density_, options_.cutoff,
+                  options_.smoothness);
 }
 
 }  // namespace nysalt

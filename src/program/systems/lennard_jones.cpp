@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <cmath>
-
+#include "nysalt/systems/lennard_jones.hpp"
+#include "collision_frequency.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/systems/lennard_jones.hpp"
 
 namespace nysalt::program {
-
-namespace {
-
-/// Of two atoms that meet with a relative momentum of five deviations, 25 kT/2 above the bottom at -1: where
-/// they turn, s = r^-6 solves 4 (s^2 - s) = 25 kT/2 - 1. Their frequency is that of 2 V''.
-double frequency_at_turning_point(double temperature) {
-  const double s = 0.5 * (1.0 + std::sqrt(12.5 * temperature));
-  const double curvature = 4.0 * (156.0 * s * s - 42.0 * s) * std::cbrt(s);
-  return std::sqrt(2.0 * curvature);
-}
-
-}  // namespace
 
 system_declaration declare_lennard_jones() {
   system_declaration result{.name = "lennard_jones",
@@ -33,7 +20,7 @@ system_declaration declare_lennard_jones() {
     const double temperature = 0.1 * spread * spread;
     const lennard_jones<> system(values.whole("space"), values.whole("atoms"));
     using law = lennard_jones_law<Eigen::Dynamic, Eigen::Dynamic>;
-    return detail::made_of(system, in, law(system, temperature), frequency_at_turning_point(temperature));
+    return detail::made_of(system, in, law(system, temperature), collision_frequency(temperature));
   };
   result.source = "verlet_1967";
   return result;
