@@ -19,19 +19,12 @@ system_declaration declare_logistic_regression();
 
 const std::vector<system_declaration>& bundled_declarations() {
   static const std::vector<system_declaration> all = [] {
-    std::vector<system_declaration> declared{
-        declare_fpu(),
-        declare_oscillator(),
-        declare_linear_chain(),
-        declare_pendulum(),
-        declare_henon_heiles(),
-        declare_kepler(),
-        declare_lennard_jones(),
-        declare_lennard_jones_liquid(),
-        declare_phi4(),
-        declare_phi4_lattice(),
-        declare_gaussian(),
-        declare_logistic_regression()};
+    std::vector<system_declaration> declared{declare_fpu(),           declare_oscillator(),
+                                             declare_linear_chain(),  declare_pendulum(),
+                                             declare_henon_heiles(),  declare_kepler(),
+                                             declare_lennard_jones(), declare_lennard_jones_liquid(),
+                                             declare_phi4(),          declare_phi4_lattice(),
+                                             declare_gaussian(),      declare_logistic_regression()};
     for (auto& system : declared) system.is_checked = true;
     return declared;
   }();
