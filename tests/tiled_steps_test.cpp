@@ -45,8 +45,9 @@ bool moves_as_in_a_loop(const auto& system, const tabulated& method, std::int64_
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(tiles_have_the_bits_of_a_loop) {
-  // Around the sizes of tiles, which are 1024 or 2048 sites here, and of one tile alone.
-  for (const Eigen::Index sites : {16, 40, 1023, 1024, 1025, 2049, 5000}) {
+  // Around the sizes of tiles, which are 1024 or 2048 sites here, and of one tile alone; the last is large
+  // enough for three threads.
+  for (const Eigen::Index sites : {16, 40, 1023, 1024, 1025, 2049, 5000, 13000}) {
     for_each_local_system(
         [&](const auto& system) {
           for (const auto& method : words) {
@@ -71,8 +72,25 @@ BOOST_AUTO_TEST_CASE(watched_runs_show_the_states_of_a_loop) {
             }
           }
         },
-        300);
+        every < 64 ? 300 : 9000);  // on one thread and on two
   }
+}
+
+BOOST_AUTO_TEST_CASE(threads_take_systems_that_are_worth_them) {
+  const auto lattice = [](Eigen::Index side) {
+    return detail::site_layout{
+        .sites = side * side, .reach = side, .sites_of_row = side, .is_periodic = true};
+  };
+  using detail::threads_in_tiles;
+  BOOST_TEST(threads_in_tiles({.sites = 63}, 4) == 0);
+  BOOST_TEST(threads_in_tiles({.sites = 64}, 4) == 1);
+  BOOST_TEST(threads_in_tiles({.sites = 8191}, 4) == 1);
+  BOOST_TEST(threads_in_tiles({.sites = 8192}, 4) == 2);
+  BOOST_TEST(threads_in_tiles({.sites = 4096, .components = 2}, 4) == 2);
+  BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 4) == 4);
+  BOOST_TEST(threads_in_tiles(lattice(32), 2) == 0);
+  BOOST_TEST(threads_in_tiles(lattice(100), 1) == 0);
+  BOOST_TEST(threads_in_tiles(lattice(100), 2) == 2);
 }
 
 BOOST_AUTO_TEST_CASE(a_reach_that_is_too_short_has_other_bits) {

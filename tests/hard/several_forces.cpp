@@ -75,6 +75,7 @@ verdict resonance_of_slow_kicks(extent how) {
   if (how == extent::full) {
     for (double step = 1.02 * resonant; step < 0.26; step *= 1.01) try_at(step);
   }
+  // Growth by a factor at each step, of many in this time, against a bounded error.
   const double beside = largest_error(r_respa<0, 1, 32>{}, 1.1 * resonant, time);
   result.require(
       at_resonance > 100.0 * beside,
@@ -87,7 +88,11 @@ verdict resonance_of_slow_kicks(extent how) {
   const auto try_learned = [&](double step, bool must_hold) {
     const auto [method, fit] = learned_at(step);
     if (!fit.usable) {
-      result.note(fmt::format("nothing usable was learned at {}: {}", step, fit.reason));
+      const auto why = fmt::format("nothing usable was learned at {}: {}", step, fit.reason);
+      if (must_hold)
+        result.require(false, why);
+      else
+        result.note(why);
       return;
     }
     const double early = largest_error(method, step, time);
@@ -99,6 +104,7 @@ verdict resonance_of_slow_kicks(extent how) {
     for_long.y.push_back(late);
     const auto measured = fmt::format(
         "learned nested_4x2 at {}: energy error {:.1e}, in ten times as long {:.1e}", step, early, late);
+    // A random walk multiplies the error by sqrt(10), a trend by 10.
     if (must_hold)
       result.require(late <= 1.4 * early, measured);
     else if (late > 1.4 * early)

@@ -291,4 +291,6 @@ BOOST_AUTO_TEST_CASE(bad_liquids_are_refused) {
   BOOST_TEST(refuses<wrong>([&] { lennard_jones_liquid_law(good, -1.0); }, {"temperature", "got -1"}));
   BOOST_TEST(good.description() == "lennard_jones_liquid(atoms=500, density=0.8, cutoff=2.5, smoothness=0)");
   BOOST_TEST(liquid(500, 0.8, {.skin = 0.2, .threads = 2}).description() == good.description());
+  BOOST_TEST(good.kind() == liquid(600, 0.8).kind());
+  BOOST_TEST(good.kind() != liquid(500, 0.7).kind());
 }

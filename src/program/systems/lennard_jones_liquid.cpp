@@ -28,6 +28,7 @@ system_declaration declare_lennard_jones_liquid() {
     lennard_jones_liquid_options options{.cutoff = values.real("cutoff"),
                                          .smoothness = static_cast<int>(values.whole("smoothness"))};
     // Bits do not depend on the skin: where the box has no room for the usual one, the largest that it has.
+    // With less than this the list would be made at nearly every step: a longer cut-off is refused.
     const double room = 0.5 * std::cbrt(static_cast<double>(atoms) / density) - options.cutoff;
     if (room > 0.01) options.skin = std::min(options.skin, room * (1.0 - 1e-12));
     const lennard_jones_liquid system(atoms, density, options);
