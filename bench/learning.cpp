@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // A search over 10^5 samples: compressed to one small block, against a Ceres block for each sample.
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -10,10 +13,13 @@
 
 #include "../tests/support/one_step.hpp"
 #include "../tests/support/sample_blocks.hpp"
+#include "counting.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/stepper.hpp"
+#include "peers/roofs.hpp"
 #include "races.hpp"
 
 namespace nysalt::bench {
@@ -42,6 +48,49 @@ class problem {
   }
   double samples() const { return static_cast<double>(data_.pairs()); }
 
+  /// One pass over the data: loss, gradient and normal matrix.
+  squares pass(const test::one_step<nystrom>& loss) const { return squares_at(loss, start_); }
+  std::shared_ptr<const test::one_step<nystrom>> loss() const {
+    return std::make_shared<const test::one_step<nystrom>>(chain_, data_, measure_);
+  }
+
+  /// Multiplications and additions that a pass does for one pair, counted: a step with two derivatives, the residuals,
+  /// and the six terms that these add to the sums of the trajectory.
+  std::int64_t operations_of_pair() const {
+    using C = dual<counting, 2>;
+    const auto c = nystrom::coefficients(std::array{C::variable(counting(0.5), 0), C::variable(counting(0.4), 1)});
+    const stepper<chain_type, nystrom::word, C> one(chain_, c, data_.step);
+    const phase_point<double, Eigen::Dynamic> first = data_.start[0];
+    auto x = phase_point<double, 6>{first.q, first.p}.cast<C>();
+    const phase_point<double, Eigen::Dynamic> last = data_.finish[0];
+    const auto wanted = last.cast<counting>();
+    std::vector<C> r(static_cast<std::size_t>(measure_.residuals()));
+    std::array<counting, 6> terms;
+    counting::multiplied = counting::added = 0;
+    one.step(x);
+    measure_.residual(x.q, x.p, wanted, r.data());
+    for (const C& one_of : r) {
+      const auto& [value, slope] = one_of;
+      std::size_t term = 0;
+      terms[term++] += value * value;
+      for (const counting& s : slope) terms[term++] += s * value;
+      terms[term++] += slope[0] * slope[0];
+      terms[term++] += slope[0] * slope[1];
+      terms[term++] += slope[1] * slope[1];
+    }
+    return counting::multiplied + counting::added;
+  }
+  /// All numbers of the data side by side.
+  std::vector<double> numbers() const {
+    std::vector<double> result;
+    for (const auto* states : {&data_.start, &data_.finish}) {
+      for (const auto& x : *states) {
+        for (const auto& part : {x.q, x.p}) result.insert(result.end(), part.begin(), part.end());
+      }
+    }
+    return result;
+  }
+
  private:
   static constexpr int iterations_ = 200;
   chain_type chain_{50.0};
@@ -69,6 +118,25 @@ void race_learning() {
   runners.push_back({"compressed", shared->samples(), [shared] { shared->compressed(); }});
   runners.push_back({"block per sample", shared->samples(), [shared] { shared->block_per_sample(); }});
   race("learning", std::move(runners), {.turn_seconds = 0.0, .repetitions = 3});
+}
+
+/// One pass of the learner, beside as much arithmetic in registers and the reading of its data.
+void race_learning_pass() {
+  const auto shared = std::make_shared<problem>();
+  const auto loss = shared->loss();
+  const auto numbers = std::make_shared<const std::vector<double>>(shared->numbers());
+  const double operations = static_cast<double>(shared->operations_of_pair()) * shared->samples();
+  const auto steps = static_cast<std::int64_t>(operations / (default_lanes * (multiplications + additions)));
+  std::printf("learning pass: %lld operations a pair\n", static_cast<long long>(shared->operations_of_pair()));
+  std::vector<runner> runners;
+  runners.push_back({"pass", shared->samples(), [=] { benchmark::DoNotOptimize(shared->pass(*loss)); }});
+  runners.push_back({"same number of operations", shared->samples(),
+                     [=] { benchmark::DoNotOptimize(mix_kernel<contraction::off>(steps)); }});
+  runners.push_back({"reading the data alone", shared->samples(), [=] {
+                       const Eigen::Map<const Eigen::VectorXd> all(numbers->data(), std::ssize(*numbers));
+                       benchmark::DoNotOptimize(all.sum());
+                     }});
+  race("learning pass", std::move(runners));
 }
 
 }  // namespace nysalt::bench

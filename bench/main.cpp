@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     race_langevin();
     race_heaviest_run();
     race_learning();
+    race_learning_pass();
     race_threads();
     race_one_chain();
     race_compiling();

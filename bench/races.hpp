@@ -15,6 +15,7 @@ void race_noise();
 void race_langevin();
 void race_heaviest_run();
 void race_learning();
+void race_learning_pass();
 void race_threads();
 void race_one_chain();
 void race_compiling();
