@@ -155,12 +155,16 @@ class after_steps {
           take(of_directions, d, with_slopes, r);
         }
         of_stretch(r, added);
-        for (int k = 0; k < lanes_in<R> && stretch < part.end; ++k, ++stretch) {
+        for (int k = 0; k < lanes_in<R> && stretch < part.end;) {
           for (; stretch == starts_.first_of[trajectory + 1]; ++trajectory) {
             result[trajectory] = sum * weight_;
             sum = zero;
           }
-          for (Eigen::Index i = 0; i < terms; ++i) sum[i] += lane(added[static_cast<std::size_t>(i)], k);
+          const std::size_t left = starts_.first_of[trajectory + 1] - stretch;
+          const int end = static_cast<int>(std::min<std::size_t>(lanes_in<R>, static_cast<std::size_t>(k) + left));
+          add_lanes(added, k, end, sum);
+          stretch += static_cast<std::size_t>(end - k);
+          k = end;
         }
       }
       result[trajectory] = sum * weight_;
@@ -230,6 +234,20 @@ class after_steps {
     stepper.run(x, y, options_.steps, number, [&](std::size_t k) {
       error_.of(entry.start, y, entry.finish[k], r.data() + k * error_.residuals);
     });
+  }
+
+  /// Adds lanes begin .. end - 1 of each term to its sum, one after the other.
+  static void add_lanes(const std::vector<R>& terms, int begin, int end, Eigen::VectorXd& sums) {
+    for (Eigen::Index i = 0; i < sums.size(); ++i) {
+      const R& term = terms[static_cast<std::size_t>(i)];
+      double sum = sums[i];
+      if (begin == 0 && end == lanes_in<R>) {  // known when compiling: unrolled
+        for (int k = 0; k < lanes_in<R>; ++k) sum += lane(term, k);
+      } else {
+        for (int k = begin; k < end; ++k) sum += lane(term, k);
+      }
+      sums[i] = sum;
+    }
   }
 
   static void take(const std::vector<C>& of_directions, std::size_t d, bool with_slopes,

@@ -48,21 +48,54 @@ namespace detail {
 squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters);
 Eigen::Index terms_of_column(Eigen::Index parameters);
 
+/// A column of (r, J): `rows` numbers that are `stride` apart.
+template <class R>
+struct column_of_residuals {
+  const R* first;
+  std::size_t stride;
+  std::size_t rows;
+};
+
+/// The products of a column with `Count` columns side by side, from `others` on. Their sums stay in registers.
+template <std::size_t Count, class R>
+R* products_of_columns(const column_of_residuals<R>& one, const column_of_residuals<R>& others, R* products) {
+  std::array<R, Count> sums;
+  sums.fill(R(0.0));
+  for (std::size_t k = 0; k < one.rows; ++k) {
+    const R& left = one.first[k * one.stride];
+    const R* const right = others.first + k * others.stride;
+    for (std::size_t c = 0; c < Count; ++c) sums[c] += right[c] * left;
+  }
+  return std::copy(sums.begin(), sums.end(), products);
+}
+
+/// The same of `count` columns side by side.
+template <class R>
+R* products_of_columns(const column_of_residuals<R>& one, column_of_residuals<R> others, std::size_t count,
+                       R* products) {
+  for (; count >= 4; count -= 4, others.first += 4) products = products_of_columns<4>(one, others, products);
+  if (count == 3) return products_of_columns<3>(one, others, products);
+  if (count == 2) return products_of_columns<2>(one, others, products);
+  return count == 1 ? products_of_columns<1>(one, others, products) : products;
+}
+
+/// The column of a stretch: row after row of the upper triangle of (r, J)^T (r, J).
+template <class Residuals, class R>
+void products_of_residuals(const Residuals& r, std::vector<R>& terms) {
+  const std::size_t parameters = r.parameters;
+  const column_of_residuals<R> values{r.values.data(), 1, r.values.size()};
+  column_of_residuals<R> slopes{r.slopes.data(), parameters, r.values.size()};
+  R* next = products_of_columns(values, values, 1, terms.data());
+  next = products_of_columns(values, slopes, parameters, next);
+  for (std::size_t i = 0; i < parameters; ++i, ++slopes.first) {
+    next = products_of_columns(slopes, slopes, parameters - i, next);
+  }
+}
+
 template <class Loss>
 std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
-    const std::size_t count = r.parameters;
-    std::fill(terms.begin(), terms.end(), R(0.0));
-    for (std::size_t k = 0; k < r.values.size(); ++k) {
-      std::size_t term = 0;
-      terms[term++] += r.values[k] * r.values[k];
-      for (std::size_t i = 0; i < count; ++i) terms[term++] += r.slope(k, i) * r.values[k];
-      for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = i; j < count; ++j) terms[term++] += r.slope(k, i) * r.slope(k, j);
-      }
-    }
-  };
+  const auto of_stretch = [](const auto& r, std::vector<R>& terms) { products_of_residuals(r, terms); };
   return loss.sums(theta, true, terms_of_column(loss.parameters()), of_stretch);
 }
 

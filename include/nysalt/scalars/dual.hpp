@@ -34,10 +34,10 @@ struct dual {
     return result;
   }
 
-  dual& operator+=(const dual& b) { return *this = *this + b; }
-  dual& operator-=(const dual& b) { return *this = *this - b; }
-  dual& operator*=(const dual& b) { return *this = *this * b; }
-  dual& operator/=(const dual& b) { return *this = *this / b; }
+  [[gnu::always_inline]] dual& operator+=(const dual& b) { return *this = *this + b; }
+  [[gnu::always_inline]] dual& operator-=(const dual& b) { return *this = *this - b; }
+  [[gnu::always_inline]] dual& operator*=(const dual& b) { return *this = *this * b; }
+  [[gnu::always_inline]] dual& operator/=(const dual& b) { return *this = *this / b; }
 
   // Always inlined: a call would pass all numbers of a dual over packs through memory.
   [[gnu::always_inline]] friend dual operator+(const dual& a, const dual& b) {
