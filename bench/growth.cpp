@@ -25,7 +25,8 @@ runner ensemble_of(std::int64_t trajectories) {
           [all] { run_ensemble(*all, steps, 1); }};
 }
 
-std::int64_t steps_of_turn(Eigen::Index masses) { return std::max<std::int64_t>(1, 1'000'000 / masses); }
+/// A hundred steps or more: moving between looks at the state, not looking at it.
+std::int64_t steps_of_turn(Eigen::Index masses) { return std::max<std::int64_t>(100, 1'000'000 / masses); }
 
 runner chain_of(Eigen::Index masses) {
   const auto chain = std::make_shared<model>(chain_model(masses));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +12,9 @@
 #include "nysalt/detail/site_kernels.hpp"
 
 namespace nysalt::detail {
+
+/// Kicks between two looks at the state, where nothing looks.
+inline constexpr std::int64_t any_number_of_kicks = std::numeric_limits<std::int64_t>::max();
 
 /// The left or the right of something.
 enum class side { left, right };
@@ -20,8 +25,10 @@ enum class side { left, right };
 /// a loop over all sites, so that the bits depend neither on tiles nor on threads.
 class site_window {
  public:
-  /// Sites first .. first + count - 1, both multiples of sites_of_row. Refers to the functions.
-  site_window(const site_kernels& system, Eigen::Index first, Eigen::Index count, int threads);
+  /// Sites first .. first + count - 1, both multiples of sites_of_row, for sweeps of at most `kicks_at_once` kicks. Refers
+  /// to the functions.
+  site_window(const site_kernels& system, Eigen::Index first, Eigen::Index count, int threads,
+              std::int64_t kicks_at_once = any_number_of_kicks);
   ~site_window();
   site_window(const site_window&) = delete;
   site_window& operator=(const site_window&) = delete;
@@ -58,8 +65,9 @@ class site_window {
 };
 
 /// How many of the threads step a trajectory in tiles. 0, so that it is better stepped without tiles, of a
-/// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much.
-int threads_in_tiles(const site_layout& layout, int threads);
+/// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much or that makes few kicks
+/// between two looks at the state.
+int threads_in_tiles(const site_layout& layout, int threads, std::int64_t kicks = any_number_of_kicks);
 
 /// Sites whose energies are summed in order, before the sums are added in a tree: a multiple of sites_of_row.
 Eigen::Index sites_of_leaf(const site_layout& layout);

@@ -114,9 +114,11 @@ class typed_kernels final : public kernels<T> {
                const watch<T>& watched) const final {
     if constexpr (std::same_as<T, double> && N == Eigen::Dynamic && LocalSystem<S>) {
       const typed_site_kernels<S> sites(*system_);
-      const int threads = threads_in_tiles(sites.layout(), letters.threads);
+      const std::int64_t steps_at_once = watched.look == nullptr ? steps : std::min(steps, watched.every);
+      const std::int64_t kicks = steps_at_once * std::ssize(letters.pairs);
+      const int threads = threads_in_tiles(sites.layout(), letters.threads, kicks);
       if (!letters.pairs.empty() && threads > 0) {
-        tiled_steps tiles(sites, threads);
+        tiled_steps tiles(sites, threads, kicks);
         state_in_place<T, N> x{q, p, f};
         return watch_steps(
             steps, watched,

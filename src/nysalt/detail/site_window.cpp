@@ -33,6 +33,8 @@ constexpr Eigen::Index most_overlap = 16;
 constexpr Eigen::Index most_kicks = 64;
 // A sweep that makes fewer of them costs more on one thread than it gains. Measured on square lattices.
 constexpr Eigen::Index many_kicks = 8;
+// Between two looks: with fewer, a chain in tiles takes longer than one in a loop over all sites.
+constexpr std::int64_t enough_kicks = 4;
 // Two threads with less than this each lose more by meeting than they gain. Measured on chains and lattices.
 constexpr Eigen::Index values_of_thread = 4096;
 // Where the window is a single tile without a halo: so that a sweep is long beside its call.
@@ -122,7 +124,8 @@ struct site_window::workers {
   std::optional<oneapi::tbb::task_arena> arena;
 };
 
-site_window::site_window(const site_kernels& system, Eigen::Index first, Eigen::Index count, int threads)
+site_window::site_window(const site_kernels& system, Eigen::Index first, Eigen::Index count, int threads,
+                         std::int64_t kicks_at_once)
     : system_(&system), layout_(system.layout()), first_(first) {
   const Eigen::Index row = layout_.sites_of_row;
   const Eigen::Index rows = count / row;
@@ -140,6 +143,7 @@ site_window::site_window(const site_kernels& system, Eigen::Index first, Eigen::
   kicks_ = static_cast<int>(std::clamp<Eigen::Index>(std::min(best, reaches / most_overlap), 1, most_kicks));
   const bool has_halo = has_neighbour(side::left) || has_neighbour(side::right) || tiles > 1;
   if (!has_halo) kicks_ = kicks_without_halo;
+  kicks_ = static_cast<int>(std::clamp<std::int64_t>(kicks_at_once, 1, kicks_));
   edges_.resize(static_cast<std::size_t>(2 * (tiles - 1)) * halo_size(kicks_));
   const Eigen::Index halos = has_halo ? 2 * kicks_ * reach : 0;
   const Eigen::Index most_sites = std::max(row * ((rows - 1) / tiles + 1), sites_of_leaf(layout_));
@@ -281,12 +285,13 @@ site_layout required(const site_layout& layout, Eigen::Index size) {
   return result;
 }
 
-int threads_in_tiles(const site_layout& layout, int threads) {
+int threads_in_tiles(const site_layout& layout, int threads, std::int64_t kicks) {
   constexpr Eigen::Index few = 64;
   const Eigen::Index values = layout.components * layout.sites;
   if (values < few || layout.sites < 4 * layout.reach) return 0;
   const int useful = static_cast<int>(std::clamp<Eigen::Index>(values / values_of_thread, 1, threads));
   if (useful > 1) return useful;
+  if (kicks < enough_kicks) return 0;
   // One thread gains where a sweep makes many kicks, or nothing is computed twice.
   const bool is_one_tile = !layout.is_periodic && layout.sites <= sites_that_fit(layout);
   return is_one_tile || sites_that_fit(layout) >= most_overlap * many_kicks * layout.reach ? 1 : 0;

@@ -23,8 +23,8 @@ std::span<const tile_letter> letters_in_portions::next(int kicks) {
   return portion_;
 }
 
-tiled_steps::tiled_steps(const site_kernels& system, int threads)
-    : layout_(system.layout()), window_(system, 0, layout_.sites, threads) {}
+tiled_steps::tiled_steps(const site_kernels& system, int threads, std::int64_t kicks)
+    : layout_(system.layout()), window_(system, 0, layout_.sites, threads, kicks) {}
 
 void tiled_steps::advance(double* q, double* p, double* f, const step_program<double>& program,
                           std::int64_t steps) {
