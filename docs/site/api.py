@@ -262,7 +262,7 @@ def write_pages(folder, headers, interface):
             continue
         rows = [f"* - :doc:`{path} </api/{path}>`\n  - {escaped(interface.brief(path))}\n" for path in paths]
         table = "".join(rows).replace("\n", "\n   ").rstrip()
-        write(folder / f"{page_of_group(group)}.rst", title(group) + ".. list-table::\n   :class: headers\n\n   " + table + "\n")
+        write(folder / f"{page_of_group(group)}.rst", f"{title(group)}.. list-table::\n\n   {table}\n")
     for path in headers:
         text = ":orphan:\n\n" + title(path)
         text += f"Of :doc:`{group_of(path)} </{page_of_group(group_of(path))}>`: ``#include <nysalt/{path}>``\n\n"
@@ -284,10 +284,12 @@ def main():
     members = read_members((Path(__file__).parent / "members.txt").read_text())
     interface = Interface(folder, shown, members)
     if only_lists:  # of lines as they are in the headers, in whose tables Doxygen sees mistakes
-        print("".join(f"include/nysalt/{file}:{line}: {sentence}\n" for file, line, sentence in sorted(interface.undocumented)), end="")
+        for file, line, sentence in sorted(interface.undocumented):
+            print(f"include/nysalt/{file}:{line}: {sentence}")
         return 0
     wrong += [f"include/nysalt/{file}: {sentence}" for file, _, sentence in sorted(interface.undocumented)]
-    wrong += [f"include/nysalt/{path} belongs to no group of docs/site/api.py" for path in headers if not group_of(path)]
+    wrong += [f"include/nysalt/{path} belongs to no group of docs/site/api.py"
+              for path in headers if not group_of(path)]
     print("".join(f"{sentence}\n" for sentence in wrong), end="", file=sys.stderr)
     write_pages(folder, {path: text for path, text in headers.items() if group_of(path)}, interface)
     return 1 if wrong else 0

@@ -111,27 +111,29 @@ def toctree(caption, pages):
 
 index = (root / "docs/README.md").read_text()
 sections = [section.split("\n", 1) for section in index.split("\n## ")[1:]]
-titles = {page: link.group(2) for link in markdown.link.finditer(index) for page in linked_pages("docs/README", link.group())}
+titles = {page: link.group(2) for link in markdown.link.finditer(index)
+          for page in linked_pages("docs/README", link.group())}
 
 
 class Citations(SphinxTransform):
     """Keys of the bibliography, and docs/PAGE.md, in texts and comments are links."""
     default_priority = 5
     name = re.compile(r"\b[a-z]+(?:_[a-z]+)*_(?:18|19|20)\d\d\b|\bdocs/[\w/-]+\.md\b")
+    kept = (nodes.FixedTextElement, nodes.literal, nodes.reference, nodes.title, addnodes.pending_xref)
 
     def apply(self):
         for text in list(self.document.findall(nodes.Text)):
             parts = list(self.name.finditer(text))
-            if not parts or any(isinstance(node, (nodes.FixedTextElement, nodes.literal, nodes.reference, nodes.title, addnodes.pending_xref)) for node in ancestors(text)):
-                continue
-            new, end = [], 0
-            for part in parts:
-                new += [nodes.Text(text[end:part.start()]), self.link(part.group())]
-                end = part.end()
-            text.parent.replace(text, [*new, nodes.Text(text[end:])])
+            if parts and not any(isinstance(node, self.kept) for node in ancestors(text)):
+                new, end = [], 0
+                for part in parts:
+                    new += [nodes.Text(text[end:part.start()]), self.link(part.group())]
+                    end = part.end()
+                text.parent.replace(text, [*new, nodes.Text(text[end:])])
 
     def link(self, name):
-        domain, kind, target = ("std", "doc", f"/{name[:-3]}") if name.endswith(".md") else ("cite", "label", name)
+        is_page = name.endswith(".md")
+        domain, kind, target = ("std", "doc", f"/{name.removesuffix('.md')}") if is_page else ("cite", "label", name)
         return addnodes.pending_xref("", nodes.inline("", name), refdomain=domain, reftype=kind, reftarget=target,
                                      refexplicit=True, refwarn=True, refdoc=self.env.docname)
 

@@ -17,15 +17,16 @@ files = {
                       "- [Concepts](concepts/README.md).\n",
     "docs/concepts/README.md": "# Concepts\n\n- [Any](any.md)\n",
     "docs/concepts/any.md": "# Any\n",
-    "docs/page.md": "# Page\n\n## A part\n\nSays [hopper_1952, page 2]: [a program](../examples/a.cpp), [a folder](../examples),\n"
-                    "[a header](../include/nysalt/version.hpp) and [data](data.csv).\n",
+    "docs/page.md": "# Page\n\n## A part\n\nSays [hopper_1952, page 2]: [a program](../examples/a.cpp), [a folder](../examples)"
+                    ",\n[a header](../include/nysalt/version.hpp) and [data](data.csv).\n",
     "docs/bibliography.md": "# Works\n",
-    "docs/bibliography.bib": "@misc{hopper_1952,\n  author = {Hopper, Grace},\n  title = {A Compiler},\n  year = {1952}\n}\n",
+    "docs/bibliography.bib": "@misc{hopper_1952,\n  author = {Hopper, Grace},\n  title = {A Compiler},\n"
+                             "  year = {1952}\n}\n",
     "docs/data.csv": "1\n",
     "examples/a.cpp": "int main() {}\n",
-    "include/nysalt/version.hpp": "// SPDX-License-Identifier: BSL-1.0\n// The version.\n#pragma once\nnamespace nysalt {\n/// As text [hopper_1952], see docs/page.md.\n"
-                                  "constexpr char version = \"1.2.3\";\n/// A concept of `version`.\ntemplate <class T>\n"
-                                  "concept Any = true;\n/// A struct.\nstruct a {\n  int b;  // of it\n};\n}\n",
+    "include/nysalt/version.hpp": "// SPDX-License-Identifier: BSL-1.0\n// The version.\n#pragma once\n"
+                                  "namespace nysalt {\n/// As text [hopper_1952], see docs/page.md.\nconstexpr char version"
+                                  " = \"1.2.3\";\n/// A concept of `version`.\ntemplate <class T>\nconcept Any = true;\n/// A struct.\nstruct a {\n  int b;  // of it\n};\n}\n",
 }
 
 
@@ -76,7 +77,8 @@ class Site(unittest.TestCase):
         for said in ("The version.", "A concept of", "concept", "A struct.", "Of it."):
             self.assertIn(said, header)
         self.assertIn("The version.", self.page("api/entry-points"))
-        searched = json.loads((self.root / "site/searchindex.js").read_text().removeprefix("Search.setIndex(").removesuffix(")"))
+        searched = (self.root / "site/searchindex.js").read_text()
+        searched = json.loads(searched.removeprefix("Search.setIndex(").removesuffix(")"))
         self.assertEqual(searched["docnames"][searched["terms"]["struct"]], "api/version.hpp")
         self.assertIn("nysalt", searched["objects"])
         self.assertNotIn("http://", re.sub(r'href="[^"]*"|xmlns="[^"]*"', "", self.page("index")))
