@@ -51,7 +51,7 @@ def linked(page):
 
 
 class Page:
-    """The links and anchors of a page that Doxygen wrote."""
+    """The links and anchors of a built page."""
 
     def __init__(self, text):
         self.links = {html.unescape(address) for address in re.findall(r'\s(?:href|src)="([^"]+)"', text)}
@@ -60,7 +60,7 @@ class Page:
 
 def wrong_on_site(site, external):
     """Sentences on the links of the built pages; adds to external those that lead out."""
-    pages = {path: Page(path.read_text(errors="replace")) for path in sorted(site.glob("*.html"))}
+    pages = {path: Page(path.read_text(errors="replace")) for path in sorted(site.rglob("*.html"))}
     if not pages:
         yield f"{site} has no pages"
     exist = {}
@@ -71,15 +71,14 @@ def wrong_on_site(site, external):
                     external.add(address)
                 continue
             name, _, anchor = unquote(address).partition("#")
-            target = path.parent / name if name else path
+            name = re.sub(r"\?digest=\w+$", "", name)
+            target = (path.parent / name).resolve() if name else path
             if target not in exist:
                 exist[target] = target.exists()
             if not exist[target]:
-                yield f"{path.name}: there is no {name}"
-            elif anchor == "nested-classes":  # Doxygen points there also where they are private
-                continue
+                yield f"{path.relative_to(site)}: there is no {name}"
             elif anchor and target in pages and anchor not in pages[target].anchors:
-                yield f"{path.name}: {target.name} has no anchor #{anchor}"
+                yield f"{path.relative_to(site)}: {target.relative_to(site)} has no anchor #{anchor}"
 
 
 def main():

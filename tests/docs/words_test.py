@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
 """Sources and pages use the words of docs/notation.md; what is planted against them is found."""
-import re
 import shutil
 import sys
 import tempfile
@@ -13,13 +12,6 @@ sys.path.insert(0, str(root / "tests" / "docs"))
 import words
 
 notation = (root / "docs/notation.md").read_text()
-
-
-def glossary(page):
-    """The first cells of all tables of the section `Glossary`."""
-    section = re.search(r"^## Glossary\n(.*?)^## ", page, re.DOTALL | re.MULTILINE)[1]
-    return [cell for cell in re.findall(r"^\| ([^|]+?) \|", section, re.MULTILINE)
-            if cell != "term" and not cell.startswith("---")]
 
 
 class OfTheProject(unittest.TestCase):
@@ -35,13 +27,6 @@ class OfTheProject(unittest.TestCase):
         files = Counter(words.folder_of(root, path) for path in words.files(root))
         self.assertEqual(set(files), set(words.folders))
         self.assertGreater(files["include"], 150)
-
-    def test_of_the_glossary_are_defined_once(self):
-        terms = glossary(notation)
-        self.assertGreaterEqual(len(terms), 80)
-        self.assertEqual([term for term, count in Counter(terms).items() if count > 1], [])
-        banned = words.words_not_used(notation)
-        self.assertEqual([term for term in terms for form in banned.values() if form.search(term)], [])
 
     def test_that_are_not_used_are_many(self):
         self.assertGreaterEqual(set(words.words_not_used(notation)),

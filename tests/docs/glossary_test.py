@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The glossary of docs/notation.md: a term that a page links is defined, and what is defined is used.
+
+A page links a term as `[lane](notation.md#machinery)`: to the section with the term, whose name is the text of the link.
+"""
+import re
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+root = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(root / "docs" / "site"), str(root / "tests" / "docs")]
+import markdown
+import words
+
+sources = {"include": (".hpp",), "src": (".hpp", ".cpp"), "docs": (".md",)}
+
+
+def sections(page):
+    """{anchor: (terms, names in code)} of the tables of the section `Glossary`."""
+    glossary = re.search(r"^## Glossary\n(.*?)(?=^## |\Z)", page, re.DOTALL | re.MULTILINE)[1]
+    found = {}
+    for section in re.split(r"^### ", glossary, flags=re.MULTILINE)[1:]:
+        rows = [row for row in re.findall(r"^\| ([^|]+?) \| (.*) \|$", section, re.MULTILINE) if row[0] != "term"]
+        names = [name for _, meaning in rows for name in re.findall(r"`([a-z_]+)`", meaning)]
+        found[markdown.slug(section.split("\n")[0])] = ([term for term, _ in rows], names)
+    return found
+
+
+def forms(term):
+    """What is the term in a text, with its usual endings and in names."""
+    words_of_it = r"(?:[\s_-]|///?|\*)+".join(map(re.escape, re.split("[ -]", term)))
+    return re.compile(rf"(?i)(?<![a-z]){words_of_it}(?:e?s|e?d|t?ed|t?ing)?(?![a-z])")
+
+
+def mistakes(folder):
+    notation = folder / "docs/notation.md"
+    known = sections(notation.read_text())
+    terms = [term for terms, _ in known.values() for term in terms]
+    found = [f"'{term}' is defined {count} times" for term, count in Counter(terms).items() if count > 1]
+    for page in markdown.documents(folder):
+        for line, is_code in markdown.lines_with_code(page.read_text()):
+            for link in [] if is_code else markdown.link.finditer(line):
+                address, _, anchor = link.group(3).partition("#")
+                target = (page.parent / address).resolve() if address else page
+                if target != notation or anchor not in known or page == notation:
+                    continue
+                if not any(forms(term).fullmatch(markdown.plain(link.group(2))) for term in known[anchor][0]):
+                    found.append(f"{page.relative_to(folder)}: '{link.group(2)}' is no term of docs/notation.md#{anchor}")
+    text = "\n".join(file.read_text() for name, suffixes in sources.items() for file in sorted((folder / name).rglob("*"))
+                     if file.suffix in suffixes and file != notation)
+    found += [f"'{term}' of the glossary is used nowhere" for term in terms if not forms(term).search(text)]
+    text += notation.read_text()  # where code is named twice
+    names = {name for _, names in known.values() for name in names}
+    return found + [f"`{name}` of the glossary is no name of ours" for name in sorted(names)
+                    if len(re.findall(rf"(?<![a-z]){name}(?![a-z])", text)) < 2]
+
+
+class OfTheProject(unittest.TestCase):
+    def test_has_no_mistake(self):
+        self.assertEqual(mistakes(root), [])
+
+    def test_defines_and_links_many_terms(self):
+        known = sections((root / "docs/notation.md").read_text())
+        self.assertGreaterEqual(sum(len(terms) for terms, _ in known.values()), 80)
+        links = [link for page in markdown.documents(root) for link in markdown.links(page.read_text())]
+        self.assertGreaterEqual(sum(link.endswith(tuple(f"notation.md#{anchor}" for anchor in known)) for link in links), 10)
+
+    def test_has_no_word_that_is_not_used(self):
+        notation = (root / "docs/notation.md").read_text()
+        banned = words.words_not_used(notation).values()
+        terms = [term for terms, _ in sections(notation).values() for term in terms]
+        self.assertEqual([term for term in terms for form in banned if form.search(term)], [])
+
+
+class InAFolder(unittest.TestCase):
+    """A sound folder; a case plants something and says what must be found."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name).resolve()
+        for name in sources:
+            (self.root / name).mkdir()
+        (self.root / "docs/notation.md").write_text(
+            "# Notation\n\n## Glossary\n\n### Methods\n\n| term | meaning |\n|---|---|\n| gradient kick | a flow |\n\n"
+            "### Machinery\n\n| term | meaning |\n|---|---|\n| lane | one element |\n"
+            "| rank | one process, `rank_of` in names |\n\n"
+            "## Letters\n\n| letter | flow |\n|---|---|\n| G | gradient kick |\n")
+        (self.root / "include/a.hpp").write_text("/// A gradient\n/// kick on ranks.\nint rank_of(int thing);\n")
+        self.page = self.root / "docs/page.md"
+        self.page.write_text("# Page\n\n[lanes](notation.md#machinery) and [the lane letters](notation.md#letters).\n")
+        self.assertEqual(mistakes(self.root), [])
+
+    def edit_notation(self, old, new):
+        path = self.root / "docs/notation.md"
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new, 1))
+
+    def test_an_undefined_term_is_found(self):
+        for text, anchor in (("phantom step", "methods"), ("lane", "methods"), ("the\nrank list", "machinery"),
+                             ("thing", "machinery")):
+            self.page.write_text(f"# Page\n\nA [{text}](notation.md#{anchor}).\n")
+            with self.subTest(text):
+                wrong = f"docs/page.md: '{' '.join(text.split())}' is no term of docs/notation.md#{anchor}"
+                self.assertIn(wrong, mistakes(self.root))
+
+    def test_a_term_that_loses_its_definition_is_found(self):
+        self.edit_notation("| lane |", "| vector element |")
+        self.assertIn("docs/page.md: 'lanes' is no term of docs/notation.md#machinery", mistakes(self.root))
+
+    def test_a_term_that_is_used_nowhere_is_found(self):
+        self.edit_notation("| lane |", "| flux capacitor | makes time travel possible |\n| lane |")
+        self.assertEqual(mistakes(self.root), ["'flux capacitor' of the glossary is used nowhere"])
+
+    def test_a_term_that_is_defined_twice_is_found(self):
+        self.edit_notation("| lane |", "| rank | the same again |\n| lane |")
+        self.assertEqual(mistakes(self.root), ["'rank' is defined 2 times"])
+
+    def test_a_name_that_is_none_of_ours_is_found(self):
+        self.edit_notation("`rank_of`", "`rank_in`")
+        self.assertEqual(mistakes(self.root), ["`rank_in` of the glossary is no name of ours"])
+
+
+if __name__ == "__main__":
+    unittest.main()
