@@ -6,9 +6,12 @@
 #include <nysalt/systems/henon_heiles.hpp>
 
 #include <cmath>
+#include <string>
 
 /// Two oscillators and a cubic rest.
-struct cubic_well : nysalt::henon_heiles {};
+struct cubic_well : nysalt::henon_heiles {
+  std::string description() const { return "cubic_well()"; }
+};
 // [/system]
 
 // [letters]

@@ -114,12 +114,14 @@ consteval bool have_different_names() {
   }
   return true;
 }
-constexpr bool is_name_of_letter(char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9'); }
+constexpr bool is_name_of_letter(char c) {
+  return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
+}
 
 template <Flow L, class S>
 declared_letter letter_on(const S& system, const std::string& description) {
   static_assert(!names_known_letter<L> && is_name_of_letter(L::letter),
-                "nysalt: a letter of one's own is named by a lower-case letter or a digit");
+                "nysalt: a letter of one's own is named by a letter or digit that no letter of the library has");
   static_assert(
       requires {
         requires L::invertible;
