@@ -28,7 +28,7 @@ struct turn : nysalt::exact_flow<'t'> {
     }
   }
 };
-/// The kick with the rest. It evaluates a force, and leaves q alone.
+/// The kick with the rest. It evaluates a force, and does not move q.
 struct cubic_kick : nysalt::exact_flow<'c'> {
   static constexpr bool moves_q = false;
   static constexpr int displaced_forces = 1;

@@ -99,39 +99,17 @@ inline constexpr bool is_frequency = false;
 template <class F>
 inline constexpr bool is_frequency<frequency_of_system<F>> = true;
 
-template <class Piece>
-inline constexpr bool are_letters = false;
-template <Flow... L>
-inline constexpr bool are_letters<letters_of_system<L...>> = true;
-
-template <class... L>
-consteval bool have_different_names() {
-  const std::string_view all[]{{&L::letter, 1}...};
-  for (std::size_t i = 0; i < sizeof...(L); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (all[i] == all[j]) return false;
-    }
-  }
-  return true;
-}
-constexpr bool is_name_of_letter(char c) {
-  return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
-}
-
 template <Flow L, class S>
 declared_letter letter_on(const S& system, const std::string& description) {
-  static_assert(!names_known_letter<L> && is_name_of_letter(L::letter),
-                "nysalt: a letter of one's own is named by a letter or digit that no letter of the library has");
+  static_assert(!names_known_letter<L>,
+                "nysalt: a letter of one's own takes a character that no known letter has");
   static_assert(
       requires {
         requires L::invertible;
         requires L::reversible;
       },
-      "nysalt: a declared letter is undone by -c, and reversible: state invertible and reversible, as "
-      "exact_flow does");
-  static_assert(!BlackBoxForce<S>,
-                "nysalt: a system with letters of its own has a potential or force that is a template over the "
-                "scalar");
+      "nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states; step "
+      "the word by its type");
   require_letter<L, S, double>();
   const auto check = [system](const std::vector<phase_point<double, Eigen::Dynamic>>& states, double h) {
     std::vector<phase_point<double, S::dimension>> points;
@@ -222,7 +200,6 @@ detail::frequency_of_system<F> frequency(F highest) {
 /// program tries what they state by check_letter() where a word with them is first taken.
 template <Flow... L>
 detail::letters_of_system<L...> letters() {
-  static_assert(detail::have_different_names<L...>(), "nysalt: two letters of a system have one name");
   return {};
 }
 
@@ -236,7 +213,6 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
                 "nysalt: a declared system needs a default constructor: give each member a value");
   static_assert((0 + ... + detail::is_starts<Pieces>) == 1, "nysalt: NYSALT_SYSTEM needs starts(...), once");
   static_assert((0 + ... + detail::is_frequency<Pieces>) <= 1, "nysalt: frequency(...) may be given once");
-  static_assert((0 + ... + detail::are_letters<Pieces>) <= 1, "nysalt: letters<...>() may be given once");
   std::vector<detail::member_parameter<S>> members;
   (detail::take_piece<S>(pieces, members), ...);
   system_declaration result{.name = std::move(name), .title = std::move(title)};
@@ -290,9 +266,9 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
-    const std::string alone = made.system.alone().description();
+    const std::string bare = made.system.alone().description();
     std::apply(
-        [&](const auto&... piece) { (detail::take_letters(piece, system, alone, made.letters), ...); }, all);
+        [&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); }, all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";
     return made;
   };

@@ -270,7 +270,7 @@ run_time_family symmetric_word(std::string name, const run_time_word& word, cons
     if (before == 0) put_equal_steps(word, times, all[n].part, equal_steps);
     if (std::none_of(all.begin() + static_cast<std::ptrdiff_t>(n) + 1, all.end(), is_of_part)) continue;
     all[n].parameter = result.parameters();
-    result.parameter_names.push_back(std::string(1, all[n].part) + std::to_string(before + 1));
+    result.parameter_names.push_back(sentence("{}{}", all[n].part, before + 1));
     result.ranges.push_back({-farthest_parameter, farthest_parameter, false});
     start.push_back(equal_steps[all[n].first]);
   }

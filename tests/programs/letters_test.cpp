@@ -294,14 +294,15 @@ BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
     BOOST_TEST(run(folder, "run --system ./mine.hpp --method verlet --step 0.1 --horizon 1").code == 0);
   }
   for (const auto& [letters, said] : std::vector<std::pair<std::string, std::string>>{
-           {"turn_named_a, cubic_kick", "that no letter of the library has"},
-           {"turn, slipped_turn", "two letters of a system have one name"},
-           {"one_way_turn, cubic_kick", "reversible"},
-           {"turn_without_back, cubic_kick", "undone by -c"},
+           {"turn_named_a, cubic_kick", "takes a character that no known letter has"},
+           {"one_way_turn, cubic_kick", "must be invertible and reversible"},
+           {"turn_without_back, cubic_kick", "must be invertible and reversible"},
            {"nysalt::kick_of_part<0>", "a kick of parts needs a system that declares them"}}) {
     write(folder, "mine.hpp", source_of("turning", letters));
     refused(folder, "build mine.hpp", {"does not compile", said});
   }
+  write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
+  refused(folder, "build mine.hpp", {"mine.hpp: two letters are called 't'"});
 }
 
 BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {

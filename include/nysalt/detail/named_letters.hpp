@@ -54,7 +54,7 @@ class stated_letter final : public own_letter {
   }
 };
 
-/// The letters alone, as words take them.
+/// Only the letters, as words take them.
 inline std::vector<std::shared_ptr<const own_letter>> letters_in(const named_letters& all) {
   std::vector<std::shared_ptr<const own_letter>> result;
   for (const auto& one : all) result.push_back(one.letter);
