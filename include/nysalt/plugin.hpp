@@ -267,8 +267,8 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
     }();
     made.observables = std::move(observables);
     const std::string bare = made.system.alone().description();
-    std::apply(
-        [&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); }, all);
+    std::apply([&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); },
+               all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";
     return made;
   };

@@ -161,8 +161,8 @@ struct contained_family {
 
 /// The methods of a word that reads the same from both ends, whose coefficients do, too, and add up to 1 for
 /// each part of H: symmetric, of order 2. `times` says of which part each slot is the time, a character each:
-/// those of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the last of
-/// each part, nearest to the middle of the word, follow from the sums. The start is made of equal steps of
+/// those of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the last
+/// of each part, nearest to the middle of the word, follow from the sums. The start is made of equal steps of
 /// order 2; of drifts and kicks with a fast and a slow part it is r-RESPA.
 /// Throws std::invalid_argument if the word does not read the same from both ends, has a processor, or two
 /// equal neighbours, or unless there is one character for each slot.

@@ -59,9 +59,8 @@ class run_time_word {
         letters_(std::move(letters)),
         own_letters_(std::move(own)) {
     if (length == 0) throw std::invalid_argument("a word needs at least one letter");
-    std::erase_if(own_letters_, [&](const auto& own) {
-      return letters_.find(own->facts.letter) == std::string::npos;
-    });
+    std::erase_if(own_letters_,
+                  [&](const auto& own) { return letters_.find(own->facts.letter) == std::string::npos; });
     bool additive = false;
     bool is_of_k_and_v = false;
     std::vector<bool> reads;

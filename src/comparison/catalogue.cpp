@@ -80,8 +80,8 @@ std::string times_of_slots(const run_time_word& word, const detail::named_letter
   std::string result;
   for (std::size_t i = 0; i < word.length; ++i) {
     const char letter = word.letters()[i];
-    const auto own = std::ranges::find_if(
-        of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
+    const auto own =
+        std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
     const std::string times = own == of_system.end() ? std::string(1, letter) : own->times;
     if (times.size() != word.slots_of(i)) {
       refuse(
@@ -104,14 +104,19 @@ run_time_family word_named(std::string_view name, const detail::named_letters& o
     const run_time_word word(letters, detail::letters_in(of_system));
     return symmetric_word(std::string(name), word, times_of_slots(word, of_system));
   } catch (const std::invalid_argument& problem) {
-    refuse("{}", problem.what());
+    const std::string_view why = problem.what();
+    if (why.starts_with(name)) refuse("{}", why);
+    refuse("{}: {}", name, why);
   }
 }
 }  // namespace
 
 tabulated method_of_word(std::string_view name, const detail::named_letters& of_system) {
   const auto family = word_named(name, of_system);
-  return {family.name, family.letters, family.coefficients(family.starts.front().theta), {family.order, family.symmetric, family.requires_quadratic_kinetic}};
+  return {family.name,
+          family.letters,
+          family.coefficients(family.starts.front().theta),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 
 run_time_family family_named(std::string_view name, const detail::named_letters& of_system) {

@@ -209,7 +209,8 @@ int order_of(const tabulated& method, std::string times) {
                          return part == first || part == second;
                        });
   if (!are_two) return method.symmetric ? 2 : 1;
-  std::ranges::transform(times, times.begin(), [first = times[0]](char part) { return part == first ? 'A' : 'B'; });
+  std::ranges::transform(times, times.begin(),
+                         [first = times[0]](char part) { return part == first ? 'A' : 'B'; });
   return taylor_order(tabulated("", run_time_word(times), method.coefficients(), method)).any_kinetic;
 }
 
@@ -234,7 +235,8 @@ tabulated table_of_system(const std::string& name, const run_time_word& word,
   return {name, word, coefficients, {order, bare.symmetric, bare.requires_quadratic_kinetic}};
 }
 
-tabulated table_in(const json& document, const document_reader& read, const detail::named_letters& of_system) {
+tabulated table_in(const json& document, const document_reader& read,
+                   const detail::named_letters& of_system) {
   if (document.contains("placement")) {
     refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
   }

@@ -11,8 +11,8 @@
 
 namespace nysalt::program {
 
-/// A classical name, an adaptive one, word:LETTERS, learned:FAMILY, or the file of a scheme or table; with @PLACEMENT or
-/// without.
+/// A classical name, an adaptive one, word:LETTERS, learned:FAMILY, or the file of a scheme or table; with
+/// @PLACEMENT or without.
 struct method_source {
   std::string typed;
   std::optional<tabulated> fixed;             // classical and tables: the same at every step

@@ -11,11 +11,11 @@
 #include "catalogue.hpp"
 #include "json.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
-#include "nysalt/ensemble.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
@@ -172,7 +172,8 @@ Eigen::VectorXd rate_of(const model& system, const run_time_word& letter, std::s
 /// larger of the defects of q and p. A part of H acts once, however many letters have its time.
 double defect_of_sum(const model& system, const run_time_word& word, const std::string& times,
                      const std::vector<state_in_double>& states, double step) {
-  const double h = 1e-5 * step;  // the cube root of a rounding, at which both errors of a difference are small
+  const double h =
+      1e-5 * step;  // the cube root of a rounding, at which both errors of a difference are small
   const Eigen::Index n = size(system);
   Eigen::Vector2d defect = Eigen::Vector2d::Zero();
   Eigen::Vector2d scale = Eigen::Vector2d::Zero();
@@ -224,10 +225,12 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   const run_time_word conservative = word.with_letters(letters);
   const double defect =
       defect_of_sum(alone, conservative, times_of_slots(conservative, letters_), states, step);
-  constexpr double enough = 1e-5;  // differences err by 1e-10 to 1e-7, a part that is missing by its share of H
+  constexpr double enough =
+      1e-5;  // differences err by 1e-10 to 1e-7, a part that is missing by its share of H
   if (defect <= enough) return;
   refuse(
-      "{}: the letters of the word {} must add up to H of {}: over equal times they move it otherwise, by {:.2g} "
+      "{}: the letters of the word {} must add up to H of {}: over equal times they move it otherwise, by "
+      "{:.2g} "
       "of its rate; take a letter for each part of H",
       name, conservative.letters(), description(), defect);
 }

@@ -229,8 +229,8 @@ void put_equal_steps(const run_time_word& word, const std::string& times, char p
     others += between[n];
   }
   const auto gaps_with = [&](char other) {
-    return std::ranges::count_if(between,
-                                 [&](const std::string& all) { return all.find(other) != std::string::npos; });
+    return std::ranges::count_if(
+        between, [&](const std::string& all) { return all.find(other) != std::string::npos; });
   };
   char clock = part;
   for (const char other : others) {

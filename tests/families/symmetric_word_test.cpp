@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Families of words as data: of any palindrome of letters, symmetric, with coefficients that add up to one for
-// each part of H, and equal steps to begin with.
+// Families of words as data: of any palindrome of letters, symmetric, with coefficients that add up to one
+// for each part of H, and equal steps to begin with.
 #include <boost/test/unit_test.hpp>
 
 #include <array>

@@ -272,8 +272,10 @@ int stability(const stability_command& command, const common_settings& common) {
            target.name);
   }
   if (has_own_letters && !system) {
-    refuse("{}: the stability of a word with letters of one's own is tried on their system: give --system "
-           "and --step", target.name);
+    refuse(
+        "{}: the stability of a word with letters of one's own is tried on their system: give --system "
+        "and --step",
+        target.name);
   }
   if (rotates && !command.output.empty()) {
     refuse("{} rotates, so trace/2 is cos z and there is nothing to draw; leave out --output", target.name);
