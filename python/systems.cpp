@@ -150,6 +150,9 @@ py::dict facts(const held_system& system) {
   all["kind"] = described_system.kind();
   all["dimension"] = described_system.dimension();
   all["observables"] = observables;
+  py::list letters;
+  for (const auto& one : described_system.letters()) letters.append(std::string(1, one.letter->facts.letter));
+  all["letters"] = letters;
   all["default_observable"] = described_system.default_observable();
   all["frequency_bands"] = bands;
   all["highest_frequency"] = described_system.frequency_of_law();

@@ -145,7 +145,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   }
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
-    const auto source = program::find_method(command.method, command.held);
+    const auto source = program::find_method(command.method, command.held, system.model->letters());
     const auto method = coefficients_at(source, *system.model, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
     // From here on nothing is refused.

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -51,6 +52,8 @@ template <class F>
 struct frequency_of_system {
   F highest;
 };
+template <Flow... L>
+struct letters_of_system {};
 
 template <class S>
 concept TellsDescription = requires(const S& s) {
@@ -95,6 +98,41 @@ template <class Piece>
 inline constexpr bool is_frequency = false;
 template <class F>
 inline constexpr bool is_frequency<frequency_of_system<F>> = true;
+
+template <Flow L, class S>
+declared_letter letter_on(const S& system, const std::string& description) {
+  static_assert(!names_known_letter<L>,
+                "nysalt: a letter of one's own takes a character that no known letter has");
+  static_assert(
+      requires {
+        requires L::invertible;
+        requires L::reversible;
+      },
+      "nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states; step "
+      "the word by its type");
+  require_letter<L, S, double>();
+  const auto check = [system](const std::vector<phase_point<double, Eigen::Dynamic>>& states, double h) {
+    std::vector<phase_point<double, S::dimension>> points;
+    for (const auto& x : states) points.push_back({x.q, x.p});
+    return check_letter<L>(system, points, h);
+  };
+  return {{std::make_shared<const bound_letter<L, S>>(system, description), times_of<L>()}, check};
+}
+
+template <class S, Flow... L>
+void take_letters(const letters_of_system<L...>&, const S& system, const std::string& description,
+                  std::vector<declared_letter>& to) {
+  (to.push_back(letter_on<L>(system, description)), ...);
+}
+template <class S, class Piece>
+void take_letters(const Piece&, const S&, const std::string&, std::vector<declared_letter>&) {}
+
+template <Flow... L>
+void add_names(const letters_of_system<L...>&, std::string& to) {
+  ((to += L::letter), ...);
+}
+template <class Piece>
+void add_names(const Piece&, std::string&) {}
 
 template <class S, class F>
 initial_states starts_by(const starts_of_system<F>& piece, const S& system, double spread) {
@@ -158,6 +196,13 @@ detail::frequency_of_system<F> frequency(F highest) {
   return {std::move(highest)};
 }
 
+/// Letters of one's own, as exact_flow describes them, by whose names words are then written: word:tct. The
+/// program tries what they state by check_letter() where a word with them is first taken.
+template <Flow... L>
+detail::letters_of_system<L...> letters() {
+  return {};
+}
+
 /// The declaration of S: of its parameters, its starts, and what else there is, in any order.
 template <class S, class... Pieces>
 system_declaration declare_system(std::string name, std::string title, Pieces... pieces) {
@@ -172,6 +217,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   (detail::take_piece<S>(pieces, members), ...);
   system_declaration result{.name = std::move(name), .title = std::move(title)};
   for (const auto& member : members) result.parameters.push_back(member.declared);
+  (detail::add_names(pieces, result.letters), ...);
   const auto spread_of = []<class Piece>(const Piece*) {
     if constexpr (detail::is_starts<Piece>)
       return detail::takes_spread<S>(static_cast<const Piece*>(nullptr));
@@ -220,6 +266,9 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
+    const std::string bare = made.system.alone().description();
+    std::apply([&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); },
+               all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";
     return made;
   };
@@ -233,7 +282,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 #define NYSALT_PLUGIN_SOURCE "unknown"
 #endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,
-/// starts(...), observable(...)...). The system's name is that of its type.
+/// starts(...), observable(...)..., letters<...>()). The system's name is that of its type.
 #define NYSALT_SYSTEM(SYSTEM, ...)                                                       \
   extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_stamp() {  \
     static const std::string stamp = nysalt::detail::plugin_stamp();                     \

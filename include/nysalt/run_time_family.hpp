@@ -115,6 +115,9 @@ class run_time_family {
   /// observed: a force evaluation for each pair.
   friend run_time_family processed(const run_time_family& kernel, int pairs);
 
+  friend run_time_family symmetric_word(std::string name, const run_time_word& word,
+                                        const std::string& times);
+
  private:
   /// `inner` has the same word, and the parameters here are the first coefficients of the word.
   void contain(run_time_family inner);
@@ -155,6 +158,15 @@ struct contained_family {
   /// The parameters of the member of the larger family.
   Eigen::VectorXd embed(const Eigen::VectorXd& theta) const { return origin + slopes * theta; }
 };
+
+/// The methods of a word that reads the same from both ends, whose coefficients do, too, and add up to 1 for
+/// each part of H: symmetric, of order 2. `times` says of which part each slot is the time, a character each:
+/// those of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the last
+/// of each part, nearest to the middle of the word, follow from the sums. The start is made of equal steps of
+/// order 2; of drifts and kicks with a fast and a slow part it is r-RESPA.
+/// Throws std::invalid_argument if the word does not read the same from both ends, has a processor, or two
+/// equal neighbours, or unless there is one character for each slot.
+run_time_family symmetric_word(std::string name, const run_time_word& word, const std::string& times);
 
 /// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is observed.
 inline constexpr int most_processor_pairs = 8;

@@ -51,11 +51,16 @@ class run_time_word {
  private:
   using own_letters = detail::own_letters;
 
+ public:
+  /// A word by its letters, of which those of one's own are taken from a list, such as that of a system.
+  /// Throws std::invalid_argument as above.
   run_time_word(std::string letters, own_letters own)
       : length(std::min(letters.find(processor_mark), letters.size())),
         letters_(std::move(letters)),
         own_letters_(std::move(own)) {
     if (length == 0) throw std::invalid_argument("a word needs at least one letter");
+    std::erase_if(own_letters_,
+                  [&](const auto& own) { return letters_.find(own->facts.letter) == std::string::npos; });
     bool additive = false;
     bool is_of_k_and_v = false;
     std::vector<bool> reads;
@@ -103,7 +108,6 @@ class run_time_word {
     if (is_processed()) take_processor();
   }
 
- public:
   bool is_processed() const { return length < letters_.size(); }  ///< it has a processor
   /// The letters of the processor P; empty of a word that has none.
   std::string processor() const { return is_processed() ? letters_.substr(length + 1) : std::string(); }

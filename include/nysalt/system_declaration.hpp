@@ -15,7 +15,9 @@
 
 #include "nysalt/analysis/error_measures/exchange.hpp"
 #include "nysalt/bath.hpp"
+#include "nysalt/derivatives/letter_check.hpp"
 #include "nysalt/detail/any_reference.hpp"
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/detail/over_scalars.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
@@ -71,6 +73,13 @@ struct named_observable {
   detail::over_scalars<detail::of_state> value;  ///< of one state, or of those in the lanes of packs
 };
 
+/// A letter of one's own by name, as it acts on a system.
+struct declared_letter {
+  detail::named_letter named;  ///< bound to the system
+  /// check_letter() of it at some states, over the step h.
+  std::function<letter_check(const std::vector<phase_point<double, Eigen::Dynamic>>&, double h)> check;
+};
+
 namespace detail {
 
 template <class T>
@@ -124,6 +133,7 @@ struct initial_value_problem {
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
   std::vector<named_observable> observables{};  ///< beside those of every system
+  std::vector<declared_letter> letters{};       ///< beside those of the library
   std::string default_observable = "energy";    ///< where none is named
   double fine_angle = 5e-3;  ///< of a reference's step, times the frequency: there srkn11b errs by rounding
   detail::stiff_springs springs{};                       ///< of a system with stiff_energy(x, j)
@@ -150,6 +160,7 @@ struct system_declaration {
   /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
   /// std::invalid_argument for values out of range.
   std::function<initial_value_problem(const parameter_values&, const bath&, double spread)> make{};
+  std::string letters{};    ///< names of its own letters
   bool has_spread = true;   ///< the initial distribution has deviations
   std::string described{};  ///< with what its description begins, if not with its name
   std::string source{};     ///< in docs/bibliography.bib

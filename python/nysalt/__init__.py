@@ -95,6 +95,8 @@ class System:
         #: What `run` can sample; "q1..q6" means q1, q2, ... q6.
         self.observables: List[str] = facts["observables"]
         self.default_observable: str = facts["default_observable"]
+        #: Names of its own letters, for words as in `method="word:tct"` and families `"word:tctctct"`.
+        self.letters: List[str] = facts["letters"]
         #: Angular frequencies (low, high) that motion has; empty where they have no bound.
         self.frequency_bands: List[Tuple[float, float]] = facts["frequency_bands"]
         #: The highest that a motion from the initial distribution meets, rare initial states included.

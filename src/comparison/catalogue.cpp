@@ -53,9 +53,74 @@ std::optional<int> pairs_in(std::string_view digits) {
   return pairs;
 }
 
+/// Throws refusal for a letter that has no place in word:LETTERS.
+void require_letters(std::string_view name, std::string_view letters, const detail::named_letters& known) {
+  for (const char letter : letters) {
+    if (std::string_view("ABRS").find(letter) != std::string_view::npos) continue;
+    if (std::ranges::any_of(known, [&](const auto& one) { return one.letter->facts.letter == letter; }))
+      continue;
+    if (std::string_view("OGHD|").find(letter) != std::string_view::npos) {
+      refuse("{}: {} has no place in a word by its letters: take A, B, R, S and those of the system", name,
+             letter);
+    }
+    refuse("{}: there is no letter {}: known are A, B, R, S, and those that a system declares: here {}", name,
+           letter, known.empty() ? "none" : names_of(known));
+  }
+}
+
 }  // namespace
 
-run_time_family family_named(std::string_view name) {
+std::string names_of(const detail::named_letters& of_system) {
+  std::vector<std::string> names;
+  for (const auto& one : of_system) names.emplace_back(1, one.letter->facts.letter);
+  return names.empty() ? "no letters of its own" : "the letters " + listed(names);
+}
+
+std::string times_of_slots(const run_time_word& word, const detail::named_letters& of_system) {
+  std::string result;
+  for (std::size_t i = 0; i < word.length; ++i) {
+    const char letter = word.letters()[i];
+    const auto own =
+        std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
+    const std::string times = own == of_system.end() ? std::string(1, letter) : own->times;
+    if (times.size() != word.slots_of(i)) {
+      refuse(
+          "the word {}: the letter {} has {} coefficients and does not state of which parts of H they are "
+          "the times: add a member `times`, a character for each",
+          word.letters(), letter, word.slots_of(i));
+    }
+    result += times;
+  }
+  return result;
+}
+
+namespace {
+run_time_family word_named(std::string_view name, const detail::named_letters& of_system) {
+  const std::string letters(name.substr(word_prefix.size()));
+  require_letters(name, letters, of_system);
+  constexpr std::size_t most = 64;  // letters: their coefficients are learned
+  if (letters.size() > most) refuse("{}: a word has at most {} letters", name, most);
+  try {
+    const run_time_word word(letters, detail::letters_in(of_system));
+    return symmetric_word(std::string(name), word, times_of_slots(word, of_system));
+  } catch (const std::invalid_argument& problem) {
+    const std::string_view why = problem.what();
+    if (why.starts_with(name)) refuse("{}", why);
+    refuse("{}: {}", name, why);
+  }
+}
+}  // namespace
+
+tabulated method_of_word(std::string_view name, const detail::named_letters& of_system) {
+  const auto family = word_named(name, of_system);
+  return {family.name,
+          family.letters,
+          family.coefficients(family.starts.front().theta),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
+}
+
+run_time_family family_named(std::string_view name, const detail::named_letters& of_system) {
+  if (is_word(name)) return word_named(name, of_system);
   const auto mark = name.rfind("+p");
   const std::string_view kernel = name.substr(0, mark);
   const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
@@ -73,15 +138,19 @@ run_time_family family_named(std::string_view name) {
   }
 }
 
-run_time_family placed(std::string_view name, std::optional<placement> where) {
-  const auto plain = family_named(name);
+run_time_family placed(std::string_view name, std::optional<placement> where,
+                       const detail::named_letters& of_system) {
+  const auto plain = family_named(name, of_system);
   return where ? thermostatted(plain, *where) : plain;
 }
 
-std::string source_of_family(std::string_view name) { return family_named(name).source; }
+std::string source_of_family(std::string_view name) {
+  return is_word(name) ? std::string() : family_named(name).source;
+}
 
-tabulated family_member(const std::string& name, const std::vector<double>& parameters) {
-  const auto family = family_named(name);
+tabulated family_member(const std::string& name, const std::vector<double>& parameters,
+                        const detail::named_letters& of_system) {
+  const auto family = family_named(name, of_system);
   if (std::ssize(parameters) != family.parameters()) {
     refuse("the family {} has {} parameters ({}), got {}", name, family.parameters(),
            listed(family.parameter_names), parameters.size());

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/methods/tabulated.hpp"
@@ -21,17 +22,32 @@ class prepared_problem;
 /// Every family that can be learned.
 const std::vector<run_time_family>& families();
 std::vector<std::string> family_names();
-/// FAMILY, or FAMILY+pPAIRS with a processor. Throws refusal, listing the names, if there is none of that
-/// name, and where the family cannot have a processor.
-run_time_family family_named(std::string_view name);
+
+/// What names of words begin with, as in word:BAB: methods, and families of what is symmetric.
+inline constexpr std::string_view word_prefix = "word:";
+inline bool is_word(std::string_view name) { return name.starts_with(word_prefix); }
+
+/// FAMILY, or FAMILY+pPAIRS with a processor, or word:LETTERS, of A, B, R, S and the letters of a system.
+/// Throws refusal, listing the names, if there is none of that name, and where the family cannot have a
+/// processor, or a word no symmetric coefficients.
+run_time_family family_named(std::string_view name, const detail::named_letters& of_system = {});
 /// With its letters O, where there is a bath.
-run_time_family placed(std::string_view name, std::optional<placement> where);
+run_time_family placed(std::string_view name, std::optional<placement> where,
+                       const detail::named_letters& of_system = {});
+/// The member of word:LETTERS that is made of equal steps.
+tabulated method_of_word(std::string_view name, const detail::named_letters& of_system);
+/// The part of H whose time each slot is, a character each. Throws refusal for a letter that has several
+/// coefficients and does not say.
+std::string times_of_slots(const run_time_word& word, const detail::named_letters& of_system);
+/// "t, c", or "no letters of its own".
+std::string names_of(const detail::named_letters& of_system);
 
 /// The key of a family's source in docs/bibliography.bib; empty: not published.
 std::string source_of_family(std::string_view name);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
-tabulated family_member(const std::string& family, const std::vector<double>& parameters);
+tabulated family_member(const std::string& family, const std::vector<double>& parameters,
+                        const detail::named_letters& of_system = {});
 
 /// A classical method whose coefficients are fixed.
 struct classical_method {

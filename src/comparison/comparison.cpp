@@ -93,7 +93,7 @@ double comparison::usual_horizon(const std::vector<method_source>& sources) cons
 void comparison::plan_rows() {
   std::vector<method_source> sources;
   for (const auto& typed : options_.methods) {
-    sources.push_back(find_method(typed, options_.held));
+    sources.push_back(find_method(typed, options_.held, system_->letters()));
     charge(sources.back(), *system_);
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
@@ -128,7 +128,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   int parts = 1;
   bool symmetric = false;
   if (source.family) {
-    symmetric = family_named(*source.family).symmetric;
+    symmetric = family_named(*source.family, system_->letters()).symmetric;
     steps_within("--learn-horizon", options_.learning.horizon_at(step), step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, options_.learning, step);

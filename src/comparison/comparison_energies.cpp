@@ -42,7 +42,7 @@ void comparison::judge_steps() {
   constexpr std::uint64_t starts = 64;
   const auto known = frequencies_along_starts(*system_, seed_for(role::test, common_.seed), starts);
   for (row& line : rows_) {
-    if (has_rotation(line.coefficients->letters())) continue;
+    if (!has_windows(line.coefficients->letters())) continue;
     line.margin = judge(*line.coefficients, chart_of(*line.coefficients), known, line.step).margin();
   }
 }

@@ -92,7 +92,8 @@ double comparison::evaluations_expected(const row& line) const {
 /// A search takes some 0.2 s with two parameters and 6 s with six, for any data: as much as a few 10^7
 /// evaluations, times the cube of their number.
 double comparison::work_of_learning(const row& line) const {
-  const auto parameters = static_cast<double>(family_named(*families_.at(line.method).family).parameters());
+  const auto parameters =
+      static_cast<double>(family_named(*families_.at(line.method).family, system_->letters()).parameters());
   const learning_options& how = options_.learning;
   const double time = 2.0 * static_cast<double>(how.trajectories) * how.horizon_at(line.step);
   const double reference = 10.0 * system_->fastest_rate() / fine_angle * reference_evaluations;
@@ -123,7 +124,7 @@ void comparison::learn(row& line, journal& kept) {
     return learned_row_of(line.method, learn_with(*system_, plan, shown_, work_of_learning(line)).fit);
   });
   fits_.push_back(found);
-  const run_time_family family = placed(*source.family, where);
+  const run_time_family family = placed(*source.family, where, system_->letters());
   const auto theta = found.theta();
   const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   line.coefficients.emplace(

@@ -88,6 +88,14 @@ export_source exported_from(const method_source& source, const export_request& r
       refuse("export: {}: {}", source.typed, problem.what());
     }
   }
+  for (const char letter : result.method.letters().letters()) {
+    if (result.method.letters().own_letter(letter) == nullptr) continue;
+    refuse(
+        "export: {} has the letter {} of {}, which is code of that system and in no host: take a word of A, "
+        "B, D "
+        "and G",
+        source.typed, letter, result.method.letters().own_letter(letter)->system);
+  }
   result.options.displaced = request.displaced;
   result.options.about.push_back("To cite: nysalt cite" + arguments_of_cite(source));
   return result;

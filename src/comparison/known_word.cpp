@@ -51,10 +51,10 @@ std::vector<letter> merged(const std::vector<letter>& all, double zero) {
 
 std::vector<letter> letters_of(const run_time_word& word, const std::vector<double>& coefficients) {
   std::vector<letter> result;
-  std::size_t slot = 0;
-  for (const char name : word.letters().substr(0, word.length)) {
-    letter one{name, coefficients[slot++], 0.0};
-    if (name == 'G' || name == 'H' || name == 'D') one.gradient = coefficients[slot++];
+  for (std::size_t i = 0; i < word.length; ++i) {
+    const char name = word.letters()[i];
+    const std::size_t slot = word.first_slot(i);
+    letter one{name, coefficients[slot], word.slots_of(i) > 1 ? coefficients[slot + 1] : 0.0};
     if (name == 'D' && one.gradient == 0.0) one.name = 'B';
     result.push_back(one);
   }
@@ -119,8 +119,9 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 }
 
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
-                                    std::span<const tabulated> further) {
-  const run_time_family named_family = family_named(family);
+                                    std::span<const tabulated> further,
+                                    const detail::named_letters& of_system) {
+  const run_time_family named_family = family_named(family, of_system);
   const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
     return tabulated(name, named_family.letters, named_family.coefficients(at),
                      {named_family.order, named_family.symmetric, named_family.requires_quadratic_kinetic});

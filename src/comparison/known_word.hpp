@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt::program {
@@ -21,6 +22,7 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 /// ones, the refuge, and the start of its searches, "pefrl in r_aba4" or "the start of r_aba2". theta is of
 /// that family.
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
-                                    std::span<const tabulated> further = {});
+                                    std::span<const tabulated> further = {},
+                                    const detail::named_letters& of_system = {});
 
 }  // namespace nysalt::program

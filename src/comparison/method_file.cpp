@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 
 #include "catalogue.hpp"
@@ -99,6 +101,36 @@ std::size_t trajectories_in(const document_reader& read) {
   return static_cast<std::size_t>(std::ranges::min(all));
 }
 
+/// Those of its system that a scheme states.
+detail::named_letters own_letters_in(const json& document, const document_reader& read,
+                                     const std::string& system) {
+  detail::named_letters result;
+  if (!document.contains("own_letters")) return result;
+  for (const auto& stated : read.member("own_letters")) {
+    if (!stated.is_object()) refuse("{}: \"own_letters\" must hold objects", read.file());
+    const document_reader one(stated, read.file());
+    const std::string name = one.text("letter");
+    const std::string times = one.text("times");
+    if (name.size() != 1 || times.empty())
+      refuse("{}: a letter of \"own_letters\" must have a name of one character", read.file());
+    result.push_back({std::make_shared<const detail::stated_letter>(
+                          detail::letter_facts{.letter = name[0],
+                                               .slots = times.size(),
+                                               .reads = field::none,
+                                               .force_derivatives = 0,
+                                               .displaced_forces = static_cast<int>(one.number("forces")),
+                                               .moves_q = one.flag("moves_q"),
+                                               .additive = one.flag("additive"),
+                                               .symplectic = one.flag("symplectic"),
+                                               .is_of_bath = false,
+                                               .reads_modes = false,
+                                               .splits = splitting::any},
+                          system),
+                      times});
+  }
+  return result;
+}
+
 scheme scheme_in(const json& document, const document_reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
@@ -107,9 +139,11 @@ scheme scheme_in(const json& document, const document_reader& read) {
         read.file());
   }
   const std::string name = read.text("family");
+  const document_reader of_system(read.member("system"), read.file());
+  const auto own_letters = own_letters_in(document, read, of_system.text("description"));
   const run_time_family family = [&] {
     try {
-      return family_named(name);
+      return family_named(name, own_letters);
     } catch (const refusal& problem) {
       refuse("{}: {}", read.file(), problem.what());
     }
@@ -124,7 +158,6 @@ scheme scheme_in(const json& document, const document_reader& read) {
     refuse("{}: it has both \"step\" and \"steps\": one is not meant", read.file());
   }
   if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
-  const document_reader of_system(read.member("system"), read.file());
   const auto trajectories = trajectories_in(read);
   const auto energies = energies_in(read);
   return in_file(read.file(), [&] {
@@ -140,7 +173,8 @@ scheme scheme_in(const json& document, const document_reader& read) {
                   read.flag("usable"),
                   read.text("reason"),
                   energies,
-                  trajectories};
+                  trajectories,
+                  own_letters};
     result.at(steps.front());  // throws if the word cannot take the placement
     return result;
   });
@@ -165,7 +199,44 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
   return listed(texts);
 }
 
-tabulated table_in(const json& document, const document_reader& read) {
+/// The order of a word with letters of a system. Where these are of two parts of H, they obey the conditions
+/// of drifts and kicks; where there are more, it is that of its symmetry.
+int order_of(const tabulated& method, std::string times) {
+  const std::string letters = method.letters().letters();
+  const auto other = times.find_first_not_of(times[0]);
+  const bool are_two = other != std::string::npos && times.size() == letters.size() &&
+                       std::ranges::all_of(times, [second = times[other], first = times[0]](char part) {
+                         return part == first || part == second;
+                       });
+  if (!are_two) return method.symmetric ? 2 : 1;
+  std::ranges::transform(times, times.begin(),
+                         [first = times[0]](char part) { return part == first ? 'A' : 'B'; });
+  return taylor_order(tabulated("", run_time_word(times), method.coefficients(), method)).any_kinetic;
+}
+
+/// A table with letters of the system.
+tabulated table_of_system(const std::string& name, const run_time_word& word,
+                          const std::vector<double>& coefficients, const detail::named_letters& of_system,
+                          const document_reader& read, std::optional<double> declared) {
+  const tabulated bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
+  const std::string times = times_of_slots(word, of_system);
+  std::map<char, double> sums;
+  for (std::size_t k = 0; k < times.size(); ++k) sums[times[k]] += coefficients[k];
+  for (const auto& [part, sum] : sums) {
+    constexpr double rounding = 1e-10;  // of decimals as they are printed
+    if (std::abs(sum - 1.0) <= rounding) continue;
+    refuse("{}: the coefficients of {} must add up to 1, to ten digits, got {}", read.file(), part, sum);
+  }
+  const int order = order_of(bare, times);
+  if (declared && *declared > order) {
+    refuse("{}: it declares the order {}, and the word {} is known to have {}; leave \"order\" away",
+           read.file(), *declared, word.letters(), order);
+  }
+  return {name, word, coefficients, {order, bare.symmetric, bare.requires_quadratic_kinetic}};
+}
+
+tabulated table_in(const json& document, const document_reader& read,
+                   const detail::named_letters& of_system) {
   if (document.contains("placement")) {
     refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
   }
@@ -176,8 +247,15 @@ tabulated table_in(const json& document, const document_reader& read) {
   }
   const std::vector<double> coefficients = read.numbers("coefficients");
   return in_file(read.file(), [&] {
-    const run_time_word word(letters);
+    const run_time_word word(letters, detail::letters_in(of_system));
     const std::string name = document.contains("name") ? read.text("name") : "table";
+    if (word.has_own_letters()) {
+      if (word.is_processed() || word.stochastic_letters > 0) {
+        refuse("{}: a table with letters of a system has no processor, and no letters O", read.file());
+      }
+      const auto declared = document.contains("order") ? std::optional(read.number("order")) : std::nullopt;
+      return table_of_system(name, word, coefficients, of_system, read, declared);
+    }
     const tabulated bare(name, word, coefficients, {1, false, false});
     if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
     const auto found = taylor_order(bare);
@@ -212,7 +290,7 @@ tabulated table_in(const json& document, const document_reader& read) {
 
 tabulated scheme::at(double step) const {
   const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
-  const run_time_family placed_family = placed(family, where);
+  const run_time_family placed_family = placed(family, where, own_letters);
   Eigen::VectorXd theta = curve.at(inside);
   for (Eigen::Index k = 0; k < theta.size(); ++k) {  // a curve may swing beyond a bound that is attained
     const auto& [low, high, open] = placed_family.ranges[static_cast<std::size_t>(k)];
@@ -223,7 +301,7 @@ tabulated scheme::at(double step) const {
                    {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
 }
 
-run_time_word scheme::letters() const { return placed(family, where).letters; }
+run_time_word scheme::letters() const { return placed(family, where, own_letters).letters; }
 
 std::string scheme::steps() const {
   const auto& all = curve.steps();
@@ -238,12 +316,13 @@ std::string source_of_system(const json& parameters) {
   return known.dump();
 }
 
-method_file read_method_file(const std::filesystem::path& path) {
+method_file read_method_file(const std::filesystem::path& path, const detail::named_letters& of_system) {
   note_input(path);
-  return method_file_in(contents_of(path), path.string());
+  return method_file_in(contents_of(path), path.string(), of_system);
 }
 
-method_file method_file_in(const std::string& text, const std::string& file) {
+method_file method_file_in(const std::string& text, const std::string& file,
+                           const detail::named_letters& of_system) {
   json document;
   try {
     constexpr int deepest = 8;
@@ -286,7 +365,7 @@ method_file method_file_in(const std::string& text, const std::string& file) {
   if (format == scheme_format) {
     result.learned = scheme_in(document, read);
   } else {
-    result.table = table_in(document, read);
+    result.table = table_in(document, read, of_system);
   }
   return result;
 }

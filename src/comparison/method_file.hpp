@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "json.hpp"
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/learning/theta_curve.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "prepared_problem.hpp"
@@ -26,6 +27,7 @@ struct scheme {
   std::string reason;
   std::optional<energy_range> energies;  // that it was learned on
   std::size_t trajectories = 0;          // how many, at the step with the fewest
+  detail::named_letters own_letters{};   // of the system, as they are stated
 
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
   tabulated at(double step) const;
@@ -52,8 +54,10 @@ struct method_file {
 
 /// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or
 /// of a newer version, and for coefficients that are not consistent or of a lower order than declared.
-method_file read_method_file(const std::filesystem::path& path);
+/// Tables may have letters of a system, schemes state what theirs are.
+method_file read_method_file(const std::filesystem::path& path, const detail::named_letters& of_system = {});
 /// The same from the text of a file, whose name is part of refusals.
-method_file method_file_in(const std::string& text, const std::string& file);
+method_file method_file_in(const std::string& text, const std::string& file,
+                           const detail::named_letters& of_system = {});
 
 }  // namespace nysalt::program

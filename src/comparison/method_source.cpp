@@ -40,14 +40,15 @@ bool is_file_name(const std::string& text) {
 
 }  // namespace
 
-method_source find_method(const std::string& typed, const held_methods& held) {
+method_source find_method(const std::string& typed, const held_methods& held,
+                          const detail::named_letters& of_system) {
   if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
     refuse("a method's name holds a line break or the like: rename the file");
   }
   method_source source;
   source.typed = typed;
   if (const auto found = held.find(typed); found != held.end()) {
-    take_file(source, method_file_in(found->second, typed));
+    take_file(source, method_file_in(found->second, typed, of_system));
     return source;
   }
   std::string text = typed;
@@ -64,6 +65,7 @@ method_source find_method(const std::string& typed, const held_methods& held) {
   for (const auto& known : classical_methods()) {
     if (known.method.name() == text) source.fixed = known.method;
   }
+  if (is_word(text)) source.fixed = method_of_word(text, of_system);
   for (const auto& known : adaptive_methods()) {
     if (known.name == text) source.adaptive = &known;
   }
@@ -73,9 +75,9 @@ method_source find_method(const std::string& typed, const held_methods& held) {
     count(source, source.adaptive->letters);
   } else if (text.starts_with(to_learn)) {
     source.family = text.substr(to_learn.size());
-    count(source, family_named(*source.family).letters);
+    count(source, family_named(*source.family, of_system).letters);
   } else if (is_file_name(text)) {
-    take_file(source, read_method_file(text));
+    take_file(source, read_method_file(text, of_system));
   } else {
     auto known = method_names();
     for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
@@ -88,6 +90,41 @@ method_source find_method(const std::string& typed, const held_methods& held) {
 void charge(method_source& source, const prepared_problem& system) {
   source.evaluations_per_step += (system.derivative_calls() - 1) * source.force_derivatives;
 }
+
+namespace {
+
+/// Of a scheme or a system, by name; null: it has none of that name.
+const detail::own_letter* letter_in(const detail::named_letters& all, char name) {
+  const auto found =
+      std::ranges::find_if(all, [&](const auto& one) { return one.letter->facts.letter == name; });
+  return found == all.end() ? nullptr : found->letter.get();
+}
+
+/// Refuses a scheme with letters that the system has not, or has otherwise.
+void require_letters_of(const method_source& source, const prepared_problem& system) {
+  for (const auto& [stated, times] : source.learned->own_letters) {
+    const char name = stated->facts.letter;
+    const auto* own = letter_in(system.letters(), name);
+    if (own == nullptr) {
+      refuse("{}: its word {} has the letter {} of {}, and {} has {}; learn a method there", source.typed,
+             source.learned->letters().letters(), name, source.learned->system, system.description(),
+             names_of(system.letters()));
+    }
+    if (own->facts != stated->facts) {
+      refuse("{}: the letter {} of {} is not what it was when the scheme was learned; learn it again",
+             source.typed, name, system.description());
+    }
+  }
+}
+
+/// The same with the letters of the system for those that a file states.
+tabulated with_letters_of(const prepared_problem& system, const tabulated& method) {
+  if (!method.letters().has_own_letters()) return method;
+  return {method.name(), run_time_word(method.letters().letters(), detail::letters_in(system.letters())),
+          method.coefficients(), method};
+}
+
+}  // namespace
 
 bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
 
@@ -114,7 +151,7 @@ namespace {
 
 /// Between learned steps the stability of the method is not yet known.
 tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
-  const tabulated method = source.learned->at(step);
+  const tabulated method = with_letters_of(system, source.learned->at(step));
   if (source.learned->is_learned_at(step) || force) return method;
   const std::string objection =
       system.guard(has_rotation(method.letters())).objection(method.letters(), method.coefficients(), step);
@@ -148,6 +185,7 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
                    std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
+    require_letters_of(source, system);
     const std::string why = out_of_place(*source.learned, system, step);
     if (why.empty()) {
       const tabulated method = from_scheme(source, system, step, force);
@@ -208,6 +246,7 @@ tabulated coefficients_at(const method_source& source, const prepared_problem& s
   const tabulated method =
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
+  system.require_sound_letters(source.typed, method.letters(), step);
   // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
   const bool was_judged = source.learned && source.learned->usable &&
                           out_of_place(*source.learned, system, step).empty() &&
@@ -235,7 +274,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
                                       std::optional<placement> otherwise) {
   if (!system.heat_bath().acts()) return std::nullopt;
   const placement where = source.where.value_or(otherwise.value_or(usual));
-  const run_time_word word = family_named(*source.family).letters;
+  const run_time_word word = family_named(*source.family, system.letters()).letters;
   if (word.is_processed()) {
     refuse(
         "{}: a processed method cannot run in a bath: a kernel that is learned with a processor gives modes "

@@ -11,8 +11,8 @@
 
 namespace nysalt::program {
 
-/// A classical name, an adaptive one, learned:FAMILY, or the file of a scheme or table; with @PLACEMENT or
-/// without.
+/// A classical name, an adaptive one, word:LETTERS, learned:FAMILY, or the file of a scheme or table; with
+/// @PLACEMENT or without.
 struct method_source {
   std::string typed;
   std::optional<tabulated> fixed;             // classical and tables: the same at every step
@@ -25,8 +25,10 @@ struct method_source {
   int force_derivatives = 0;     // f'(q) v in a step
 };
 
-/// What is held goes before all else. Throws refusal, listing what is known, if the text names nothing.
-method_source find_method(const std::string& text, const held_methods& held = {});
+/// What is held goes before all else. Words and tables may have letters of the system that they are for.
+/// Throws refusal, listing what is known, if the text names nothing.
+method_source find_method(const std::string& text, const held_methods& held = {},
+                          const detail::named_letters& of_system = {});
 
 /// What a step costs with a system: differences of a black box call it twice for each f'(q) v.
 void charge(method_source& source, const prepared_problem& system);

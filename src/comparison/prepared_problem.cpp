@@ -8,12 +8,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "catalogue.hpp"
 #include "json.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
@@ -44,6 +47,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       parameters_(std::move(parameters)),
       source_of_kind_(std::move(source)),
       start_(conditions.start) {
+  for (const auto& one : made_.letters) letters_.push_back(one.named);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
     refuse(
@@ -138,6 +142,97 @@ void prepared_problem::require_served(const run_time_word& word) const {
   } catch (const std::invalid_argument& problem) {
     refuse("{}", problem.what());
   }
+}
+
+namespace {
+
+using state_in_double = phase_point<double, dynamic>;
+
+Eigen::VectorXd column_of(const state_in_double& x) {
+  Eigen::VectorXd all(2 * x.q.size());
+  all << x.q, x.p;
+  return all;
+}
+
+/// The rate at which a letter moves the state at x, by a central difference over 2 h, with a coefficient 1 in
+/// one of its slots.
+Eigen::VectorXd rate_of(const model& system, const run_time_word& letter, std::size_t slot,
+                        const state_in_double& x, double h) {
+  std::vector<double> c(letter.slots);
+  c[slot] = 1.0;
+  const tabulated alone("letter", letter, c, {1, false, false});
+  state_in_double ahead = x;
+  state_in_double behind = x;
+  make_stepper(system, alone, h).step(ahead);
+  make_stepper(system, alone, -h).step(behind);
+  return (column_of(ahead) - column_of(behind)) / (2.0 * h);
+}
+
+/// By how much the letters of a word move states otherwise than H does, relative to how H moves them; the
+/// larger of the defects of q and p. A part of H acts once, however many letters have its time.
+double defect_of_sum(const model& system, const run_time_word& word, const std::string& times,
+                     const std::vector<state_in_double>& states, double step) {
+  const double h =
+      1e-5 * step;  // the cube root of a rounding, at which both errors of a difference are small
+  const Eigen::Index n = size(system);
+  Eigen::Vector2d defect = Eigen::Vector2d::Zero();
+  Eigen::Vector2d scale = Eigen::Vector2d::Zero();
+  for (const auto& x : states) {
+    const Eigen::VectorXd whole =
+        rate_of(system, run_time_word("A"), 0, x, h) + rate_of(system, run_time_word("B"), 0, x, h);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(2 * n);
+    std::string known;
+    for (std::size_t i = 0; i < word.length; ++i) {
+      const run_time_word letter = word.with_letters(std::string(1, word.letters()[i]));
+      for (std::size_t k = 0; k < word.slots_of(i); ++k) {
+        const char part = times[word.first_slot(i) + k];
+        if (known.find(part) != std::string::npos) continue;
+        known += part;
+        sum += rate_of(system, letter, k, x, h);
+      }
+    }
+    const Eigen::VectorXd off = (sum - whole).cwiseAbs();
+    defect = defect.cwiseMax(Eigen::Vector2d(off.head(n).maxCoeff(), off.tail(n).maxCoeff()));
+    const Eigen::VectorXd size_of = whole.cwiseAbs();
+    scale = scale.cwiseMax(Eigen::Vector2d(size_of.head(n).maxCoeff(), size_of.tail(n).maxCoeff()));
+  }
+  return std::max(defect[0] / scale[0], defect[1] / scale[1]);
+}
+
+}  // namespace
+
+void prepared_problem::require_sound_letters(const std::string& name, const run_time_word& word,
+                                             double step) const {
+  constexpr Eigen::Index most = 2000;  // coordinates: the Jacobian of a letter has 4 times their square
+  if (!word.has_own_letters() || size(made_.system) > most) return;
+  if (!sound_.insert(fmt::format("{} {}", word.letters(), step)).second) return;
+  const model alone = made_.system.alone();
+  // Some moved by a part of a step: starts may be at rest, or at the minimum of V.
+  const double moved_by = made_.frequency > 0.0 ? std::min(step, 0.1 / made_.frequency) : step;
+  const auto mover = make_stepper(alone, tabulated(verlet()), moved_by);
+  states_in_double states;
+  for (std::int64_t n = 0; n < 4; ++n) {
+    states.push_back(sound_start(alone, made_.starts, 1, n));
+    if (n % 2 == 1) mover.step(states.back());
+  }
+  for (const auto& [named, check] : made_.letters) {
+    if (word.own_letter(named.letter->facts.letter) == nullptr) continue;
+    const letter_check found = check(states, step);
+    if (!found.passed()) refuse("{}: {}", name, found.report());
+  }
+  std::string letters = word.letters();
+  std::erase(letters, bath_letter);
+  const run_time_word conservative = word.with_letters(letters);
+  const double defect =
+      defect_of_sum(alone, conservative, times_of_slots(conservative, letters_), states, step);
+  constexpr double enough =
+      1e-5;  // differences err by 1e-10 to 1e-7, a part that is missing by its share of H
+  if (defect <= enough) return;
+  refuse(
+      "{}: the letters of the word {} must add up to H of {}: over equal times they move it otherwise, by "
+      "{:.2g} "
+      "of its rate; take a letter for each part of H",
+      name, conservative.letters(), description(), defect);
 }
 
 double prepared_problem::frequency_of_law() const { return made_.frequency; }

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -110,6 +111,12 @@ class prepared_problem {
   const size_trial& try_at_size(const tabulated& method, double step) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
+  /// Letters of one's own that the system has, by name.
+  const detail::named_letters& letters() const { return letters_; }
+  /// Tries the letters of one's own in a word by check_letter(), over the step from four states, and whether
+  /// its letters add up to H there. Throws refusal, which begins with the name of the method, for the first
+  /// that is not what it states. Cost: of letters that were tried before none.
+  void require_sound_letters(const std::string& name, const run_time_word& word, double step) const;
   /// Throws refusal for what cannot be learned, before any work is done.
   void require_learnable(const std::string& family, std::optional<placement> where,
                          const learning_options& how, double step) const;
@@ -177,7 +184,9 @@ class prepared_problem {
   start start_;
   std::optional<initial_states> starts_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
+  detail::named_letters letters_;
   mutable std::map<std::string, size_trial> tried_;  // by letters, coefficients and step
+  mutable std::set<std::string> sound_;              // by letters and step
 };
 
 /// Highest angular frequency that the system declares; nothing if it declares none.

@@ -17,8 +17,12 @@ namespace nysalt::program {
 
 void prepared_problem::require_learnable(const std::string& name, std::optional<placement> where,
                                          const learning_options& how, double step) const {
-  const run_time_family family = placed(name, where);
+  const run_time_family family = placed(name, where, letters());
+  if (family.parameters() == 0) {
+    refuse("{}: the sums leave no coefficient to learn: take it as a method, or a longer word", name);
+  }
   require_served(family.letters);
+  require_sound_letters(name, family.letters, step);
   reference().fine_step(step, how.fine_step, noise_parts(family));
   const auto which = how.coordinates.empty() ? coordinates::qp : coordinates_named(how.coordinates);
   if (which != coordinates::qp && !has_modes(made_.system)) {
@@ -46,13 +50,13 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
 std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
   const data_options options{.step = plan.step,
                              .horizon = plan.how.horizon_at(plan.step),
-                             .noise_parts = noise_parts(placed(plan.family, plan.where))};
+                             .noise_parts = noise_parts(placed(plan.family, plan.where, letters()))};
   return nysalt::most_trajectories(options, size(made_.system));
 }
 
 learnable prepared_problem::make_learnable(const learn_plan& plan, const counter& progress) const {
   require_learnable(plan.family, plan.where, plan.how, plan.step);
-  const run_time_family family = placed(plan.family, plan.where);
+  const run_time_family family = placed(plan.family, plan.where, letters());
   const int parts = noise_parts(family);
   fit_options options = options_for(family, plan.how, plan.threads);
   options.seed = plan.seed;

@@ -47,8 +47,8 @@ void recommendation::prepare(candidate& contender, const std::vector<double>& fr
     const fit_summary& fit = contender.learned->fit;
     if (!fit.usable) {
       contender.reason = "the fit is not usable: " + fit.reason;
-    } else if (const auto known =
-                   known_as(*contender.source.family, theta_of(fit), formulas_at(contender.step))) {
+    } else if (const auto known = known_as(*contender.source.family, theta_of(fit),
+                                           formulas_at(contender.step), system_->letters())) {
       contender.reason = "nothing was learned: it is " + *known;
     }
   } catch (const refusal& problem) {  // an adaptive method where it is not defined

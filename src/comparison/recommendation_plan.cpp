@@ -75,10 +75,10 @@ void recommendation::plan_families() {
   const std::size_t before = all_.size();
   bool fixes = options_.learning.fix.empty();
   for (const auto& name : names) {
-    const auto family = family_named(name);
+    const auto family = family_named(name, system_->letters());
     if (!is_fixed_in(family)) continue;
     fixes = true;
-    candidate contender{.source = find_method("learned:" + name), .where = {}};
+    candidate contender{.source = find_method("learned:" + name, {}, system_->letters()), .where = {}};
     contender.order = family.order;
     contender.symmetric = family.symmetric;
     contender.is_symplectic = family.letters.is_symplectic;

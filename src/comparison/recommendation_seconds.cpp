@@ -11,8 +11,9 @@ namespace nysalt::program {
 
 namespace {
 
-tabulated first_member(const std::string& family, std::optional<placement> where) {
-  const run_time_family placed_family = placed(family, where);
+tabulated first_member(const std::string& family, std::optional<placement> where,
+                       const prepared_problem& system) {
+  const run_time_family placed_family = placed(family, where, system.letters());
   return {placed_family.name,
           placed_family.letters,
           placed_family.coefficients(placed_family.starts.front().theta),
@@ -34,7 +35,7 @@ void recommendation::time_steps() {
     try {
       std::vector<std::string> ignored;
       const auto method = contender.is_learned()
-                              ? first_member(*contender.source.family, contender.where)
+                              ? first_member(*contender.source.family, contender.where, *system_)
                               : coefficients_at(contender.source, *system_, step, false,
                                                 placement_asked(options_.placement), ignored);
       methods.push_back({method,

@@ -83,12 +83,12 @@ void sampling_choice::plan_candidates() {
 
 /// Takes part, or is left out with the reason why.
 void sampling_choice::consider(const std::string& name) {
-  sampling_candidate candidate{.source = find_method(name)};
+  sampling_candidate candidate{.source = find_method(name, {}, system_->letters())};
   charge(candidate.source, *system_);
   const auto leave_out = [&](const std::string& why) { left_out_.emplace_back(name, why); };
   try {
     if (candidate.is_learned()) {
-      const auto family = family_named(*candidate.source.family);
+      const auto family = family_named(*candidate.source.family, system_->letters());
       if (!family.symmetric) return leave_out("it is not reversible");
       system_->require_learnable(*candidate.source.family, {}, options_.learning, options_.length);
     } else if (candidate.source.fixed) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/crc.hpp>
 
+#include "catalogue.hpp"
 #include "method_file.hpp"
 #include "method_file_format.hpp"
 #include "nysalt/version.hpp"
@@ -80,6 +81,17 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const prepar
       {"held_out_seed", fit.held_out_seed},
       {"versions", {{"nysalt", version}}}};
   if (energies) document["energy_range"] = {energies->low, energies->high};
+  const run_time_word word = family_named(fit.family, system.letters()).letters;
+  for (const auto& [letter, times] : system.letters()) {
+    const auto& facts = letter->facts;
+    if (word.own_letter(facts.letter) == nullptr) continue;
+    document["own_letters"].push_back({{"letter", std::string(1, facts.letter)},
+                                       {"times", times},
+                                       {"forces", facts.displaced_forces},
+                                       {"moves_q", facts.moves_q},
+                                       {"additive", facts.additive},
+                                       {"symplectic", facts.symplectic}});
+  }
   if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);
   return text_of(document);

@@ -161,7 +161,7 @@ trial_result try_step(const tabulated& method, const prepared_problem& system, d
 std::optional<double> safe_step(const tabulated& method, const prepared_problem& system,
                                 const judged_step& judged, std::optional<double> failed, std::uint64_t seed,
                                 int threads) {
-  if (has_rotation(method.letters()) || judged.linear_step == 0.0 || system.frequency_bands().empty()) {
+  if (!has_windows(method.letters()) || judged.linear_step == 0.0 || system.frequency_bands().empty()) {
     return std::nullopt;
   }
   constexpr double ratio = 1.0 - tried_margin;
@@ -210,7 +210,7 @@ json to_json(const trial_result& trial) {
 std::optional<std::string> failed_trial(const std::string& name, const tabulated& method,
                                         const prepared_problem& system, double step, std::int64_t steps,
                                         std::uint64_t seed, int threads) {
-  if (!has_rotation(method.letters()) && !system.frequency_bands().empty()) return std::nullopt;
+  if (has_windows(method.letters()) && !system.frequency_bands().empty()) return std::nullopt;
   const auto trial =
       system.trial(method, plan_of_trial(method, system, step, std::min(steps, usual_steps), seed, threads));
   const std::string objection = trial.objection();
@@ -252,6 +252,7 @@ std::string magnified(const std::string& name, const tabulated& method, const pr
 
 std::optional<std::string> instability(const std::string& name, const tabulated& method,
                                        const prepared_problem& system, double step) {
+  if (method.letters().has_own_letters()) return std::nullopt;  // a trial run says more
   if (has_rotation(method.letters())) {
     const std::string text = magnified(name, method, system, step);
     return text.empty() ? std::nullopt : std::optional(text);
@@ -265,7 +266,7 @@ std::optional<std::string> instability(const std::string& name, const tabulated&
 std::optional<std::string> stability_warning(const std::string& name, const tabulated& method,
                                              const prepared_problem& system, double step, std::int64_t steps,
                                              std::uint64_t seed) {
-  if (has_rotation(method.letters())) return std::nullopt;
+  if (!has_windows(method.letters())) return std::nullopt;
   const auto chart = chart_of(method);
   if (!judge(method, chart, frequencies_of(system), step).is_stable())
     return std::nullopt;  // instability() says why

@@ -179,6 +179,143 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
   return result;
 }
 
+namespace {
+
+/// Slots that hold one coefficient: of a letter left of the middle and of the one that mirrors it.
+struct mirrored_slots {
+  std::size_t first;  // equal where the letter is in the middle
+  std::size_t last;
+  char part;
+  Eigen::Index parameter = -1;  // -1: what makes the sum of the part one
+
+  double slots() const { return first == last ? 1.0 : 2.0; }
+};
+
+std::vector<mirrored_slots> mirrored_slots_of(const run_time_word& word, const std::string& times) {
+  std::vector<mirrored_slots> result;
+  for (std::size_t i = 0; 2 * i < word.length; ++i) {
+    const std::size_t j = word.length - 1 - i;
+    for (std::size_t k = 0; k < word.slots_of(i); ++k) {
+      const std::size_t first = word.first_slot(i) + k;
+      result.push_back({first, word.first_slot(j) + k, times[first]});
+    }
+  }
+  return result;
+}
+
+/// Coefficients of a part in a word of equal steps: each letter has half of the time to the letter of the
+/// same part before it, around the end of the step, and half of that to the one behind it. Time passes
+/// between two of them where the part acts that lies between most of them.
+void put_equal_steps(const run_time_word& word, const std::string& times, char part,
+                     std::vector<double>& coefficients) {
+  std::vector<std::size_t> letters;  // where the part acts, and in which slot
+  std::vector<std::size_t> slots;
+  for (std::size_t i = 0; i < word.length; ++i) {
+    for (std::size_t k = word.first_slot(i); k < word.first_slot(i) + word.slots_of(i); ++k) {
+      if (times[k] != part) continue;
+      letters.push_back(i);
+      slots.push_back(k);
+    }
+  }
+  const std::size_t count = letters.size();
+  std::vector<std::string> between(count);  // parts between occurrence n and the next
+  std::string others;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t end = n + 1 < count ? letters[n + 1] : letters[0] + word.length;
+    for (std::size_t i = letters[n] + 1; i < end; ++i) {
+      const std::size_t letter = i % word.length;
+      between[n] += times.substr(word.first_slot(letter), word.slots_of(letter));
+    }
+    others += between[n];
+  }
+  const auto gaps_with = [&](char other) {
+    return std::ranges::count_if(
+        between, [&](const std::string& all) { return all.find(other) != std::string::npos; });
+  };
+  char clock = part;
+  for (const char other : others) {
+    if (clock == part || gaps_with(other) > gaps_with(clock)) clock = other;
+  }
+  double sum = 0.0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto passes = [&](std::size_t gap) {
+      return clock == part || between[gap].find(clock) != std::string::npos ? 0.5 : 0.0;
+    };
+    coefficients[slots[n]] = passes((n + count - 1) % count) + passes(n);
+    sum += coefficients[slots[n]];
+  }
+  for (const std::size_t slot : slots) coefficients[slot] /= sum;
+}
+
+}  // namespace
+
+run_time_family symmetric_word(std::string name, const run_time_word& word, const std::string& times) {
+  const std::string& letters = word.letters();
+  const auto refuse = [&](const char* why) {
+    throw std::invalid_argument(sentence("{}: the word {} {}", name, letters, why));
+  };
+  if (word.is_processed()) refuse("has a processor: leave it away");
+  if (!std::equal(letters.begin(), letters.end(), letters.rbegin()))
+    refuse("must read the same from both ends");
+  if (std::ranges::adjacent_find(letters) != letters.end()) refuse("has two equal neighbours: join them");
+  if (times.size() != word.slots) refuse("must have a part of H for each coefficient");
+  std::vector<mirrored_slots> all = mirrored_slots_of(word, times);
+  std::vector<double> equal_steps(word.slots);
+  std::vector<double> start;
+  run_time_family result(std::move(name), word, {});
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const auto is_of_part = [&](const mirrored_slots& one) { return one.part == all[n].part; };
+    const auto before = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), is_of_part));
+    if (before == 0) put_equal_steps(word, times, all[n].part, equal_steps);
+    if (std::none_of(all.begin() + static_cast<std::ptrdiff_t>(n) + 1, all.end(), is_of_part)) continue;
+    all[n].parameter = result.parameters();
+    result.parameter_names.push_back(sentence("{}{}", all[n].part, before + 1));
+    result.ranges.push_back({-farthest_parameter, farthest_parameter, false});
+    start.push_back(equal_steps[all[n].first]);
+  }
+  const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start));
+  result.starts = {{"start", theta}};
+  if (theta.size() > 0) result.refuge = theta;
+  result.order = 2;
+  result.symmetric = true;
+  result.requires_quadratic_kinetic = word.rotates();
+  result.coefficients_ = [all, slots = word.slots](const Eigen::VectorXd& given) {
+    std::vector<double> c(slots);
+    for (const auto& one : all) {
+      double value = 1.0;
+      if (one.parameter >= 0) {
+        value = given[one.parameter];
+      } else {
+        for (const auto& other : all) {
+          if (other.part == one.part && other.parameter >= 0) value -= other.slots() * given[other.parameter];
+        }
+        value /= one.slots();
+      }
+      c[one.first] = c[one.last] = value;
+    }
+    return c;
+  };
+  result.jacobian_ = [all, slots = word.slots, count = theta.size()](const Eigen::VectorXd&) {
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(slots), count);
+    for (const auto& one : all) {
+      for (const std::size_t slot : {one.first, one.last}) {
+        const auto row = static_cast<Eigen::Index>(slot);
+        if (one.parameter >= 0) {
+          slopes(row, one.parameter) = 1.0;
+          continue;
+        }
+        for (const auto& other : all) {
+          if (other.part == one.part && other.parameter >= 0)
+            slopes(row, other.parameter) = -other.slots() / one.slots();
+        }
+      }
+    }
+    return slopes;
+  };
+  return result;
+}
+
 void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < family.ranges.size(); ++k) {
     detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -79,6 +80,14 @@ void require_sound(const system_declaration& declared, const std::string& path) 
   }
 }
 
+void require_named(const std::string& letters, const std::string& path) {
+  for (const char letter : letters) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0)
+      refuse("{}: a letter is called '{}': take a letter or a digit", path, letter);
+    if (std::ranges::count(letters, letter) > 1) refuse("{}: two letters are called '{}'", path, letter);
+  }
+}
+
 system_declaration declared_in(const fs::path& library_file, const std::string& shown) {
   const fs::path file = fs::absolute(library_file);
   std::error_code ignored;
@@ -104,6 +113,7 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
     refuse("{}: {}", shown, problem.what());
   }
   require_sound(declared, shown);
+  require_named(declared.letters, shown);
   declared.identity = function_in<const char*()>(library, "nysalt_plugin_source", shown)();
   return declared;
 }

@@ -67,7 +67,8 @@ void add_setup(const cited_setup& setup, collected& to) {
   for (const auto& name : setup.methods) to.add(source_of_method(name), name);
   const auto add_family = [&](const std::string& name) {
     to.add(source_of_family(name), "the family " + name);
-    if (family_named(name).letters.is_processed()) to.add("blanes_casas_ros_1999", "processing");
+    if (!is_word(name) && family_named(name).letters.is_processed())
+      to.add("blanes_casas_ros_1999", "processing");
   };
   for (const auto& name : setup.families) add_family(name);
   for (const auto& name : setup.learned) {

@@ -35,7 +35,8 @@ json system_json(const std::string& name) {
           {"hamiltonian", declared.title},
           {"starts", system->starts()},
           {"observables", system->observables()},
-          {"default_observable", system->default_observable()}};
+          {"default_observable", system->default_observable()},
+          {"letters", declared.letters}};
 }
 
 json systems_json(const std::string& own_system) {

@@ -96,6 +96,12 @@ void add_manifest(const fs::path& path, const fs::path& result, std::vector<cite
 }  // namespace
 
 void add_method(const std::string& typed, std::vector<cited_setup>& to) {
+  constexpr std::string_view to_learn = "learned:";
+  if (is_word(typed)) return;  // nothing is published of it
+  if (typed.starts_with(to_learn) && is_word(std::string_view(typed).substr(to_learn.size()))) {
+    to.front().learned.push_back(typed.substr(to_learn.size()));
+    return;
+  }
   const auto source = find_method(typed);
   if (source.learned) {
     to.push_back(setup_of(*source.learned));

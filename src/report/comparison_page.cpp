@@ -192,7 +192,7 @@ void add_fits(page& report, const comparison& all) {
 
 /// "b1 = 0.41, a = 0.2"; beyond the steps of the scheme the parameters of the nearer end.
 std::string theta_of(const scheme& learned, double step) {
-  const auto names = family_named(learned.family).parameter_names;
+  const auto names = family_named(learned.family, learned.own_letters).parameter_names;
   const auto& steps = learned.curve.steps();
   const Eigen::VectorXd theta = learned.curve.at(std::clamp(step, steps.front(), steps.back()));
   std::string text;

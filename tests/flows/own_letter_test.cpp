@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/flows/exact_flow.hpp"
@@ -147,6 +149,35 @@ BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
   BOOST_TEST(as_data.evaluations_to_look == W::evaluations_to_look);
   BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
   BOOST_TEST(!run_time_word("BAB").has_own_letters());
+}
+
+BOOST_AUTO_TEST_CASE(letters_are_taken_from_a_list_by_their_names) {
+  const henon_heiles system;
+  const detail::own_letters known{
+      std::make_shared<const detail::bound_letter<my_drift, henon_heiles>>(system),
+      std::make_shared<const detail::bound_letter<my_kick, henon_heiles>>(system, "henon_heiles()")};
+  const tabulated method("named", run_time_word("ababa", known), {0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
+  BOOST_TEST(seen(system, method, start) == seen(system, own_drifts_first(), start));
+  BOOST_TEST(seen(system, method, start) != seen(system, own_kicks_first(), start));
+  BOOST_TEST(!run_time_word("BAB", known).has_own_letters());  // what a word does not hold it does not carry
+  BOOST_TEST(run_time_word("BaB", known).own_letter('b') == nullptr);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word("aca", known); },
+                                            {"the word aca holds the letter c"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
+  const henon_heiles system;
+  const run_time_word bound(own_kicks_first::word{}, system);
+  const detail::own_letters stated{
+      std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_drift>(), "henon_heiles()"),
+      std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_kick>(), "henon_heiles()")};
+  const run_time_word word("babab", stated);
+  BOOST_TEST(word.evaluations_per_step == bound.evaluations_per_step);
+  BOOST_TEST(word.evaluations_to_look == bound.evaluations_to_look);
+  BOOST_TEST(word.merges);
+  const tabulated method("stated", word, std::vector<double>{0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
+  BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(system, method, 0.1); },
+                                            {"of henon_heiles() is known by name only"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {

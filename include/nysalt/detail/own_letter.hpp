@@ -27,6 +27,8 @@ struct letter_facts {
   bool is_of_bath;
   bool reads_modes;
   splitting splits;
+
+  bool operator==(const letter_facts&) const = default;
 };
 
 template <Flow L>
@@ -157,8 +159,10 @@ class bound_letter final : public own_letter {
   static constexpr int N = S::dimension;
 
  public:
-  explicit bound_letter(const S& system)
-      : own_letter(facts_of_letter<L>(), describe(system), lanes_of<S> > 1),
+  explicit bound_letter(const S& system) : bound_letter(system, describe(system)) {}
+  /// Of a system that is described otherwise.
+  bound_letter(const S& system, std::string description)
+      : own_letter(facts_of_letter<L>(), std::move(description), lanes_of<S> > 1),
         system_(std::make_shared<const S>(system)) {}
 
   prepared_own_letter<double> prepare(const double* c, double h) const override {

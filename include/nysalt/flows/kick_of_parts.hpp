@@ -6,6 +6,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 
 #include "nysalt/energy.hpp"
@@ -31,6 +32,9 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
   static constexpr std::size_t slots = sizeof...(Part);
   static constexpr bool moves_q = false;
   static constexpr int displaced_forces = static_cast<int>(sizeof...(Part));
+  static constexpr std::array<char, sizeof...(Part)> digits{static_cast<char>('0' + Part)...};
+  /// The part whose time each coefficient is, a digit for each.
+  static constexpr std::string_view times{digits.data(), digits.size()};
 
   /// How often it evaluates the force of a part: 0 or 1.
   static constexpr int evaluations_of_part(std::size_t part) { return (0 + ... + (part == Part ? 1 : 0)); }

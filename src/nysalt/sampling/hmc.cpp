@@ -66,6 +66,11 @@ hmc_result hmc(const model& system, const tabulated& method, const initial_state
                const hmc_options& options, const std::function<void(const hmc_draw&)>& take) {
   detail::require_metropolis_applies("hmc", system, method, options.temperature);
   require_options(system, options);
+  if (options.diagonal_masses && method.letters().has_own_letters()) {
+    throw std::invalid_argument(sentence(
+        "hmc: diagonal_masses make another system, for which the word {} has no letters; leave them away",
+        method.letters().letters()));
+  }
   if (has_room_for_lanes(system)) {
     return detail::sampler<detail::lanes>(system, method, starts, options).run(take);
   }

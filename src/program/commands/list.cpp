@@ -11,6 +11,12 @@ namespace nysalt::program {
 
 namespace {
 
+/// A palindrome of the first two letters, or of A and the only one.
+std::string example_of(const std::string& letters) {
+  const char inner = letters.size() > 1 ? letters[1] : 'A';
+  return {letters[0], inner, letters[0]};
+}
+
 std::string readable(const json& all) {
   std::string text = "Systems (--system NAME and its options with their defaults):\n\n";
   table systems({"system", "options", "what it is"}, 3);
@@ -23,7 +29,13 @@ std::string readable(const json& all) {
       names += name == s["default_observable"] ? "" : ", " + name;
     observables.add({s["name"], names});
   }
-  text += observables.text() + "\nMethods (also learned:FAMILY, and files of schemes and tables):\n\n";
+  text += observables.text();
+  for (const auto& s : all["systems"]) {
+    if (s["letters"] == "") continue;
+    text += fmt::format("\nLetters of {}, for words such as word:{}: {}\n", s["name"].get<std::string>(),
+                        example_of(s["letters"]), s["letters"].get<std::string>());
+  }
+  text += "\nMethods (also word:LETTERS, learned:FAMILY, and files of schemes and tables):\n\n";
   table methods({"method", "letters", "order", "evaluations", "limit/evaluation"}, 2);
   for (const auto& m : all["methods"]) {
     const json& limit = m["limit_per_evaluation"];

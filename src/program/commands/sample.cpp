@@ -275,7 +275,7 @@ int sample(const sample_command& command, const common_settings& common) {
   const auto system = make_system(command.system);
   if (system->heat_bath().acts()) refuse("sample: --hmc-temperature is the temperature: leave the bath away");
   method_source source;
-  together(all_ranks(), [&] { source = find_method(command.method); });
+  together(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
   charge(source, *system);
   hmc_options options = options_of(command, *system, source, common);
   std::vector<std::string> warnings;

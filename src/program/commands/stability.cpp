@@ -28,6 +28,10 @@ struct subject {
   tabulated method;
 };
 
+detail::named_letters letters_of(const prepared_problem* system) {
+  return system == nullptr ? detail::named_letters() : system->letters();
+}
+
 subject subject_of(const stability_command& command, const prepared_problem* system, bool force,
                    std::vector<std::string>& warnings) {
   if (command.family && command.method) refuse("--family and --method contradict each other: give one");
@@ -36,12 +40,15 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
       refuse("whose stability? Give --method NAME or FILE, or --family with --parameters");
     }
     const std::string family = command.family.value_or("nystrom");
-    const tabulated method = family_member(family, command.parameters);
-    if (system != nullptr) system->require_served(method.letters());
+    const tabulated method = family_member(family, command.parameters, letters_of(system));
+    if (system != nullptr) {
+      system->require_served(method.letters());
+      system->require_sound_letters(family, method.letters(), *command.step);
+    }
     return {family, method};
   }
   if (!command.parameters.empty()) refuse("--parameters belong to a --family, not to --method");
-  const method_source source = find_method(*command.method);
+  const method_source source = find_method(*command.method, {}, letters_of(system));
   if (system != nullptr)
     return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
   if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
@@ -79,6 +86,12 @@ answer about(const subject& target, const stability_chart& chart) {
                      {"evaluations_per_step", evaluations}};
   result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", target.name, word.letters(),
                             target.method.order, evaluations);
+  if (word.has_own_letters()) {
+    for (const char* name : {"limit", "limit_per_evaluation"}) result.document[name] = nullptr;
+    for (const char* name : {"windows", "touching"}) result.document[name] = json::array();
+    result.text += "it has letters of one's own, whose action on oscillators is not known\n";
+    return result;
+  }
   const bool rotates = has_rotation(word);
   const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
   const double limit = from_zero ? chart.windows.front().high : 0.0;
@@ -253,10 +266,21 @@ int stability(const stability_command& command, const common_settings& common) {
   std::vector<std::string> warnings;
   const subject target = subject_of(command, system.get(), common.force, warnings);
   const bool rotates = has_rotation(target.method.letters());
+  const bool has_own_letters = target.method.letters().has_own_letters();
+  if (has_own_letters && !command.output.empty()) {
+    refuse("{}: the action of letters of one's own on oscillators is not known: leave out --output",
+           target.name);
+  }
+  if (has_own_letters && !system) {
+    refuse(
+        "{}: the stability of a word with letters of one's own is tried on their system: give --system "
+        "and --step",
+        target.name);
+  }
   if (rotates && !command.output.empty()) {
     refuse("{} rotates, so trace/2 is cos z and there is nothing to draw; leave out --output", target.name);
   }
-  const stability_chart chart = rotates ? stability_chart() : chart_of(target.method);
+  const stability_chart chart = rotates || has_own_letters ? stability_chart() : chart_of(target.method);
   answer result = about(target, chart);
   std::optional<marked_step> marked;
   if (system) {
@@ -268,7 +292,11 @@ int stability(const stability_command& command, const common_settings& common) {
                    shown);  // a bath drives the initial states to its stationary distribution
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);
-    if (rotates) {
+    if (has_own_letters) {
+      result.document["stable"] = true;  // nothing is against it but a trial
+      add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
+      result.document["linearly_stable"] = nullptr;
+    } else if (rotates) {
       add_rotation(result, target.method, *system, *command.step);
       add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
     } else {

@@ -23,7 +23,8 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
   add_system(command, asked.system);
   add_placement(command, asked.placement);
-  command.add_option("--methods", typed->methods, "names, learned:FAMILY, files; joined by commas")
+  command
+      .add_option("--methods", typed->methods, "names, word:LETTERS, learned:FAMILY, files; joined by commas")
       ->required();
   command.add_option("--steps", typed->steps, "joined by commas")->required();
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");

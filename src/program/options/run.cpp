@@ -22,7 +22,9 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
   add_system(command, asked.system);
   add_placement(command, asked.placement);
-  command.add_option("--method", asked.method, "a name of nysalt list, or the file of a scheme or table")
+  command
+      .add_option("--method", asked.method,
+                  "a name of nysalt list, word:LETTERS, or the file of a scheme or table")
       ->required();
   add_number(command, "--step", asked.step, "of the method")->default_str("")->required();
   add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();

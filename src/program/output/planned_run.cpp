@@ -43,7 +43,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
     : command(asked), system(make_system(asked.system)), plan(plan_of(asked, common)), seed(common.seed) {
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
-  together(all_ranks(), [&] { source = find_method(command.method, command.held); });
+  together(all_ranks(), [&] { source = find_method(command.method, command.held, system->letters()); });
   method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
                            warnings);
 }

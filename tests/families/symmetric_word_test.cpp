@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSL-1.0
+// Families of words as data: of any palindrome of letters, symmetric, with coefficients that add up to one
+// for each part of H, and equal steps to begin with.
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/methods/r_respa.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/run_time_family.hpp"
+#include "nysalt/systems/bonded_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+const bonded_chain<3> chain(stiff_bonds<3>(5.0), soft_charges<3>(1.0));
+/// A word that holds the letters 0, 1 and k.
+const run_time_word of_parts(word<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>{}, chain);
+
+struct written {
+  run_time_word word;
+  std::string times;
+};
+written with_times(const std::string& letters) {
+  std::string times;
+  for (const char letter : letters) times += letter == 'k' ? "01" : std::string(1, letter);
+  return {of_parts.with_letters(letters), times};
+}
+run_time_family family_of(const std::string& letters) {
+  const auto [word, times] = with_times(letters);
+  return symmetric_word("tried", word, times);
+}
+std::vector<double> start_of(const run_time_family& family) {
+  return family.coefficients(family.starts.front().theta);
+}
+
+/// A palindrome of 3 to 15 letters without equal neighbours.
+std::string random_word(std::mt19937& random) {
+  const std::string letters = "A01k";
+  std::string half;
+  const std::size_t length = 2 + random() % 7;
+  while (half.size() < length) {
+    const char next = letters[random() % letters.size()];
+    if (half.empty() || half.back() != next) half += next;
+  }
+  return half + std::string(half.rbegin() + 1, half.rend());
+}
+
+void close(const std::vector<double>& found, const std::vector<double>& expected) {
+  BOOST_TEST_REQUIRE(found.size() == expected.size());
+  // Sums of at most 15 numbers below 4: some roundings of them.
+  for (std::size_t k = 0; k < found.size(); ++k) BOOST_TEST(std::abs(found[k] - expected[k]) < 1e-14);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(members_of_any_word_are_palindromes_that_add_up_to_one) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 200; ++n) {
+    const std::string letters = random_word(random);
+    const auto [word, times] = with_times(letters);
+    const auto family = symmetric_word("tried", word, times);
+    BOOST_TEST_CONTEXT(letters) {
+      Eigen::VectorXd theta = family.starts.front().theta;
+      for (int member = 0; member < 2; ++member) {
+        const auto c = family.coefficients(theta);
+        BOOST_TEST(is_palindrome(word, c));
+        std::map<char, double> sums;
+        for (std::size_t k = 0; k < c.size(); ++k) sums[times[k]] += c[k];
+        for (const auto& [part, sum] : sums) BOOST_TEST(std::abs(sum - 1.0) < 1e-13);
+        // Coefficients are affine in theta, so that a difference is exact but for rounding.
+        const Eigen::MatrixXd slopes = family.jacobian(theta);
+        for (Eigen::Index k = 0; k < theta.size(); ++k) {
+          Eigen::VectorXd moved = theta;
+          moved[k] += 1.0;
+          const auto there = family.coefficients(moved);
+          for (std::size_t i = 0; i < c.size(); ++i) {
+            BOOST_TEST(std::abs(there[i] - c[i] - slopes(static_cast<Eigen::Index>(i), k)) < 1e-13);
+          }
+        }
+        for (double& x : theta) x += normal(random);
+      }
+      BOOST_TEST((theta.size() == 0 || start_of(family) != family.coefficients(theta)));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_start_is_made_of_equal_steps) {
+  const auto of_type = [](auto family) {
+    const auto c = family.coefficients(family.start());
+    return std::vector<double>(c.begin(), c.end());
+  };
+  const auto start_of_known = [](const std::string& letters) {
+    return start_of(symmetric_word("tried", run_time_word(letters), letters));
+  };
+  close(start_of_known("ABA"), {0.5, 1.0, 0.5});
+  close(start_of_known("ABABABABA"), of_type(aba<4>()));
+  close(start_of_known("BABABABABAB"), of_type(bab<5>()));
+  const auto of_respa = [](auto method) {
+    const auto c = method.coefficients();
+    return std::vector<double>(c.begin(), c.end());
+  };
+  close(start_of(family_of("kA0Ak")), of_respa(r_respa<0, 1, 2>()));
+  close(start_of(family_of("kA0A0A0A0Ak")), of_respa(r_respa<0, 1, 5>()));
+  const auto nested = nested_kicks<0, 1, 3, 2>();
+  close(start_of(family_of("kA0A0AkA0A0Ak")), of_type(nested));
+  // With the kicks of a whole step apart, and slow kicks around the others.
+  close(start_of(family_of("10A0A01")), {0.5, 0.25, 0.5, 0.5, 0.5, 0.25, 0.5});
+  BOOST_TEST(family_of("kA0Ak").parameters() == 1);
+  BOOST_TEST(family_of("kA0A0A0Ak").parameter_names == (std::vector<std::string>{"01", "A1", "02"}),
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(members_have_order_two) {
+  std::mt19937 random(2);
+  for (const std::string letters : {"ABABA", "BABABAB", "ABABABABABA"}) {
+    const auto family = symmetric_word("tried", run_time_word(letters), letters);
+    Eigen::VectorXd theta = family.starts.front().theta;
+    for (double& x : theta) x += 0.1 * static_cast<double>(random() % 7);
+    const tabulated method("tried", family.letters, family.coefficients(theta), {2, true, false});
+    BOOST_TEST(taylor_order(method).any_kinetic == 2);
+    auto off = family.coefficients(theta);
+    off.front() += 0.01;
+    off.back() -= 0.01;  // the sum stays, the symmetry goes
+    BOOST_TEST(taylor_order(tabulated("off", family.letters, off, {2, true, false})).any_kinetic == 1);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(other_words_are_refused) {
+  const auto refused = [](const std::string& letters, const std::string& times, const char* why) {
+    BOOST_TEST(refuses<std::invalid_argument>(
+                   [&] { symmetric_word("tried", of_parts.with_letters(letters), times); }, {"tried", why}),
+               letters);
+  };
+  refused("A0A1", "A0A1", "must read the same from both ends");
+  refused("A00A", "A00A", "has two equal neighbours");
+  refused("A0A", "A0", "must have a part of H for each coefficient");
+  refused("kAk", "kAk", "must have a part of H for each coefficient");
+  refused("ABA|BABA", "ABABABA", "has a processor");
+}

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSL-1.0
+// Letters of one's own by name: words of them that the program steps, learns, keeps in files and goes on with
+// have the bits of the words as types, and letters that are not what they state, or not there, are refused.
+#include <fmt/format.h>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "../support/document.hpp"
+#include "../support/killed.hpp"
+#include "../support/systems_with_letters.hpp"
+#include "nysalt/run_time_family.hpp"
+#include "nysalt/stepper.hpp"
+
+using namespace nysalt::test;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+void write(const scratch& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder / name) << text;
+}
+
+/// A plug-in with a system of systems_with_letters.hpp and these letters, at rest but for small deviations.
+std::string source_of(const std::string& system, const std::string& letters, const std::string& more = "",
+                      const std::string& starts = "{rest, rest}, 0.02 * spread, 0.1 * spread") {
+  return "#include <nysalt/plugin.hpp>\n#include \"" NYSALT_SOURCE_DIR
+         "/tests/support/systems_with_letters.hpp\"\nusing namespace lettered;\n"
+         "NYSALT_SYSTEM(" +
+         system + ", \"a system with letters\", letters<" + letters + ">(), " + more +
+         "starts([](const auto& s, double spread) {\n  constexpr int N = "
+         "std::decay_t<decltype(s)>::dimension;\n"
+         "  [[maybe_unused]] const nysalt::vector<double, N> rest = Eigen::VectorXd::Zero(nysalt::size(s));\n"
+         "  return normal_around<N>(" +
+         starts + ");\n}));\n";
+}
+
+const std::string turning =
+    source_of("turning", "turn, cubic_kick", "frequency([](const auto&) { return 1.8; }), ");
+const std::string walls = source_of("walls", "wall_flow, spring_kick",
+                                    "parameter(\"particles\", &walls::particles, \"how many\").size(), "
+                                    "parameter(\"stiffness\", &walls::stiffness, \"of the springs\"), ");
+const std::string charges =
+    source_of("charges", "nysalt::kick_of_part<0>, nysalt::kick_of_part<1>, nysalt::kick_of_parts<0, 1>");
+
+const std::string planets = source_of("planets", "nysalt::kepler_flow, nysalt::kick_of_part<1>",
+                                      "frequency([](const auto&) { return 0.0015; }), ",
+                                      "nysalt::outer_solar_system_start(), 0.01 * spread, 0.0");
+
+using turns =
+    nysalt::word<lettered::turn, lettered::cubic_kick, lettered::turn, lettered::cubic_kick, lettered::turn>;
+using kicks = nysalt::word<lettered::spring_kick, lettered::wall_flow, lettered::spring_kick,
+                           lettered::wall_flow, lettered::spring_kick>;
+using kick_of_planets = nysalt::kick_of_part<1>;
+using fast = nysalt::kick_of_part<0>;
+using both = nysalt::kick_of_parts<0, 1>;
+using nested = nysalt::word<both, nysalt::drift, fast, nysalt::drift, fast, nysalt::drift, both>;
+
+/// A system and a word of its letters, as types and as the program knows them.
+struct turning_case {
+  using system = lettered::turning;
+  using word = turns;
+  static constexpr const char* times = "tctct";
+  static constexpr double step = 0.7;
+  static const std::string& source() { return turning; }
+};
+struct walls_case {
+  using system = lettered::walls;
+  using word = kicks;
+  static constexpr const char* times = "8w8w8";
+  static constexpr double step = 0.4;
+  static const std::string& source() { return walls; }
+};
+struct charges_case {
+  using system = lettered::charges;
+  using word = nested;
+  static constexpr const char* times = "01A0A0A01";
+  static constexpr double step = 0.05;
+  static const std::string& source() { return charges; }
+};
+struct planets_case {
+  using system = lettered::planets;
+  using word = nysalt::word<kick_of_planets, nysalt::kepler_flow, kick_of_planets, nysalt::kepler_flow,
+                            kick_of_planets>;
+  static constexpr const char* times = "1K1K1";
+  static constexpr double step = 200.0;
+  static const std::string& source() { return planets; }
+};
+using learned_cases = std::tuple<turning_case, walls_case, charges_case>;
+using all_cases = std::tuple<turning_case, walls_case, charges_case, planets_case>;
+
+template <class Case>
+std::string letters() {
+  return Case::word::letters();
+}
+template <class Case>
+nysalt::run_time_family family() {
+  const typename Case::system system;
+  return symmetric_word("word", nysalt::run_time_word(typename Case::word{}, system), Case::times);
+}
+template <class Case>
+std::string here() {
+  return fmt::format(" --system ./mine.hpp --step {} ", Case::step);
+}
+
+/// Rows of numbers, behind those of the trajectory, the step and the time.
+std::vector<std::vector<double>> numbers_in(const std::string& table) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    auto& row = rows.emplace_back();
+    int column = 0;
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      if (column++ >= 3) row.push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+  return rows;
+}
+
+constexpr int steps = 9;
+constexpr int every = 4;
+
+/// States at steps 0, 4, 8 of two trajectories by the program: q and p in each row.
+template <class Case>
+std::vector<std::vector<double>> by_program(const scratch& folder, const std::string& method,
+                                            const std::string& more = "") {
+  const auto n = nysalt::size(typename Case::system());
+  const auto done =
+      run(folder, fmt::format("run{}--method {} --horizon {} --sample-every {} --trajectories 2 "
+                              "--observables q1..q{},p1..p{} {}",
+                              here<Case>(), method, steps * Case::step, every, n, n, more));
+  BOOST_TEST_REQUIRE(done.code == 0, done.err);
+  return numbers_in(done.out);
+}
+
+/// The same by the word as a type from the first row of each trajectory.
+template <class Case>
+std::vector<std::vector<double>> by_type(const std::vector<std::vector<double>>& seen,
+                                         const std::vector<double>& c) {
+  using S = typename Case::system;
+  using W = typename Case::word;
+  typename W::template coefficients<double> all;
+  std::copy(c.begin(), c.end(), all.begin());
+  const S system;
+  const nysalt::stepper<S, W, double> stepper(system, all, Case::step);
+  const Eigen::Index n = nysalt::size(system);
+  std::vector<std::vector<double>> rows;
+  constexpr std::size_t of_each = 1 + steps / every;
+  for (std::size_t first = 0; first < seen.size(); first += of_each) {
+    const Eigen::Map<const Eigen::VectorXd> start(seen[first].data(), 2 * n);
+    const nysalt::phase_point<double, S::dimension> begin{start.head(n), start.tail(n)};
+    auto run = stepper.open(begin);
+    for (std::size_t k = 0; k < of_each; ++k) {
+      if (k > 0) stepper.advance(run, every);
+      const nysalt::phase_point<double, S::dimension> x = k > 0 ? stepper.synchronous(run) : begin;
+      auto& row = rows.emplace_back(x.q.begin(), x.q.end());
+      row.insert(row.end(), x.p.begin(), x.p.end());
+    }
+  }
+  return rows;
+}
+
+std::string table(const std::string& letters, const std::vector<double>& coefficients) {
+  return json{
+      {"format", "nysalt table"}, {"version", 1}, {"letters", letters}, {"coefficients", coefficients}}
+      .dump();
+}
+
+void refused(const scratch& folder, const std::string& arguments, const std::vector<std::string>& words) {
+  const auto done = run(folder, arguments);
+  BOOST_TEST_CONTEXT(arguments << "\nsaid: " << done.err) {
+    BOOST_TEST(done.code == 2);
+    BOOST_TEST(std::ranges::count(done.err, '\n') == 1);
+    for (const auto& word : words) BOOST_TEST(done.err.find(word) != std::string::npos, "missing: " << word);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(a_word_by_name_has_the_bits_of_its_type, Case, all_cases) {
+  const scratch folder("letters_bits");
+  write(folder, "mine.hpp", Case::source());
+  const auto like = family<Case>();
+  const auto equal_steps = like.coefficients(like.starts.front().theta);
+  const auto seen = by_program<Case>(folder, "word:" + letters<Case>());
+  BOOST_TEST_REQUIRE(seen.size() == 6U);
+  BOOST_TEST((seen == by_type<Case>(seen, equal_steps)));
+  // Any coefficients, from a file; and another member of the family is told from it.
+  Eigen::VectorXd theta = like.starts.front().theta;
+  for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] *= 1.0 + 0.01 / static_cast<double>(k + 1);
+  const auto others = like.coefficients(theta);
+  write(folder, "table.json", table(letters<Case>(), others));
+  const auto seen_of_table = by_program<Case>(folder, "table.json");
+  BOOST_TEST((seen_of_table == by_type<Case>(seen_of_table, others)));
+  BOOST_TEST((seen_of_table != by_type<Case>(seen_of_table, equal_steps)));
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_learned_is_kept_by_name_to_the_bit, Case, learned_cases) {
+  const scratch folder("letters_learned");
+  write(folder, "mine.hpp", Case::source());
+  const std::string name = "word:" + letters<Case>();
+  const auto learned =
+      run(folder, fmt::format("learn{}--family {} --horizon {} --trajectories 16 --effort quick "
+                              "--output scheme.json --json --force",
+                              here<Case>(), name, 8 * Case::step));
+  BOOST_TEST_REQUIRE(learned.code != 2, learned.err);
+  const json found = json_of(learned);
+  BOOST_TEST(found["family"] == name);
+  BOOST_TEST(found["guard"] == "trial runs alone, as the word has letters of its own");
+  BOOST_TEST(found["loss"].get<double>() > 0.0);
+  const json kept = json::parse(contents(folder / "scheme.json"));
+  BOOST_TEST(kept["parameters"] == found["parameters"]);
+  const std::string names = letters<Case>();
+  for (const auto& one : kept["own_letters"]) {
+    BOOST_TEST(names.find(one["letter"].get<std::string>()) != std::string::npos);
+  }
+  BOOST_TEST(!kept["own_letters"].empty());
+  const auto like = family<Case>();
+  Eigen::VectorXd theta(like.parameters());
+  for (Eigen::Index k = 0; k < theta.size(); ++k)
+    theta[k] = kept["parameters"][like.parameter_names[static_cast<std::size_t>(k)]];
+  const auto seen = by_program<Case>(folder, "scheme.json", "--force");
+  BOOST_TEST((seen == by_type<Case>(seen, like.coefficients(theta))));
+  BOOST_TEST((seen != by_type<Case>(seen, like.coefficients(like.starts.front().theta))));
+  // compare takes the file, the word and the family side by side.
+  const auto compared = run(folder, fmt::format("compare --system ./mine.hpp --steps {} --methods "
+                                                "{},scheme.json,verlet --metric state --trajectories 16 "
+                                                "--horizon {} --json --force",
+                                                Case::step, name, 20 * Case::step));
+  BOOST_TEST_REQUIRE(compared.code == 0, compared.err);
+  const json rows = json_of(compared)["rows"];
+  BOOST_TEST_REQUIRE(rows.size() == 3U);
+  BOOST_TEST(rows[0]["error"].get<double>() > 0.0);
+  BOOST_TEST(rows[1]["error"] != rows[0]["error"]);
+}
+
+BOOST_AUTO_TEST_CASE(the_learned_word_is_better_than_that_of_equal_steps) {
+  const scratch folder("letters_better");
+  write(folder, "mine.hpp", turning);
+  const auto compared = document(
+      "compare --system ./mine.hpp --steps 0.7 --methods word:tctctct,learned:word:tctctct --metric state "
+      "--trajectories 32 --horizon 70 --learn-horizon 14 --learn-trajectories 64",
+      folder);
+  const double plain = compared["rows"][0]["error"];
+  const double learned = compared["rows"][1]["error"];
+  BOOST_TEST(learned <
+             0.5 * plain);  // of two kinds of errors of order 3, one parameter of three can take one
+}
+
+BOOST_AUTO_TEST_CASE(threads_and_a_stop_change_no_byte) {
+  const scratch folder("letters_resume");
+  write(folder, "mine.hpp", turning);
+  for (const std::string bath : {"", " --friction 0.1 --temperature 0.005"}) {
+    const std::string line =
+        "run --system ./mine.hpp --method word:tctct --step 0.5 --horizon 20000 "
+        "--trajectories 37 --sample-every 70 --observables energy,q1" +
+        bath + " ";
+    BOOST_TEST_REQUIRE(run(folder, line + "--output whole.csv").code == 0);
+    const std::string whole = contents(folder / "whole.csv");
+    BOOST_TEST_REQUIRE(run(folder, line + "--threads 2 --output two.csv").code == 0);
+    BOOST_TEST((contents(folder / "two.csv") == whole));
+    const std::string cut = line + "--output cut.csv --checkpoint cut.checkpoint --every 100 ";
+    BOOST_TEST(killed_at(folder, cut, "cut.checkpoint", 500));
+    const auto done = run(folder, cut + "--resume");
+    BOOST_TEST_REQUIRE(done.code == 0, done.err);
+    BOOST_TEST((contents(folder / "cut.csv") == whole));
+    // Of another word the checkpoint is refused.
+    BOOST_TEST(killed_at(folder, cut, "cut.checkpoint", 500));
+    auto other = cut;
+    other.replace(other.find("tctct"), 5, "ctctc");
+    refused(folder, other + "--resume", {"cut.checkpoint"});
+    BOOST_TEST(run(folder, cut + "--resume").code == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
+  const scratch folder("letters_wrong");
+  for (const auto& [letters, said] : std::vector<std::pair<std::string, std::string>>{
+           {"slipped_turn, cubic_kick", "the letter t is not symplectic"},
+           {"even_turn, cubic_kick", "the letter t"},
+           {"turn, moving_kick", "the letter c"},
+           {"turn, weak_kick", "must add up to H of henon_heiles()"}}) {
+    write(folder, "mine.hpp", source_of("turning", letters));
+    for (const char* command :
+         {"run --method word:tct --horizon 1 --step 0.5", "learn --family word:tctct --step 0.5",
+          "compare --methods word:tct,verlet --steps 0.5", "stability --method word:tct --step 0.5"}) {
+      refused(folder, fmt::format("{} --system ./mine.hpp", command), {"word:tct", said});
+    }
+    // Words without the letter are not concerned.
+    BOOST_TEST(run(folder, "run --system ./mine.hpp --method verlet --step 0.1 --horizon 1").code == 0);
+  }
+  for (const auto& [letters, said] : std::vector<std::pair<std::string, std::string>>{
+           {"turn_named_a, cubic_kick", "takes a character that no known letter has"},
+           {"one_way_turn, cubic_kick", "must be invertible and reversible"},
+           {"turn_without_back, cubic_kick", "must be invertible and reversible"},
+           {"nysalt::kick_of_part<0>", "a kick of parts needs a system that declares them"}}) {
+    write(folder, "mine.hpp", source_of("turning", letters));
+    refused(folder, "build mine.hpp", {"does not compile", said});
+  }
+  write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
+  refused(folder, "build mine.hpp", {"mine.hpp: two letters are called 't'"});
+}
+
+BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
+  const scratch folder("letters_names");
+  write(folder, "mine.hpp", turning);
+  write(folder, "other.hpp", walls);
+  const std::string here = " --system ./mine.hpp --step 0.5 --horizon 1";
+  for (const auto& [word, said] : std::vector<std::pair<std::string, std::string>>{
+           {"word:tzt",
+            "there is no letter z: known are A, B, R, S, and those that a system declares: here the "
+            "letters t, c"},
+           {"word:tOt", "O has no place"},
+           {"word:tctt", "must read the same from both ends"},
+           {"word:tcct", "two equal neighbours"},
+           {"word:", "at least one letter"},
+           {"word:tAt", "must add up to H"}}) {
+    refused(folder, "run --method " + word + here, {word, said});
+  }
+  refused(folder, "learn --family word:tct --system ./mine.hpp --step 0.5", {"no coefficient to learn"});
+  refused(folder, "run --system henon_heiles --method word:tct --step 0.5 --horizon 1",
+          {"there is no letter t", "here none"});
+  write(folder, "table.json", table("tzt", {0.5, 1.0, 0.5}));
+  refused(folder, "run --method table.json" + here, {"table.json", "the letter z"});
+  write(folder, "table.json", table("tct", {0.5, 1.0, 0.4}));
+  refused(folder, "run --method table.json" + here, {"table.json", "the coefficients of t must add up to 1"});
+  write(folder, "table.json", table("tct", {0.5, 1.0, 0.5}));
+  BOOST_TEST(run(folder, "run --method table.json" + here).code == 0);
+  refused(folder, "run --method table.json --system ./other.hpp --step 0.1 --horizon 1",
+          {"table.json", "the letter t"});
+
+  // A scheme knows its system, and which letters it needs of it.
+  BOOST_TEST_REQUIRE(
+      run(folder,
+          "learn --system ./mine.hpp --family word:tctct --step 0.5 --trajectories 16 --output s.json")
+          .code == 0);
+  for (const std::string force : {"", " --force"}) {
+    refused(folder, "run --method s.json --system ./other.hpp --step 0.5 --horizon 1" + force,
+            {"s.json", "its word tctct has the letter t of henon_heiles()", "has the letters w, 8"});
+    refused(folder, "run --method s.json --system henon_heiles --step 0.5 --horizon 1" + force,
+            {"s.json", "the letter t of henon_heiles(), and henon_heiles() has no letters of its own"});
+  }
+  refused(folder, "stability --method s.json", {"s.json", "give --system"});
+  for (const std::string method : {"s.json", "table.json", "word:tct"}) {
+    refused(folder, "export --to c --method " + method, {method, "letter t"});
+  }
+  // A source with the same letters is another system.
+  write(folder, "mine.hpp", turning + "// edited\n");
+  refused(folder, "run --method s.json" + here, {"s.json", "another source"});
+}

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Letters that a system declares: words of them are methods and families by their names."""
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nysalt
+
+PLUGINS = Path(__file__).parents[2] / "examples" / "plugins"
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "cache"))
+
+
+def test_words_of_them_are_stepped():
+    well = nysalt.system(str(PLUGINS / "cubic_well.hpp"))
+    assert well.letters == ["t", "c"]
+    assert nysalt.system("pendulum").letters == []
+    q, p = np.array([0.1, -0.2]), np.array([0.3, 0.1])
+    end_q, end_p = nysalt.integrate(well, "word:tct", 0.5, q, p, 1)
+    # Half a turn, the kick, half a turn: the operations of the letters, in their order.
+    c, s = np.cos(0.25), np.sin(0.25)
+    def turned(q, p):
+        return q * c + p * s, p * c - q * s
+    x, y = turned(q, p)
+    y = y + 0.5 * np.array([-2 * x[0] * x[1], x[1]**2 - x[0]**2])
+    x, y = turned(x, y)
+    assert np.allclose(end_q, x, rtol=0, atol=1e-16) and np.allclose(end_p, y, rtol=0, atol=1e-16)
+    other_q, _ = nysalt.integrate(well, "word:ctc", 0.5, q, p, 1)
+    assert not np.allclose(other_q, x, rtol=0, atol=1e-4)
+
+
+def test_what_is_learned_keeps_them_by_name(tmp_path):
+    well = nysalt.system(str(PLUGINS / "cubic_well.hpp"))
+    scheme = nysalt.learn(well, "word:tctct", step=0.5, trajectories=16)
+    assert scheme.letters == "tctct" and scheme.symmetric and scheme.evaluations_per_step == 2
+    assert [one["letter"] for one in scheme.document["own_letters"]] == ["t", "c"]
+    scheme.save(tmp_path / "scheme.json")
+    again = nysalt.load(tmp_path / "scheme.json")
+    run = nysalt.run(well, scheme, step=0.5, horizon=5, trajectories=3, observables=["q1", "p2"])
+    same = nysalt.run(well, again, step=0.5, horizon=5, trajectories=3, observables=["q1", "p2"])
+    plain = nysalt.run(well, "word:tctct", step=0.5, horizon=5, trajectories=3, observables=["q1", "p2"])
+    assert np.array_equal(run.values, same.values) and not np.array_equal(run.values, plain.values)
+    with pytest.raises(ValueError, match="the letter t of cubic_well.*has no letters of its own"):
+        nysalt.run(nysalt.system("pendulum"), again, step=0.5, horizon=5)
+    with pytest.raises(ValueError, match="the letter t"):
+        nysalt.export(again, "c")
+
+
+def test_parts_are_kicked_by_name():
+    chain = nysalt.system(str(PLUGINS / "bonds_and_charges.hpp"))
+    assert chain.letters == ["0", "1", "k"]
+    errors = nysalt.compare(chain, ["word:kA0A0A0Ak", "verlet"], [0.06], metric="state", trajectories=8, horizon=3)
+    respa, verlet = (row["error"] for row in errors["rows"])
+    assert respa < 0.5 * verlet  # of order 2 with four times as short steps of the bonds
+
+
+@pytest.mark.parametrize("method, why", [
+    ("word:txt", "there is no letter x"),
+    ("word:tctt", "must read the same from both ends"),
+    ("word:AtA", "must add up to H"),
+])
+def test_what_is_no_word_is_refused(method, why):
+    well = nysalt.system(str(PLUGINS / "cubic_well.hpp"))
+    with pytest.raises(ValueError, match=why):
+        nysalt.run(well, method, step=0.5, horizon=5)
