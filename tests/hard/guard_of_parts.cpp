@@ -276,8 +276,8 @@ found_on_class random_member(std::mt19937_64& bits, const std::string& name, int
 verdict guard_of_slow_kicks(extent how) {
   verdict result;
   const bool is_full = how == extent::full;
-  const int steps = is_full ? 41 : 2;
-  const int fits = is_full ? 9 : 0;
+  const int steps = is_full ? 25 : 2;
+  const int fits = is_full ? 5 : 0;
   counts of_r_respa;
   counts of_learned;
   std::vector<std::string> missed;
@@ -294,7 +294,7 @@ verdict guard_of_slow_kicks(extent how) {
   {
     const std::string name = "bonded_chain<4>, omega = 20";
     take(name, try_all(name, bonded_chain<4>(stiff_bonds<4>(20.0), soft_charges<4>(2.0)),
-                       around_rest<4>(0.01, 0.3), {0.1, 0.3, steps, is_full ? 41 : 0}, inner));
+                       around_rest<4>(0.01, 0.3), {0.1, 0.3, steps, is_full ? 21 : 0}, inner));
   }
   if (is_full) {
     const std::string chain3 = "bonded_chain<3>, omega = 10";
@@ -315,12 +315,12 @@ verdict guard_of_slow_kicks(extent how) {
   std::uint64_t seed = 20261126;
   if (const char* given = std::getenv("NYSALT_GUARD_SEED")) seed = std::strtoull(given, nullptr, 10);
   std::mt19937_64 bits(seed);
-  const int members = is_full ? 4 : 1;
+  const int members = is_full ? 2 : 1;
   for (int k = 0; k < members; ++k) {
     const auto named = [&](int n) { return fmt::format("by chance, {} degrees of freedom", n); };
-    take(named(2), random_member<2>(bits, named(2), is_full ? 41 : 3, is_full ? 2 : 0));
-    take(named(3), random_member<3>(bits, named(3), is_full ? 41 : 3, is_full ? 2 : 0));
-    if (is_full) take(named(4), random_member<4>(bits, named(4), 41, 2));
+    take(named(2), random_member<2>(bits, named(2), is_full ? 21 : 3, is_full ? 1 : 0));
+    take(named(3), random_member<3>(bits, named(3), is_full ? 21 : 3, is_full ? 1 : 0));
+    if (is_full) take(named(4), random_member<4>(bits, named(4), 21, 1));
   }
   counts all = of_r_respa;
   all += of_learned;

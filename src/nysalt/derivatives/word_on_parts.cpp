@@ -68,7 +68,7 @@ bool is_identity(const Eigen::MatrixXd& a) { return is_near(a, Eigen::MatrixXd::
 std::size_t most_states(Eigen::Index n) {
   constexpr double operations = 1e6;
   const auto size = static_cast<double>(2 * n);
-  return static_cast<std::size_t>(std::clamp(operations / (size * size * size), 1.0, 16.0));
+  return static_cast<std::size_t>(std::clamp(operations / (size * size * size), 1.0, 8.0));
 }
 
 }  // namespace
