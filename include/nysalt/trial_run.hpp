@@ -36,12 +36,12 @@ struct trial_result {
   std::int64_t diverged = 0;                ///< number of trajectories that diverged
   std::optional<diverged_trajectory> lost;  ///< the one of the lowest number that diverged
   bool energy_was_watched = false;          ///< false: in a bath, or H is not known
-  double first_deviation = 0.0;  ///< largest |H - H_0| of all trajectories in the first tenth of the steps
-  double deviation = 0.0;        ///< the same over all steps
-  double early_deviation = 0.0;  ///< the same over the first early_steps; 0 if growth was not watched
+  double first_deviation = 0.0;     ///< largest |H - H_0| of all trajectories in the first tenth of the steps
+  double deviation = 0.0;           ///< the same over all steps
+  double early_deviation = 0.0;     ///< the same over the first early_steps; 0 if growth was not watched
   bool growth_was_watched = false;  ///< early_deviation is known
-  double rounding = 0.0;         ///< bound of what rounding adds to |H - H_0|
-  double kinetic_energy = 0.0;   ///< mean over trajectories and time
+  double rounding = 0.0;            ///< bound of what rounding adds to |H - H_0|
+  double kinetic_energy = 0.0;      ///< mean over trajectories and time
   double relative_deviation =
       0.0;                      ///< largest over trajectories of |H - H_0|/(the largest K of the trajectory)
   std::int64_t unconfined = 0;  ///< trajectories left out, as an accurate method loses them as well

@@ -48,7 +48,8 @@ std::string trial_result::report() const {
       unconfined == 0 ? "" : fmt::format(", {} left out whose motion is not confined", unconfined);
   if (!energy_was_watched) return length + left_out + ": none diverged";
   return fmt::format("{}{}: none diverged, |H - H_0| up to {:.2e}, up to {:.2e} in the first tenth{}", length,
-                     left_out, deviation, first_deviation, energy_wanders() ? ": the energy drifts"
+                     left_out, deviation, first_deviation,
+                     energy_wanders() ? ": the energy drifts"
                      : energy_grows() ? ": the energy error grows"
                                       : "");
 }

@@ -114,6 +114,7 @@ BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
   }
   BOOST_TEST(large >= 2);
   // Fewer steps than the difference of phases needs do not show it.
-  const Eigen::Matrix4d slow = kick_of_chance(1, 1e-3) * turned_by(1.0, 2.0 * std::numbers::pi - 1.0 + 0.0002);
+  const Eigen::Matrix4d slow =
+      kick_of_chance(1, 1e-3) * turned_by(1.0, 2.0 * std::numbers::pi - 1.0 + 0.0002);
   BOOST_TEST(largest_power(slow, 4) < 1.05);
 }

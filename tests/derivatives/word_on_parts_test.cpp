@@ -112,7 +112,8 @@ BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_
   BOOST_TEST(parts.is_known());
   BOOST_TEST(parts.has_mean());
   for (const double h : {0.1, 0.31, 0.47}) {
-    const Eigen::MatrixXd step = jacobian(step_map(system, respa{}, h), phase_point<double, 2>{{0.1, 0.2}, {0.3, 0.4}});
+    const Eigen::MatrixXd step =
+        jacobian(step_map(system, respa{}, h), phase_point<double, 2>{{0.1, 0.2}, {0.3, 0.4}});
     const auto exact = spectrum_of(step);
     const auto found = spectrum_of(parts.step(coefficients_of_respa(), h, parts.states()));
     // Rounding of 2 * 16 letters, by the condition of the eigenvalues, some 10.
@@ -126,7 +127,8 @@ BOOST_AUTO_TEST_CASE(a_sum_resonance_has_the_growth_and_the_width_of_the_theory)
   const auto system = pair_coupled_by(coupling);
   const word_on_parts parts(system, of_two, run_time_word(respa::word{}, system));
   const auto growth_at = [&](double couplings) {
-    return spectrum_of(parts.step(coefficients_of_respa(), step_at(coupling, couplings), parts.states())).growth;
+    return spectrum_of(parts.step(coefficients_of_respa(), step_at(coupling, couplings), parts.states()))
+        .growth;
   };
   const double centre = step_at(coupling, 0.0);
   // Of second order in h k/omega = 0.03: a tenth of the width is more.
@@ -142,7 +144,9 @@ BOOST_AUTO_TEST_CASE(the_guard_refuses_a_tongue_and_what_grows_beside_it_and_adm
   const stability_guard guard(system, of_two, word, steps);
   BOOST_REQUIRE(guard.parts() != nullptr);
   const auto c = coefficients_of_respa();
-  const auto objection_at = [&](double couplings) { return guard.objection(word, c, step_at(coupling, couplings)); };
+  const auto objection_at = [&](double couplings) {
+    return guard.objection(word, c, step_at(coupling, couplings));
+  };
   BOOST_TEST(objection_at(0.0).find("without bound") != std::string::npos, objection_at(0.0));
   // Stable, but powers of the step magnify energies by (a + 2)/(a - 2) at a couplings beside the centre.
   BOOST_TEST(!objection_at(2.3).empty());
@@ -172,9 +176,11 @@ BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
 BOOST_AUTO_TEST_CASE(a_trial_run_finds_what_grows_beside_a_tongue) {
   constexpr double coupling = 0.5;
   const auto system = pair_coupled_by(coupling);
-  const tabulated method("respa", run_time_word(respa::word{}, system), coefficients_of_respa(), {2, true, false});
+  const tabulated method("respa", run_time_word(respa::word{}, system), coefficients_of_respa(),
+                         {2, true, false});
   const auto at = [&](double couplings, bool watches) {
-    return trial_run(system, method, step_at(coupling, couplings), of_two, {.steps = steps, .watches_growth = watches});
+    return trial_run(system, method, step_at(coupling, couplings), of_two,
+                     {.steps = steps, .watches_growth = watches});
   };
   const auto beside = at(2.1, true);
   BOOST_TEST(!beside.lost.has_value());
@@ -188,8 +194,8 @@ BOOST_AUTO_TEST_CASE(a_trial_run_finds_what_grows_beside_a_tongue) {
 // Half a period and one period of the fastest mode between slow kicks [schlick_mandziuk_skeel_srinivas_1998].
 BOOST_AUTO_TEST_CASE(the_guard_knows_the_resonances_of_r_respa_before_any_run) {
   const bonded_chain<4> chain(stiff_bonds<4>(20.0), soft_charges<4>(2.0));
-  const phase_points states = states_of<4>({{{0.01, -0.02, 0.0, 0.03}, {0.3, -0.1, 0.2, 0.4}},
-                                            {{-0.01, 0.02, 0.01, 0.0}, {0.1, 0.3, -0.3, 0.1}}});
+  const phase_points states = states_of<4>(
+      {{{0.01, -0.02, 0.0, 0.03}, {0.3, -0.1, 0.2, 0.4}}, {{-0.01, 0.02, 0.01, 0.0}, {0.1, 0.3, -0.3, 0.1}}});
   using fine = r_respa<0, 1, 32>;
   const run_time_word word(fine::word{}, chain);
   const auto all = fine::coefficients();

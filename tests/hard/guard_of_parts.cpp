@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "guard_of_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ enum class outcome { fine, grows, large };
 struct counts {
   int steps = 0;
   int grows = 0;
-  int missed = 0;   // grows, and is admitted
+  int missed = 0;  // grows, and is admitted
   int fine = 0;
   int refused = 0;  // fine, and is refused
   int large = 0;    // errs by more than the kinetic energy from the first steps on
@@ -113,7 +113,8 @@ struct counts {
   }
   std::string in_words() const {
     return fmt::format(
-        "{} words and steps: the error of {} grows, {} of them admitted; of {} with a bounded error {} refused; "
+        "{} words and steps: the error of {} grows, {} of them admitted; of {} with a bounded error {} "
+        "refused; "
         "{} err by more than the kinetic energy at once, {} of them refused",
         steps, grows, missed, fine, refused, large, large_refused);
   }
@@ -175,14 +176,15 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   }
   const run_time_word nested(nested_word<0, 1, 2>{}, system);
   const auto try_one = [&](counts& into, const std::string& method, const run_time_word& word,
-                           const std::vector<double>& coefficients, const stability_guard& guard, double step) {
+                           const std::vector<double>& coefficients, const stability_guard& guard,
+                           double step) {
     const std::string objection = guard.objection(word, coefficients, step);
     const auto run = trial_run(erased, tabulated(method, word, coefficients, {1, false, false}), step, starts,
                                {.steps = long_steps, .watches_growth = true});
     const bool grows = run.lost || run.energy_grows();
-    const outcome what = grows                                    ? outcome::grows
+    const outcome what = grows                                ? outcome::grows
                          : run.deviation > run.kinetic_energy ? outcome::large
-                                                                  : outcome::fine;
+                                                              : outcome::fine;
     into.add(what, !objection.empty());
     const auto line = [&] {
       return fmt::format("{}, {} at {:.4g}: {}, guard: {}", name, method, step, run.report(),
@@ -206,9 +208,8 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   for (int k = 0; k < range.of_learned; ++k) {
     // Apart from any guard, so that it is asked what it has against a word that a search would find.
     const double step = spread(k, range.of_learned);
-    const auto [method, fit] =
-        learn(nested_kicks<0, 1, 4, 2>{}, system, data_at(step, 1), data_at(step, 2),
-              {.random_starts = 4, .guarded = false});
+    const auto [method, fit] = learn(nested_kicks<0, 1, 4, 2>{}, system, data_at(step, 1), data_at(step, 2),
+                                     {.random_starts = 4, .guarded = false});
     const auto all = method.coefficients();
     const run_time_word word(nested_word<0, 1, 4, 2>{}, system);
     const stability_guard guard(erased, states, word, long_steps);
@@ -248,20 +249,21 @@ found_on_class random_member(std::mt19937_64& bits, const std::string& name, int
   const int kind = static_cast<int>(3.0 * uniform(bits));
   const double strength = 0.5 + 3.0 * uniform(bits);
   const double momenta = 0.1 + 0.5 * uniform(bits);
-  const std::vector<int> inner{1 + static_cast<int>(6.0 * uniform(bits)), 4 + static_cast<int>(12.0 * uniform(bits))};
+  const std::vector<int> inner{1 + static_cast<int>(6.0 * uniform(bits)),
+                               4 + static_cast<int>(12.0 * uniform(bits))};
   const double low = (3.0 + uniform(bits)) / fastest_of(omega, N);
   const double high = (7.0 + 4.0 * uniform(bits)) / fastest_of(omega, N);
   const auto law = around_rest<N>(0.1 * momenta / omega, momenta);
   const range_of_steps range{low, high, steps, fits};
   const std::string called = fmt::format("{}: omega = {:.3g}, strength = {:.3g}", name, omega, strength);
   if (kind == 0) {
-    return try_all(called + ", charges",
-                   bonded_chain<N>(stiff_bonds<N>(omega), soft_charges<N>(strength)), law, range, inner);
+    return try_all(called + ", charges", bonded_chain<N>(stiff_bonds<N>(omega), soft_charges<N>(strength)),
+                   law, range, inner);
   }
   if (kind == 1) {
     return try_all(called + ", periodic wells",
-                   sum_of_parts<stiff_bonds<N>, periodic_wells<N>>(stiff_bonds<N>(omega), {0.2 * strength}), law,
-                   range, inner);
+                   sum_of_parts<stiff_bonds<N>, periodic_wells<N>>(stiff_bonds<N>(omega), {0.2 * strength}),
+                   law, range, inner);
   }
   const double fastest = fastest_of(omega, N);
   auto slow = springs<N>(bits, 4.0, 1.0);
@@ -284,7 +286,8 @@ verdict guard_of_slow_kicks(extent how) {
   std::vector<std::string> refused;
   const auto take = [&](const std::string& name, const found_on_class& found) {
     result.note(fmt::format("{}; r-RESPA: {}", name, found.of_r_respa.in_words()));
-    if (found.of_learned.steps > 0) result.note(fmt::format("{}; learned: {}", name, found.of_learned.in_words()));
+    if (found.of_learned.steps > 0)
+      result.note(fmt::format("{}; learned: {}", name, found.of_learned.in_words()));
     of_r_respa += found.of_r_respa;
     of_learned += found.of_learned;
     missed.insert(missed.end(), found.missed.begin(), found.missed.end());
@@ -326,8 +329,9 @@ verdict guard_of_slow_kicks(extent how) {
   all += of_learned;
   result.require(all.missed == 0, "all: " + all.in_words());
   // The guard would be of no use if it refused what it may.
-  result.require(10 * all.refused <= std::max(10, all.fine),
-                 fmt::format("{} of {} steps with a bounded error are refused, a tenth at most", all.refused, all.fine));
+  result.require(
+      10 * all.refused <= std::max(10, all.fine),
+      fmt::format("{} of {} steps with a bounded error are refused, a tenth at most", all.refused, all.fine));
   result.require(all.grows > 0 && all.fine > 0, "there are steps of both kinds");
   for (const auto& one : missed) result.note("missed: " + one);
   constexpr std::size_t some = 12;

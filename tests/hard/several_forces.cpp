@@ -104,13 +104,15 @@ verdict resonance_of_slow_kicks(extent how) {
                   "error {:.1e}; at steps 10 % longer {:.1e}",
                   resonant, at_resonance, beside));
 
-  result.require(!refused_near.x.empty() && objection_at(1.1 * resonant).empty(),
-                 fmt::format("the guard refuses {} of {} steps, near the resonance among them, and not {:.3f}",
-                             refused_near.x.size(), near.x.size(), 1.1 * resonant));
+  result.require(
+      !refused_near.x.empty() && objection_at(1.1 * resonant).empty(),
+      fmt::format("the guard refuses {} of {} steps, near the resonance among them, and not {:.3f}",
+                  refused_near.x.size(), near.x.size(), 1.1 * resonant));
 
   curve shortly{.label = "learned nested_4x2", .x = {}, .y = {}, .emphasised = true};
   curve for_long{.label = "the same, ten times as long", .x = {}, .y = {}, .points_only = true};
-  curve refused{.label = "learned, not usable by the guard or the trial run", .x = {}, .y = {}, .points_only = true};
+  curve refused{
+      .label = "learned, not usable by the guard or the trial run", .x = {}, .y = {}, .points_only = true};
   const auto try_learned = [&](double step, bool must_hold) {
     const auto [method, fit] = learned_at(step, true);
     if (!fit.usable) {
@@ -156,19 +158,21 @@ verdict resonance_of_slow_kicks(extent how) {
 }  // namespace
 
 topic several_forces() {
-  return {
-      "Several forces",
-      {{"resonance_of_slow_kicks",
-        "Four charges on bonds of omega = 20, whose kicks lie as far apart as a fast mode's period.",
-        "A word that is learned with its kicks beyond the first resonance, and is usable, has no trend in its "
-        "energy error.",
-        "r-RESPA at a resonance, which the guard refuses.", resonance_of_slow_kicks},
-       {"guard_of_slow_kicks",
-        "What the guard says beforehand of words with kicks of parts, and what 100 000 steps of them do: chains "
-        "and coupled oscillators of several sizes and stiffnesses, r-RESPA and learned words. An error grows if "
-        "it comes to more than three times that of the first 64 steps.",
-        "The guard refuses all whose error grows, and of the others a tenth at most.",
-        "Words whose error grows, which are among those that are tried.", guard_of_slow_kicks}}};
+  return {"Several forces",
+          {{"resonance_of_slow_kicks",
+            "Four charges on bonds of omega = 20, whose kicks lie as far apart as a fast mode's period.",
+            "A word that is learned with its kicks beyond the first resonance, and is usable, has no trend "
+            "in its "
+            "energy error.",
+            "r-RESPA at a resonance, which the guard refuses.", resonance_of_slow_kicks},
+           {"guard_of_slow_kicks",
+            "What the guard says beforehand of words with kicks of parts, and what 100 000 steps of them do: "
+            "chains "
+            "and coupled oscillators of several sizes and stiffnesses, r-RESPA and learned words. An error "
+            "grows if "
+            "it comes to more than three times that of the first 64 steps.",
+            "The guard refuses all whose error grows, and of the others a tenth at most.",
+            "Words whose error grows, which are among those that are tried.", guard_of_slow_kicks}}};
 }
 
 }  // namespace nysalt::hard

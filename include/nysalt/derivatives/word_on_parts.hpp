@@ -49,9 +49,9 @@ class word_on_parts {
   /// as take some milliseconds together. Cost: a Jacobian of each letter at each of these states.
   word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
 
-  bool is_known() const { return why_not_.empty(); }     ///< M can be computed
+  bool is_known() const { return why_not_.empty(); }       ///< M can be computed
   const std::string& why_not() const { return why_not_; }  ///< M cannot be computed; else empty
-  std::size_t states() const { return at_.size(); }      ///< number of states that are examined
+  std::size_t states() const { return at_.size(); }        ///< number of states that are examined
   /// Whether Hessians are near enough to their mean for that to be one of a motion: they differ from it by
   /// less than half of its largest eigenvalue.
   bool has_mean() const { return has_mean_; }

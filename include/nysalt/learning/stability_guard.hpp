@@ -36,9 +36,9 @@ enum class met { ever, often };
 /// Words with kicks of parts of V, whose Hessians do not commute, are examined on the linearised motion along
 /// the states as a whole, if the guard was made for the word: whether a step of it is strongly stable
 /// [krein_1950], [gelfand_lidskii_1955], how much its powers magnify, and whether it pushes a mode always in
-/// one phase. So sum resonances of the outer step with fast modes are found [schlick_mandziuk_skeel_srinivas_1998].
-/// Words with letters that are neither drifts nor kicks are admitted, and trial runs decide; description()
-/// says so.
+/// one phase. So sum resonances of the outer step with fast modes are found
+/// [schlick_mandziuk_skeel_srinivas_1998]. Words with letters that are neither drifts nor kicks are admitted,
+/// and trial runs decide; description() says so.
 class stability_guard {
  public:
   /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
@@ -53,8 +53,7 @@ class stability_guard {
   /// The same for one word, whose letters it examines where they are kicks of parts. Cost: beside, of such a
   /// word, that of word_on_parts.
   stability_guard(const model& system, const phase_points& states, const run_time_word& word,
-                  std::int64_t steps = 10'000,
-                  std::size_t typical = std::numeric_limits<std::size_t>::max());
+                  std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
   /// Whether there is no objection() to the word with these coefficients at this step.
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
@@ -102,7 +101,8 @@ class stability_guard {
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// The linearised motion of a word with kicks of parts; null of others, and if the guard was not made for one.
+  /// The linearised motion of a word with kicks of parts; null of others, and if the guard was not made for
+  /// one.
   const word_on_parts* parts() const { return parts_.get(); }
   /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }

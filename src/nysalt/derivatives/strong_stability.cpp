@@ -49,9 +49,10 @@ double spectral_norm(const Eigen::MatrixXd& m) {
 
 symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
   if (step.rows() != step.cols() || step.rows() % 2 != 0) {
-    throw std::invalid_argument(sentence("spectrum_of: the matrix must be square with an even number of rows, "
-                                         "got {} rows and {} columns",
-                                         step.rows(), step.cols()));
+    throw std::invalid_argument(
+        sentence("spectrum_of: the matrix must be square with an even number of rows, "
+                 "got {} rows and {} columns",
+                 step.rows(), step.cols()));
   }
   symplectic_spectrum result;
   if (!step.allFinite()) {

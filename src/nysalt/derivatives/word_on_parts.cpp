@@ -62,7 +62,9 @@ bool is_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() <= rounding * scale;
 }
 
-bool is_identity(const Eigen::MatrixXd& a) { return is_near(a, Eigen::MatrixXd::Identity(a.rows(), a.cols())); }
+bool is_identity(const Eigen::MatrixXd& a) {
+  return is_near(a, Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+}
 
 /// Products of matrices of all states that take some milliseconds together.
 std::size_t most_states(Eigen::Index n) {
@@ -189,7 +191,8 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
   };
   const Eigen::MatrixXd whole = mean_of(whole_of_state);
   double farthest = 0.0;
-  for (const auto& one : whole_of_state) farthest = std::max(farthest, (one - whole).cwiseAbs().rowwise().sum().maxCoeff());
+  for (const auto& one : whole_of_state)
+    farthest = std::max(farthest, (one - whole).cwiseAbs().rowwise().sum().maxCoeff());
   std::vector<Eigen::MatrixXd> parts;
   std::vector<Eigen::VectorXd> forces;
   for (std::size_t k = 0; k < parts_of_state.front().size(); ++k) {
@@ -218,7 +221,8 @@ word_on_parts::linearised word_on_parts::diagonal(const Eigen::MatrixXd& whole,
   for (std::size_t k = 0; k < forces.size(); ++k) {
     // About the position of rest, where the force is zero.
     Eigen::VectorXd rest = basis.transpose() * force;
-    for (Eigen::Index i = 0; i < rest.size(); ++i) rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;
+    for (Eigen::Index i = 0; i < rest.size(); ++i)
+      rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;
     result.force.push_back(basis.transpose() * forces[k] - result.stiffness[k] * rest);
   }
   return result;
@@ -253,7 +257,8 @@ namespace {
 Eigen::Index modes_that_turn(const Eigen::VectorXd& squares, double step) {
   constexpr double least = 0.01;
   Eigen::Index count = 0;
-  for (const double square : squares) count += square > 0.0 && std::abs(step) * std::sqrt(square) > least ? 1 : 0;
+  for (const double square : squares)
+    count += square > 0.0 && std::abs(step) * std::sqrt(square) > least ? 1 : 0;
   return count;
 }
 }  // namespace
@@ -261,8 +266,8 @@ Eigen::Index modes_that_turn(const Eigen::VectorXd& squares, double step) {
 Eigen::MatrixXd word_on_parts::step(const std::vector<double>& coefficients, double step,
                                     std::size_t state) const {
   if (coefficients.size() != slots_) {
-    throw std::invalid_argument(sentence("word_on_parts: coefficients must be {}, got {}", slots_,
-                                         coefficients.size()));
+    throw std::invalid_argument(
+        sentence("word_on_parts: coefficients must be {}, got {}", slots_, coefficients.size()));
   }
   const linearised& at = of_state(state);
   const Eigen::Index m = modes_that_turn(at.squares, step);
@@ -277,8 +282,8 @@ growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, 
   const auto at = [&](std::size_t state) {
     const Eigen::MatrixXd m = step(coefficients, by, state);
     if (m.size() == 0) return growth_of_energy{};
-    return growth_of_energy{
-        excess(largest_power(m, std::min(steps, growth_of_energy::early_steps))), excess(largest_power(m, steps))};
+    return growth_of_energy{excess(largest_power(m, std::min(steps, growth_of_energy::early_steps))),
+                            excess(largest_power(m, steps))};
   };
   growth_of_energy over_states;
   for (std::size_t k = 0; k < states(); ++k) {

@@ -125,14 +125,15 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   problem.is_in_bath = system.bath().acts();
   if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
   if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
-  const auto run = [system = system, starts, step = data.step, seed = held_out.seed, threads = options.threads,
-                    of_parts = problem.guard.parts() != nullptr](const run_time_word& letters,
-                                               const std::vector<double>& coefficients,
-                                               std::int64_t trajectories, std::int64_t steps) {
+  const auto run = [system = system, starts, step = data.step, seed = held_out.seed,
+                    threads = options.threads, of_parts = problem.guard.parts() != nullptr](
+                       const run_time_word& letters, const std::vector<double>& coefficients,
+                       std::int64_t trajectories, std::int64_t steps) {
     phase_points first;
     for (std::int64_t k = 0; k < trajectories; ++k) first.push_back((*starts)[static_cast<std::size_t>(k)]);
     const tabulated method("trial", letters, coefficients, {1, false, false});
-    return trial_run(system, method, step, first, {.steps = steps, .seed = seed, .threads = threads, .watches_growth = of_parts});
+    return trial_run(system, method, step, first,
+                     {.steps = steps, .seed = seed, .threads = threads, .watches_growth = of_parts});
   };
   problem.trial = [run, letters = family.letters](const std::vector<double>& coefficients,
                                                   std::int64_t trajectories, std::int64_t steps) {

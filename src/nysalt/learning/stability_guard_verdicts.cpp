@@ -25,8 +25,8 @@ stability_guard::stability_guard(const model& system, const phase_points& states
     parts_ = parts;
     description_ = fmt::format("linearised motion of {} along {} states", word.letters(), parts->states());
   } else {
-    description_ = fmt::format("trial runs only: the linearised motion of {} was not analysed, as {}", word.letters(),
-                               parts->why_not());
+    description_ = fmt::format("trial runs only: the linearised motion of {} was not analysed, as {}",
+                               word.letters(), parts->why_not());
   }
 }
 
@@ -77,15 +77,15 @@ std::string stability_guard::objection(const run_time_word& word, const std::vec
 std::string stability_guard::grown_on_parts(const std::vector<double>& coefficients, double step) const {
   const std::size_t mean = parts_->states();
   const auto near = [&](const symplectic_spectrum& spectrum) {
-    return fmt::format("eigenvalues of opposite Krein signature with the phases {:.4g} and {:.4g}", spectrum.first,
-                       spectrum.second);
+    return fmt::format("eigenvalues of opposite Krein signature with the phases {:.4g} and {:.4g}",
+                       spectrum.first, spectrum.second);
   };
   const auto growth = parts_->growth(coefficients, step, steps_);
   if (growth.is_refused()) {
     const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->has_mean() ? mean : 0));
-    const std::string where =
-        spectrum.growth > 1e-6 ? fmt::format("a step multiplies a mode by exp({:.3g})", spectrum.growth)
-                               : near(spectrum) + " are near each other";
+    const std::string where = spectrum.growth > 1e-6
+                                  ? fmt::format("a step multiplies a mode by exp({:.3g})", spectrum.growth)
+                                  : near(spectrum) + " are near each other";
     const std::string how_much =
         std::isfinite(growth.late) ? fmt::format("by the factor {:.3g}", 1.0 + growth.late) : "without bound";
     return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_, where);
