@@ -31,6 +31,12 @@ std::string trial_result::objection() const {
         steps, farthest.trajectory, deviation, farthest.step, deviation / first_deviation,
         static_cast<std::int64_t>(static_cast<double>(steps) / stretches));
   }
+  if (energy_grows()) {
+    return fmt::format(
+        "in a trial run of {} steps the energy of trajectory {} departs by {:.2g} at step {}, which is "
+        "{:.2g} times the largest deviation of all trajectories in the first {} steps",
+        steps, farthest.trajectory, deviation, farthest.step, deviation / early_deviation, early_steps);
+  }
   return {};
 }
 
@@ -42,7 +48,10 @@ std::string trial_result::report() const {
       unconfined == 0 ? "" : fmt::format(", {} left out whose motion is not confined", unconfined);
   if (!energy_was_watched) return length + left_out + ": none diverged";
   return fmt::format("{}{}: none diverged, |H - H_0| up to {:.2e}, up to {:.2e} in the first tenth{}", length,
-                     left_out, deviation, first_deviation, energy_wanders() ? ": the energy drifts" : "");
+                     left_out, deviation, first_deviation,
+                     energy_wanders() ? ": the energy drifts"
+                     : energy_grows() ? ": the energy error grows"
+                                      : "");
 }
 
 namespace {
@@ -173,6 +182,26 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
       if (of_trajectory[static_cast<std::size_t>(one.trajectory)].is_left_out) continue;
       ++result.diverged;
       if (!result.lost) result.lost = one;
+    }
+  }
+
+  if (options.watches_growth && result.energy_was_watched && !result.lost) {
+    result.growth_was_watched = true;
+    std::vector<double> initial(starts.size(), 0.0);
+    std::vector<double> early(starts.size(), 0.0);
+    integrate_ensemble<T>(stepper, all,
+                          {.trajectories = result.trajectories,
+                           .steps = trial_result::early_steps,
+                           .every = 1,
+                           .seed = options.seed,
+                           .threads = options.threads},
+                          2, read, [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
+                            const auto number = static_cast<std::size_t>(m);
+                            if (n == 0) initial[number] = numbers[0];
+                            early[number] = std::max(early[number], std::abs(numbers[0] - initial[number]));
+                          });
+    for (std::size_t m = 0; m < early.size(); ++m) {
+      if (!of_trajectory[m].is_left_out) result.early_deviation = std::max(result.early_deviation, early[m]);
     }
   }
 

@@ -243,7 +243,9 @@ BOOST_AUTO_TEST_CASE(what_is_learned_with_it_is_what_is_learned_with_the_library
   const auto known = learn(aba<3>(), system, first, second, same);
   BOOST_TEST(own.summary.loss == known.summary.loss);
   BOOST_TEST(own.method.parameters() == known.method.parameters());
-  BOOST_TEST(own.summary.guard == "trial runs alone, as the word has letters of its own");
+  // Of drifts and kicks of one's own, but of the library's own letters the bands.
+  BOOST_TEST(own.summary.guard.starts_with("linearised motion of abababa along "), own.summary.guard);
+  BOOST_TEST(!known.summary.guard.starts_with("linearised"), known.summary.guard);
   BOOST_TEST(own.summary.loss < own.summary.held_out_start_loss);
   BOOST_TEST(refuses<std::invalid_argument>([&] { learn(off_family(), system, first, second); },
                                             {"the letter b is not symplectic: it is off by "}));

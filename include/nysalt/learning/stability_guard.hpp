@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "nysalt/derivatives/frequencies_at.hpp"
 #include "nysalt/derivatives/stability_window.hpp"
+#include "nysalt/derivatives/word_on_parts.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"
 #include "nysalt/run_time_word.hpp"
@@ -29,8 +31,14 @@ enum class met { ever, often };
 /// Outside of the bands a word may be unstable: gaps() lists where. Words with rotations are stable on the
 /// quadratic part at any step. The guard computes how much such words magnify each of its modes under soft
 /// forces of any positive stiffness up to the largest along the states, and at pairs of modes that the soft
-/// forces couple. What letters of one's own do to an oscillator it does not know: it admits such words, and
-/// trial runs decide.
+/// forces couple.
+///
+/// Words with kicks of parts of V, whose Hessians do not commute, are examined on the linearised motion along
+/// the states as a whole, if the guard was made for the word: whether a step of it is strongly stable
+/// [krein_1950], [gelfand_lidskii_1955], how much its powers magnify, and whether it pushes a mode always in
+/// one phase. So sum resonances of the outer step with fast modes are found
+/// [schlick_mandziuk_skeel_srinivas_1998]. Words with letters that are neither drifts nor kicks are admitted,
+/// and trial runs decide; description() says so.
 class stability_guard {
  public:
   /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
@@ -40,6 +48,11 @@ class stability_guard {
   ///
   /// The first `typical` states show what is met often; those after them were chosen as extreme.
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
+                  std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
+
+  /// The same for one word, whose letters it examines where they are kicks of parts. Cost: beside, of such a
+  /// word, that of word_on_parts.
+  stability_guard(const model& system, const phase_points& states, const run_time_word& word,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
   /// Whether there is no objection() to the word with these coefficients at this step.
@@ -88,6 +101,9 @@ class stability_guard {
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
+  /// The linearised motion of a word with kicks of parts; null of others, and if the guard was not made for
+  /// one.
+  const word_on_parts* parts() const { return parts_.get(); }
   /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }
   const std::string& description() const { return description_; }  ///< what it knows, and where from
@@ -122,6 +138,8 @@ class stability_guard {
 
   std::string resonant(const run_time_word& word, const std::vector<double>& coefficients, double step) const;
 
+  std::string grown_on_parts(const std::vector<double>& coefficients, double step) const;
+
   std::vector<frequency_band> bands_;
   std::vector<frequency_band> often_;
   std::vector<double> modes_;
@@ -133,6 +151,7 @@ class stability_guard {
   double stiffest_soft_ = 0.0;
   std::int64_t steps_;
   std::string description_;
+  std::shared_ptr<const word_on_parts> parts_;  // of a word with kicks of parts, else null
 };
 
 }  // namespace nysalt

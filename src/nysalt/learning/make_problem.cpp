@@ -71,12 +71,12 @@ std::optional<placement> placement_in(const run_time_word& word) {
 
 /// The guard that knows the frequencies along both sets of data.
 stability_guard guard_along(const model& system, const flow_map_data& data, const flow_map_data& held_out,
-                            bool rotations, const fit_options& options) {
+                            const run_time_word& word, const fit_options& options) {
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
   // Over ten thousand steps, as at first: what grows more slowly a trial run shows.
   constexpr std::int64_t most_steps = 10'000;
-  return {system, states, rotations, std::min(options.planned_steps, most_steps), typical};
+  return {system, states, word, std::min(options.planned_steps, most_steps), typical};
 }
 
 /// Whether the letters are served, in lanes or one by one, with their derivatives by theta.
@@ -113,7 +113,7 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                            .evaluations = {},
                            .trial = {},
                            .rival = {},
-                           .guard = guard_along(system, data, held_out, family.letters.rotates(), options),
+                           .guard = guard_along(system, data, held_out, family.letters, options),
                            .facts = {}};
   auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
   problem.trial_starts = static_cast<std::int64_t>(starts->size());
@@ -126,13 +126,14 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
   if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
   const auto run = [system = system, starts, step = data.step, seed = held_out.seed,
-                    threads = options.threads](const run_time_word& letters,
-                                               const std::vector<double>& coefficients,
-                                               std::int64_t trajectories, std::int64_t steps) {
+                    threads = options.threads, of_parts = problem.guard.parts() != nullptr](
+                       const run_time_word& letters, const std::vector<double>& coefficients,
+                       std::int64_t trajectories, std::int64_t steps) {
     phase_points first;
     for (std::int64_t k = 0; k < trajectories; ++k) first.push_back((*starts)[static_cast<std::size_t>(k)]);
     const tabulated method("trial", letters, coefficients, {1, false, false});
-    return trial_run(system, method, step, first, {.steps = steps, .seed = seed, .threads = threads});
+    return trial_run(system, method, step, first,
+                     {.steps = steps, .seed = seed, .threads = threads, .watches_growth = of_parts});
   };
   problem.trial = [run, letters = family.letters](const std::vector<double>& coefficients,
                                                   std::int64_t trajectories, std::int64_t steps) {
@@ -176,8 +177,7 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   facts.seed = data.seed;
   facts.held_out_seed = held_out.seed;
   facts.held_out_is_new = !detail::begin_alike(data, held_out);
-  facts.guard = family.letters.has_own_letters() ? "trial runs alone, as the word has letters of its own"
-                                                 : problem.guard.description();
+  facts.guard = problem.guard.description();
   facts.coordinates_used = measure->residuals();
   facts.dropped = measure->dropped();
   facts.samples = data.all_pairs();

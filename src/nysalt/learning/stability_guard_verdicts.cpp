@@ -3,15 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/magnification.hpp"
 #include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/strong_stability.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 
 namespace nysalt {
+
+stability_guard::stability_guard(const model& system, const phase_points& states, const run_time_word& word,
+                                 std::int64_t steps, std::size_t typical)
+    : stability_guard(system, states, word.rotates(), steps, typical) {
+  if (is_of_oscillators(word)) return;
+  const auto parts = std::make_shared<const word_on_parts>(system, states, word);
+  if (parts->is_known()) {
+    parts_ = parts;
+    description_ = fmt::format("linearised motion of {} along {} states", word.letters(), parts->states());
+  } else {
+    description_ = fmt::format("trial runs only: the linearised motion of {} was not analysed, as {}",
+                               word.letters(), parts->why_not());
+  }
+}
 
 void stability_guard::watch_rotations(const model& system, const phase_points& states) {
   const auto part = modal_coordinates::of(system);
@@ -51,16 +68,49 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
-  if (word.has_own_letters()) return {};
+  if (!is_of_oscillators(word)) return parts_ ? grown_on_parts(coefficients, step) : std::string();
   if (!word.rotates()) return unstable(word, coefficients, step, which);
   const std::string of_one = magnified(word, coefficients, step);
   return of_one.empty() ? resonant(word, coefficients, step) : of_one;
 }
 
+std::string stability_guard::grown_on_parts(const std::vector<double>& coefficients, double step) const {
+  const std::size_t mean = parts_->states();
+  const auto near = [&](const symplectic_spectrum& spectrum) {
+    return fmt::format("eigenvalues of opposite Krein signature with the phases {:.4g} and {:.4g}",
+                       spectrum.first, spectrum.second);
+  };
+  const auto growth = parts_->growth(coefficients, step, steps_);
+  if (growth.is_refused()) {
+    const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->has_mean() ? mean : 0));
+    const std::string where = spectrum.growth > 1e-6
+                                  ? fmt::format("a step multiplies a mode by exp({:.3g})", spectrum.growth)
+                                  : near(spectrum) + " are near each other";
+    const std::string how_much =
+        std::isfinite(growth.late) ? fmt::format("by the factor {:.3g}", 1.0 + growth.late) : "without bound";
+    return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_, where);
+  }
+  // A perturbation that turns an eigenvalue by less than a radian in all steps may move two off the circle.
+  if (parts_->has_mean()) {
+    const auto spectrum = spectrum_of(parts_->step(coefficients, step, mean));
+    if (spectrum.krein_distance < 2.0 / static_cast<double>(steps_)) {
+      return fmt::format("it is not strongly stable: {} meet", near(spectrum));
+    }
+  }
+  const double moved = parts_->displacement(coefficients, step);
+  if (moved > 1.0) {
+    return fmt::format(
+        "kicks of a part push a mode in one phase: the position of rest moves by {:.3g} times the "
+        "amplitude of the motion",
+        moved);
+  }
+  return {};
+}
+
 std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
-  if (word.rotates() || word.has_own_letters()) return {};
+  if (word.rotates() || !is_of_oscillators(word)) return {};
   double highest = 0.0;
   for (const auto& band : bands_) highest = std::max(highest, step * band.high);
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+// A word whose kicks are those of parts of V, on the linearised motion.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nysalt/model.hpp"
+#include "nysalt/phase_points.hpp"
+#include "nysalt/run_time_word.hpp"
+
+namespace nysalt {
+
+/// Whether all letters of a word are known on an oscillator of one frequency: A, B, D, G, R, S, H and O.
+bool is_of_oscillators(const run_time_word& word);
+
+/// How much the linearised motion of a word magnifies, as energies.
+struct growth_of_energy {
+  /// Largest (|M^n|^2 - 1) of up to early_steps steps: the energy error of oscillations, relative to their
+  /// energy.
+  double early = 0.0;
+  double late = 0.0;  ///< the same of all steps
+
+  static constexpr std::int64_t early_steps = 64;  ///< some periods of fast motion, one of slow
+  /// Of the energy: what is less is not seen in what runs measure.
+  static constexpr double smallest = 0.05;
+  /// Threefold is much: a stable motion whose energy swings by nine.
+  static constexpr double too_much = 8.0;
+  /// What grows by less than this is not distinguished from a motion that has not yet shown all of its error.
+  static constexpr double factor = 3.0;
+
+  /// Whether late is too much, or has grown since early.
+  bool is_refused() const { return late > too_much || (late > smallest && late > factor * early); }
+};
+
+/// A word of drifts and kicks, each kick with a force of its own, on the linearised motion about some states.
+/// Hessians of parts do not commute, so that one frequency does not say what a step does: M is the product of
+/// its letters, each linearised at the same state, a symplectic matrix in coordinates (q, p) in which |x|^2/2
+/// is the energy of the linearised motion. Directions in which the linearised motion does not oscillate are
+/// left out, as the motion itself leaves there. Letters are examined by dual numbers and must be of one of
+/// two kinds: q += c h K''p', or p -= c h V_i''q; words with others are not known.
+class word_on_parts {
+ public:
+  /// Of at most most_for_all_frequencies degrees of freedom, along some of the states, evenly spread, as many
+  /// as take some milliseconds together. Cost: a Jacobian of each letter at each of these states.
+  word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
+
+  bool is_known() const { return why_not_.empty(); }       ///< M can be computed
+  const std::string& why_not() const { return why_not_; }  ///< M cannot be computed; else empty
+  std::size_t states() const { return at_.size(); }        ///< number of states that are examined
+  /// Whether Hessians are near enough to their mean for that to be one of a motion: they differ from it by
+  /// less than half of its largest eigenvalue.
+  bool has_mean() const { return has_mean_; }
+
+  /// M at a state, or, of number states(), in the mean. Throws std::invalid_argument unless there is a
+  /// coefficient for each slot.
+  Eigen::MatrixXd step(const std::vector<double>& coefficients, double step, std::size_t state) const;
+
+  /// Growth in the mean, if has_mean(), else the mean over states of the growth at each. Cost: some
+  /// log2(steps) products of matrices for each state.
+  growth_of_energy growth(const std::vector<double>& coefficients, double step, std::int64_t steps) const;
+
+  /// How far a step moves the position of rest, in the norm of the energy, relative to the motion along the
+  /// states: kicks that are one period of a mode apart push it always in one phase. 0 without a mean.
+  double displacement(const std::vector<double>& coefficients, double step) const;
+
+ private:
+  struct letter {
+    bool drifts = false;
+    bool acts = true;
+    std::size_t first_slot = 0;
+    std::size_t slots = 1;
+    std::size_t first_kick = 0;  // number of the first Hessian
+  };
+  /// In the coordinates in which the whole Hessian is diagonal.
+  struct linearised {
+    Eigen::VectorXd squares;                 // of frequencies, from low to high
+    std::vector<Eigen::MatrixXd> stiffness;  // of each slot of a kick
+    std::vector<Eigen::VectorXd> force;      // of each slot of a kick, about the position of rest
+  };
+
+  static linearised diagonal(const Eigen::MatrixXd& whole, const std::vector<Eigen::MatrixXd>& parts,
+                             const std::vector<Eigen::VectorXd>& forces, const Eigen::VectorXd& force);
+  void examine(const model& system, const phase_points& states, const run_time_word& word);
+  const linearised& of_state(std::size_t state) const { return state < at_.size() ? at_[state] : mean_; }
+  void apply(const linearised& at, const std::vector<double>& coefficients, double step,
+             Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const;
+
+  std::vector<letter> letters_;
+  std::size_t slots_ = 0;
+  std::vector<linearised> at_;
+  linearised mean_;
+  bool has_mean_ = false;
+  double amplitude_ = 0.0;  // root mean square of (q, p) in the norm of the energy
+  std::string why_not_;
+};
+
+}  // namespace nysalt

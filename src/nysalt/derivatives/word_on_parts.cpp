@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "nysalt/derivatives/word_on_parts.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+#include "nysalt/derivatives/frequencies_at.hpp"
+#include "nysalt/derivatives/strong_stability.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/stepper.hpp"
+
+namespace nysalt {
+
+namespace {
+
+using slopes = detail::slopes;
+
+/// A letter about a state, with one of its coefficients and the step 1.
+struct linear_letter {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd kick;  // by which it changes p
+};
+
+linear_letter linearise(const model& system, const run_time_word& single, std::size_t slot, double by,
+                        double step, const phase_point<double, Eigen::Dynamic>& state) {
+  std::vector<slopes> coefficients(single.slots, slopes(0.0));
+  coefficients[slot] = slopes(by);
+  const stepper<model, run_time_word, slopes> steps(system, single, coefficients, step);
+  const Eigen::Index n = state.q.size();
+  linear_letter result{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(n)};
+  constexpr Eigen::Index at_once = directions_at_a_time;
+  for (Eigen::Index column = 0; column < 2 * n; column += at_once) {
+    auto x = state.cast<slopes>();
+    const Eigen::Index count = std::min(at_once, 2 * n - column);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Eigen::Index j = column + k;
+      (j < n ? x.q[j] : x.p[j - n]).derivative[static_cast<std::size_t>(k)] = 1.0;
+    }
+    steps.step(x);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index k = 0; k < count; ++k) {
+        result.jacobian(i, column + k) = x.q[i].derivative[static_cast<std::size_t>(k)];
+        result.jacobian(n + i, column + k) = x.p[i].derivative[static_cast<std::size_t>(k)];
+      }
+      result.kick[i] = x.p[i].value - state.p[i];
+    }
+  }
+  return result;
+}
+
+bool is_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  constexpr double rounding = 1e-9;
+  const double scale = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  return (a - b).cwiseAbs().maxCoeff() <= rounding * scale;
+}
+
+bool is_identity(const Eigen::MatrixXd& a) {
+  return is_near(a, Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+}
+
+/// Products of matrices of all states that take some milliseconds together.
+std::size_t most_states(Eigen::Index n) {
+  constexpr double operations = 1e6;
+  const auto size = static_cast<double>(2 * n);
+  return static_cast<std::size_t>(std::clamp(operations / (size * size * size), 1.0, 8.0));
+}
+
+}  // namespace
+
+bool is_of_oscillators(const run_time_word& word) {
+  constexpr std::string_view known{"ABDGRSHO|"};
+  return std::ranges::all_of(word.letters(),
+                             [&](char letter) { return known.find(letter) != std::string_view::npos; });
+}
+
+word_on_parts::word_on_parts(const model& system, const phase_points& states, const run_time_word& word)
+    : slots_(word.slots) {
+  if (states.size() == 0) {
+    why_not_ = "there are no states";
+  } else if (word.is_processed()) {
+    why_not_ = "it has a processor";
+  } else if (nysalt::size(system) > most_for_all_frequencies) {
+    why_not_ = sentence("of more than {} degrees of freedom", most_for_all_frequencies);
+  } else {
+    examine(system.alone(), states, word);
+  }
+}
+
+void word_on_parts::examine(const model& system, const phase_points& states, const run_time_word& word) {
+  const Eigen::Index n = nysalt::size(system);
+  std::map<char, std::size_t> known;
+  std::vector<run_time_word> singles;
+  std::vector<letter> kinds;
+  for (std::size_t i = 0; i < word.length; ++i) {
+    const char name = word.letters()[i];
+    letter one{.first_slot = word.first_slot(i), .slots = word.slots_of(i)};
+    if (name == ornstein_uhlenbeck::letter) {
+      one.acts = false;
+    } else {
+      one.first_kick = known.try_emplace(name, known.size()).first->second;  // of the letter, for now
+      if (one.first_kick == singles.size()) {
+        singles.push_back(word.with_letters(std::string(1, name)));
+        kinds.push_back(one);
+      }
+    }
+    letters_.push_back(one);
+  }
+  try {
+    for (const auto& single : singles) require_served<model, slopes>(single, system);
+  } catch (const std::invalid_argument& missing) {
+    why_not_ = missing.what();
+    return;
+  }
+
+  const std::size_t count = states.size();
+  const std::size_t some = std::min(count, most_states(n));
+  force_jacobian<field::whole, model> jacobian(system, states);
+  std::vector<std::vector<Eigen::MatrixXd>> parts_of_state;
+  std::vector<Eigen::MatrixXd> whole_of_state;
+  std::vector<std::vector<Eigen::VectorXd>> forces_of_state;
+  std::vector<Eigen::VectorXd> force_of_state;
+  double momenta = 0.0;
+  for (std::size_t k = 0; k < some; ++k) {
+    const phase_point<double, Eigen::Dynamic> state = states[k * count / some];
+    const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
+    if (root.size() == 0) {
+      why_not_ = "K''(p) is not positive semidefinite";
+      return;
+    }
+    const auto weighted = [&](const Eigen::MatrixXd& hessian) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd product = root.transpose() * hessian * root;
+      return 0.5 * (product + product.transpose());
+    };
+    std::vector<Eigen::MatrixXd> parts;
+    std::vector<Eigen::VectorXd> forces;
+    for (std::size_t s = 0; s < singles.size(); ++s) {
+      for (std::size_t slot = 0; slot < singles[s].slots; ++slot) {
+        const auto at = linearise(system, singles[s], slot, 1.0, 1.0, state);
+        const auto less = linearise(system, singles[s], slot, 0.5, 0.5, state);
+        const Eigen::MatrixXd to_q = at.jacobian.topRightCorner(n, n);
+        const Eigen::MatrixXd to_p = at.jacobian.bottomLeftCorner(n, n);
+        const bool keeps = at.jacobian.allFinite() && is_identity(at.jacobian.topLeftCorner(n, n)) &&
+                           is_identity(at.jacobian.bottomRightCorner(n, n));
+        const bool is_drift = keeps && singles[s].slots == 1 && to_p.isZero(0.0) &&
+                              is_near(to_q, root * root.transpose()) &&
+                              is_near(less.jacobian.topRightCorner(n, n), 0.25 * to_q);
+        const bool is_kick = keeps && to_q.isZero(0.0) && is_near(to_p, to_p.transpose()) &&
+                             is_near(less.jacobian.bottomLeftCorner(n, n), 0.25 * to_p);
+        if (!is_kick && !is_drift) {
+          why_not_ = sentence("the letter {} is neither a drift nor a kick", singles[s].letters());
+          return;
+        }
+        kinds[s].drifts = is_drift && !is_kick;
+        if (slot == 0) kinds[s].first_kick = parts.size();
+        if (is_kick) {
+          parts.push_back(weighted(-to_p));
+          forces.push_back(root.transpose() * at.kick);
+        }
+      }
+    }
+    jacobian.move_to(state.q);
+    whole_of_state.push_back(weighted(detail::potential_hessian(jacobian, state.q)));
+    auto f = make_vector<double>(system);
+    force<double>(system, state.q, f);
+    force_of_state.push_back(root.transpose() * f);
+    const Eigen::VectorXd velocity = root.transpose() * state.p;
+    momenta += velocity.squaredNorm();
+    parts_of_state.push_back(std::move(parts));
+    forces_of_state.push_back(std::move(forces));
+    at_.push_back(diagonal(whole_of_state.back(), parts_of_state.back(), {}, {}));
+  }
+  for (auto& one : letters_) {
+    if (!one.acts) continue;
+    const letter& kind = kinds[one.first_kick];
+    one.drifts = kind.drifts;
+    one.first_kick = kind.first_kick;
+  }
+
+  const auto mean_of = [&](const auto& all) {
+    auto sum = all.front();
+    for (std::size_t k = 1; k < all.size(); ++k) sum += all[k];
+    return (sum / static_cast<double>(all.size())).eval();
+  };
+  const Eigen::MatrixXd whole = mean_of(whole_of_state);
+  double farthest = 0.0;
+  for (const auto& one : whole_of_state)
+    farthest = std::max(farthest, (one - whole).cwiseAbs().rowwise().sum().maxCoeff());
+  std::vector<Eigen::MatrixXd> parts;
+  std::vector<Eigen::VectorXd> forces;
+  for (std::size_t k = 0; k < parts_of_state.front().size(); ++k) {
+    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd of_part = Eigen::VectorXd::Zero(n);
+    for (std::size_t s = 0; s < some; ++s) {
+      part += parts_of_state[s][k] / static_cast<double>(some);
+      of_part += forces_of_state[s][k] / static_cast<double>(some);
+    }
+    parts.push_back(part);
+    forces.push_back(of_part);
+  }
+  mean_ = diagonal(whole, parts, forces, mean_of(force_of_state));
+  has_mean_ = farthest < 0.5 * mean_.squares[n - 1];
+  amplitude_ = std::sqrt(2.0 * momenta / static_cast<double>(some));
+}
+
+word_on_parts::linearised word_on_parts::diagonal(const Eigen::MatrixXd& whole,
+                                                  const std::vector<Eigen::MatrixXd>& parts,
+                                                  const std::vector<Eigen::VectorXd>& forces,
+                                                  const Eigen::VectorXd& force) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
+  const Eigen::MatrixXd& basis = solver.eigenvectors();
+  linearised result{.squares = solver.eigenvalues(), .stiffness = {}, .force = {}};
+  for (const auto& part : parts) result.stiffness.push_back(basis.transpose() * part * basis);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    // About the position of rest, where the force is zero.
+    Eigen::VectorXd rest = basis.transpose() * force;
+    for (Eigen::Index i = 0; i < rest.size(); ++i)
+      rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;
+    result.force.push_back(basis.transpose() * forces[k] - result.stiffness[k] * rest);
+  }
+  return result;
+}
+
+void word_on_parts::apply(const linearised& at, const std::vector<double>& coefficients, double step,
+                          Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const {
+  const Eigen::Index m = x.rows() / 2;
+  const Eigen::VectorXd root = at.squares.tail(m).cwiseSqrt();
+  const Eigen::VectorXd inverse = root.cwiseInverse();
+  for (const auto& one : letters_) {
+    if (!one.acts) continue;
+    if (one.drifts) {
+      const double by = step * coefficients[one.first_slot];
+      x.topRows(m) += by * (root.asDiagonal() * x.bottomRows(m));
+      if (affine != nullptr) affine->head(m) += by * root.cwiseProduct(affine->tail(m));
+      continue;
+    }
+    for (std::size_t k = 0; k < one.slots; ++k) {
+      const double by = step * coefficients[one.first_slot + k];
+      const Eigen::MatrixXd kick =
+          at.stiffness[one.first_kick + k].bottomRightCorner(m, m) * inverse.asDiagonal();
+      x.bottomRows(m) -= by * (kick * x.topRows(m));
+      if (affine == nullptr) continue;
+      affine->tail(m) += by * (at.force[one.first_kick + k].tail(m) - kick * affine->head(m));
+    }
+  }
+}
+
+namespace {
+/// Number of modes that turn by a hundredth of a radian in a step: others are too slow to meet a fast one.
+Eigen::Index modes_that_turn(const Eigen::VectorXd& squares, double step) {
+  constexpr double least = 0.01;
+  Eigen::Index count = 0;
+  for (const double square : squares)
+    count += square > 0.0 && std::abs(step) * std::sqrt(square) > least ? 1 : 0;
+  return count;
+}
+}  // namespace
+
+Eigen::MatrixXd word_on_parts::step(const std::vector<double>& coefficients, double step,
+                                    std::size_t state) const {
+  if (coefficients.size() != slots_) {
+    throw std::invalid_argument(
+        sentence("word_on_parts: coefficients must be {}, got {}", slots_, coefficients.size()));
+  }
+  const linearised& at = of_state(state);
+  const Eigen::Index m = modes_that_turn(at.squares, step);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(2 * m, 2 * m);
+  apply(at, coefficients, step, result, nullptr);
+  return result;
+}
+
+growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, double by,
+                                       std::int64_t steps) const {
+  const auto excess = [](double norm) { return norm * norm - 1.0; };
+  const auto at = [&](std::size_t state) {
+    const Eigen::MatrixXd m = step(coefficients, by, state);
+    if (m.size() == 0) return growth_of_energy{};
+    return growth_of_energy{excess(largest_power(m, std::min(steps, growth_of_energy::early_steps))),
+                            excess(largest_power(m, steps))};
+  };
+  growth_of_energy over_states;
+  for (std::size_t k = 0; k < states(); ++k) {
+    const auto one = at(k);
+    over_states.early += one.early / static_cast<double>(states());
+    over_states.late += one.late / static_cast<double>(states());
+  }
+  if (!has_mean_) return over_states;
+  const auto of_mean = at(states());
+  return of_mean.late > over_states.late || of_mean.is_refused() ? of_mean : over_states;
+}
+
+double word_on_parts::displacement(const std::vector<double>& coefficients, double step) const {
+  if (!has_mean_ || !(amplitude_ > 0.0)) return 0.0;
+  const Eigen::Index m = modes_that_turn(mean_.squares, step);
+  if (m == 0) return 0.0;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(2 * m, 2 * m);
+  Eigen::VectorXd affine = Eigen::VectorXd::Zero(2 * m);
+  apply(mean_, coefficients, step, matrix, &affine);
+  const Eigen::MatrixXd away = Eigen::MatrixXd::Identity(2 * m, 2 * m) - matrix;
+  const double moved = away.fullPivLu().solve(affine).norm() / amplitude_;
+  return std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace nysalt

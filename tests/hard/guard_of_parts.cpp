@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "guard_of_parts.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nested_kicks.hpp"
+#include "nysalt/learn.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/bonded_chain.hpp"
+#include "nysalt/trial_run.hpp"
+
+namespace nysalt::hard {
+
+namespace {
+
+/// V = q^T K q/2 + quartic sum q_i^4/4: part of a sum whose Hessians need not commute.
+template <int N>
+struct coupled_springs {
+  static constexpr int dimension = N;
+  Eigen::Matrix<double, N, N> stiffness;
+  double quartic = 0.0;
+
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    T sum(0.0);
+    for (int i = 0; i < N; ++i) {
+      T pull(0.0);
+      for (int j = 0; j < N; ++j) pull += q[j] * stiffness(i, j);
+      sum += q[i] * pull * 0.5 + q[i] * q[i] * q[i] * q[i] * (0.25 * quartic);
+    }
+    return sum;
+  }
+  template <class T>
+  void force(const vector<T, N>& q, vector<T, N>& f) const {
+    for (int i = 0; i < N; ++i) {
+      T pull(0.0);
+      for (int j = 0; j < N; ++j) pull += q[j] * stiffness(i, j);
+      f[i] = -pull - q[i] * q[i] * q[i] * quartic;
+    }
+  }
+  std::string description() const { return fmt::format("coupled_springs({}, {:g})", N, stiffness.trace()); }
+};
+
+/// A slow part that is periodic in each coordinate, with wells at multiples of a period: V = depth sum (1 -
+/// cos(2 q_i)).
+template <int N>
+struct periodic_wells {
+  static constexpr int dimension = N;
+  double depth;
+
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    using std::cos;
+    T sum(0.0);
+    for (int i = 0; i < N; ++i) sum += (T(1.0) - cos(q[i] * 2.0)) * depth;
+    return sum;
+  }
+  template <class T>
+  void force(const vector<T, N>& q, vector<T, N>& f) const {
+    using std::sin;
+    for (int i = 0; i < N; ++i) f[i] = -sin(q[i] * 2.0) * (2.0 * depth);
+  }
+  std::string description() const { return fmt::format("periodic_wells({}, {:g})", N, depth); }
+};
+
+/// What came of one word at one step.
+enum class outcome { fine, grows, large };
+
+struct counts {
+  int steps = 0;
+  int grows = 0;
+  int missed = 0;  // grows, and is admitted
+  int fine = 0;
+  int refused = 0;  // fine, and is refused
+  int large = 0;    // errs by more than the kinetic energy from the first steps on
+  int large_refused = 0;
+
+  void add(outcome what, bool is_refused) {
+    ++steps;
+    if (what == outcome::grows) {
+      ++grows;
+      missed += is_refused ? 0 : 1;
+    } else if (what == outcome::fine) {
+      ++fine;
+      refused += is_refused ? 1 : 0;
+    } else {
+      ++large;
+      large_refused += is_refused ? 1 : 0;
+    }
+  }
+  counts& operator+=(const counts& other) {
+    steps += other.steps;
+    grows += other.grows;
+    missed += other.missed;
+    fine += other.fine;
+    refused += other.refused;
+    large += other.large;
+    large_refused += other.large_refused;
+    return *this;
+  }
+  std::string in_words() const {
+    return fmt::format(
+        "{} words and steps: the error of {} grows, {} of them admitted; of {} with a bounded error {} "
+        "refused; "
+        "{} err by more than the kinetic energy at once, {} of them refused",
+        steps, grows, missed, fine, refused, large, large_refused);
+  }
+};
+
+struct found_on_class {
+  counts of_r_respa;
+  counts of_learned;
+  std::vector<std::string> missed;
+  std::vector<std::string> refused;
+};
+
+constexpr std::int64_t long_steps = 100'000;
+
+/// r-RESPA with `inner` fast kicks, as data.
+struct word_as_data {
+  std::string letters;
+  std::vector<double> coefficients;
+};
+word_as_data r_respa_of(int inner) {
+  word_as_data result{"k", {0.5 / inner, 0.5}};
+  for (int i = 0; i < inner; ++i) {
+    result.letters += "A";
+    result.coefficients.push_back(1.0 / inner);
+    result.letters += i + 1 < inner ? "0" : "k";
+    result.coefficients.push_back(i + 1 < inner ? 1.0 / inner : 0.5 / inner);
+  }
+  result.coefficients.push_back(0.5);
+  return result;
+}
+
+struct range_of_steps {
+  double low;
+  double high;
+  int of_r_respa;
+  int of_learned;
+};
+
+template <class S, class Law>
+found_on_class try_all(const std::string& name, const S& system, const Law& law, const range_of_steps& range,
+                       const std::vector<int>& inner) {
+  found_on_class found;
+  constexpr std::int64_t trajectories = 16;
+  phase_points starts;
+  for (std::int64_t n = 0; n < trajectories; ++n) {
+    const auto x = law(1001, static_cast<std::uint64_t>(n));
+    starts.push_back(phase_point<double, Eigen::Dynamic>{x.q, x.p});
+  }
+  const model erased(system);
+  const auto data_at = [&](double step, std::uint64_t seed) {
+    const fine_steps<> reference(step / std::ceil(step / (0.04 * range.low)));
+    return make_flow_map_data(system, law, reference,
+                              {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});
+  };
+  phase_points states;
+  const auto along = data_at(range.low, 1);
+  for (std::size_t k = 0; k < along.start.size(); ++k) {
+    states.push_back(phase_point<double, Eigen::Dynamic>(along.start[k]));
+  }
+  const run_time_word nested(nested_word<0, 1, 2>{}, system);
+  const auto try_one = [&](counts& into, const std::string& method, const run_time_word& word,
+                           const std::vector<double>& coefficients, const stability_guard& guard,
+                           double step) {
+    const std::string objection = guard.objection(word, coefficients, step);
+    const auto run = trial_run(erased, tabulated(method, word, coefficients, {1, false, false}), step, starts,
+                               {.steps = long_steps, .watches_growth = true});
+    const bool grows = run.lost || run.energy_grows();
+    const outcome what = grows                                ? outcome::grows
+                         : run.deviation > run.kinetic_energy ? outcome::large
+                                                              : outcome::fine;
+    into.add(what, !objection.empty());
+    const auto line = [&] {
+      return fmt::format("{}, {} at {:.4g}: {}, guard: {}", name, method, step, run.report(),
+                         objection.empty() ? "none" : objection);
+    };
+    if (grows && objection.empty()) found.missed.push_back(line());
+    if (what == outcome::fine && !objection.empty()) found.refused.push_back(line());
+  };
+  const auto spread = [&](int k, int count) {
+    return count == 1 ? range.low : range.low + (range.high - range.low) * k / (count - 1);
+  };
+  for (const int n : inner) {
+    const auto [letters, coefficients] = r_respa_of(n);
+    const run_time_word word = nested.with_letters(letters);
+    const stability_guard guard(erased, states, word, long_steps);
+    for (int k = 0; k < range.of_r_respa; ++k) {
+      try_one(found.of_r_respa, fmt::format("r_respa({})", n), word, coefficients, guard,
+              spread(k, range.of_r_respa));
+    }
+  }
+  for (int k = 0; k < range.of_learned; ++k) {
+    // Apart from any guard, so that it is asked what it has against a word that a search would find.
+    const double step = spread(k, range.of_learned);
+    const auto [method, fit] = learn(nested_kicks<0, 1, 4, 2>{}, system, data_at(step, 1), data_at(step, 2),
+                                     {.random_starts = 4, .guarded = false});
+    const auto all = method.coefficients();
+    const run_time_word word(nested_word<0, 1, 4, 2>{}, system);
+    const stability_guard guard(erased, states, word, long_steps);
+    try_one(found.of_learned, method.name(), word, {all.begin(), all.end()}, guard, step);
+  }
+  return found;
+}
+
+template <int N>
+normal_around<N> around_rest(double positions, double momenta) {
+  return {{vector<double, N>::Zero(), vector<double, N>::Zero()}, positions, momenta};
+}
+
+double fastest_of(double omega, int masses) {
+  return 2.0 * omega * std::cos(std::numbers::pi / (2.0 * masses));
+}
+
+template <int N>
+auto springs(std::mt19937_64& bits, double stiffest, double softest) {
+  std::normal_distribution<double> normal;
+  Eigen::Matrix<double, N, N> square;
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j) square(i, j) = normal(bits);
+  }
+  const Eigen::Matrix<double, N, N> positive = square * square.transpose() / N;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(positive);
+  Eigen::Matrix<double, N, 1> values;
+  for (int i = 0; i < N; ++i) values[i] = stiffest * std::pow(softest / stiffest, i / (N - 0.999));
+  return coupled_springs<N>{solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose()};
+}
+
+/// A member of the class by chance, from the seed and its number.
+template <int N>
+found_on_class random_member(std::mt19937_64& bits, const std::string& name, int steps, int fits) {
+  std::uniform_real_distribution<double> uniform;
+  const double omega = 5.0 * std::pow(8.0, uniform(bits));
+  const int kind = static_cast<int>(3.0 * uniform(bits));
+  const double strength = 0.5 + 3.0 * uniform(bits);
+  const double momenta = 0.1 + 0.5 * uniform(bits);
+  const std::vector<int> inner{1 + static_cast<int>(6.0 * uniform(bits)),
+                               4 + static_cast<int>(12.0 * uniform(bits))};
+  const double low = (3.0 + uniform(bits)) / fastest_of(omega, N);
+  const double high = (7.0 + 4.0 * uniform(bits)) / fastest_of(omega, N);
+  const auto law = around_rest<N>(0.1 * momenta / omega, momenta);
+  const range_of_steps range{low, high, steps, fits};
+  const std::string called = fmt::format("{}: omega = {:.3g}, strength = {:.3g}", name, omega, strength);
+  if (kind == 0) {
+    return try_all(called + ", charges", bonded_chain<N>(stiff_bonds<N>(omega), soft_charges<N>(strength)),
+                   law, range, inner);
+  }
+  if (kind == 1) {
+    return try_all(called + ", periodic wells",
+                   sum_of_parts<stiff_bonds<N>, periodic_wells<N>>(stiff_bonds<N>(omega), {0.2 * strength}),
+                   law, range, inner);
+  }
+  const double fastest = fastest_of(omega, N);
+  auto slow = springs<N>(bits, 4.0, 1.0);
+  slow.quartic = uniform(bits);
+  const auto fast = springs<N>(bits, fastest * fastest, 0.1 * fastest * fastest);
+  return try_all(called + ", springs", sum_of_parts<coupled_springs<N>, coupled_springs<N>>(fast, slow), law,
+                 range, inner);
+}
+
+}  // namespace
+
+verdict guard_of_slow_kicks(extent how) {
+  verdict result;
+  const bool is_full = how == extent::full;
+  const int steps = is_full ? 25 : 2;
+  const int fits = is_full ? 5 : 0;
+  counts of_r_respa;
+  counts of_learned;
+  std::vector<std::string> missed;
+  std::vector<std::string> refused;
+  const auto take = [&](const std::string& name, const found_on_class& found) {
+    result.note(fmt::format("{}; r-RESPA: {}", name, found.of_r_respa.in_words()));
+    if (found.of_learned.steps > 0)
+      result.note(fmt::format("{}; learned: {}", name, found.of_learned.in_words()));
+    of_r_respa += found.of_r_respa;
+    of_learned += found.of_learned;
+    missed.insert(missed.end(), found.missed.begin(), found.missed.end());
+    refused.insert(refused.end(), found.refused.begin(), found.refused.end());
+  };
+  const std::vector<int> inner = is_full ? std::vector<int>{1, 2, 3, 4, 5, 6, 16} : std::vector<int>{4};
+  {
+    const std::string name = "bonded_chain<4>, omega = 20";
+    take(name, try_all(name, bonded_chain<4>(stiff_bonds<4>(20.0), soft_charges<4>(2.0)),
+                       around_rest<4>(0.01, 0.3), {0.1, 0.3, steps, is_full ? 21 : 0}, inner));
+  }
+  if (is_full) {
+    const std::string chain3 = "bonded_chain<3>, omega = 10";
+    take(chain3, try_all(chain3, bonded_chain<3>(stiff_bonds<3>(10.0), soft_charges<3>(4.0)),
+                         around_rest<3>(0.02, 0.3), {0.2, 0.6, steps, fits}, inner));
+    const std::string wells = "four bonds in periodic wells, omega = 20";
+    take(wells, try_all(wells, sum_of_parts<stiff_bonds<4>, periodic_wells<4>>(stiff_bonds<4>(20.0), {0.5}),
+                        around_rest<4>(0.01, 0.5), {0.1, 0.3, steps, fits}, inner));
+    coupled_springs<2> fast;
+    fast.stiffness << 100.0, 30.0, 30.0, 40.0;
+    coupled_springs<2> slow;
+    slow.stiffness << 1.0, 0.6, 0.6, 3.0;
+    const std::string linear = "two coupled oscillators, linear";
+    take(linear, try_all(linear, sum_of_parts<coupled_springs<2>, coupled_springs<2>>(fast, slow),
+                         around_rest<2>(0.05, 0.4), {0.2, 0.9, steps, fits}, inner));
+  }
+  // Members that nothing was tuned on: drawn by a seed that was chosen when all else was done.
+  std::uint64_t seed = 20261126;
+  if (const char* given = std::getenv("NYSALT_GUARD_SEED")) seed = std::strtoull(given, nullptr, 10);
+  std::mt19937_64 bits(seed);
+  const int members = is_full ? 2 : 1;
+  for (int k = 0; k < members; ++k) {
+    const auto named = [&](int n) { return fmt::format("by chance, {} degrees of freedom", n); };
+    take(named(2), random_member<2>(bits, named(2), is_full ? 21 : 3, is_full ? 1 : 0));
+    take(named(3), random_member<3>(bits, named(3), is_full ? 21 : 3, is_full ? 1 : 0));
+    if (is_full) take(named(4), random_member<4>(bits, named(4), 21, 1));
+  }
+  counts all = of_r_respa;
+  all += of_learned;
+  result.require(all.missed == 0, "all: " + all.in_words());
+  // The guard would be of no use if it refused what it may.
+  result.require(
+      10 * all.refused <= std::max(10, all.fine),
+      fmt::format("{} of {} steps with a bounded error are refused, a tenth at most", all.refused, all.fine));
+  result.require(all.grows > 0 && all.fine > 0, "there are steps of both kinds");
+  for (const auto& one : missed) result.note("missed: " + one);
+  constexpr std::size_t some = 12;
+  for (std::size_t k = 0; k < std::min(some, refused.size()); ++k) result.note("false alarm: " + refused[k]);
+  return result;
+}
+
+}  // namespace nysalt::hard
