@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "nysalt/analysis/pareto_front.hpp"
@@ -190,9 +191,9 @@ std::vector<best_at_cost> best_by(const comparison& all, std::size_t m, double (
   const bool is_by_step = all.options().equal_cost && cost == evaluations_of;
   std::vector<rival> ranked;
   for (const row& line : all.rows()) {
-    if (!is_ranked(all, m, line)) continue;
     rival one = rival_of(all, m, line);
-    one.error = std::max(one.error, baseline_of(all, m, line).floor.value_or(0.0));
+    one.error = is_ranked(all, m, line) ? std::max(one.error, baseline_of(all, m, line).floor.value_or(0.0))
+                                        : std::numeric_limits<double>::quiet_NaN();
     one.cost = cost(line);
     for (const row& other : all.rows()) {  // a run of a few steps may cost one evaluation more
       if (is_by_step && other.nominal == line.nominal) one.cost = std::max(one.cost, cost(other));
@@ -201,7 +202,8 @@ std::vector<best_at_cost> best_by(const comparison& all, std::size_t m, double (
   }
   constexpr double of_counts = 1.01;  // the evaluation of the start
   constexpr double of_times = 1.05;   // by which times of rounds differ
-  return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times);
+  const std::size_t most = all.metrics().size() == 1 ? 4 : 3;  // the table of all metrics stays small
+  return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times, most);
 }
 
 namespace {

@@ -37,11 +37,21 @@ bool errs_more(const rival& a, const rival& b) {
 
 namespace {
 
-/// The rivals that cost no more, each method where it errs least; the least error first.
+bool has_error(const rival& one) { return std::isfinite(one.error) && one.error >= 0.0; }
+
+std::size_t methods_up_to(const std::vector<rival>& all, double cost) {
+  std::set<std::string> methods;
+  for (const rival& one : all) {
+    if (one.cost <= cost) methods.insert(one.method);
+  }
+  return methods.size();
+}
+
+/// The ranked rivals that cost no more, each method where it errs least; the least error first.
 std::vector<rival> affordable(const std::vector<rival>& all, double cost) {
   std::map<std::string, rival> by_method;
   for (const rival& one : all) {
-    if (one.cost > cost) continue;
+    if (one.cost > cost || !has_error(one)) continue;
     const auto [at, is_new] = by_method.emplace(one.method, one);
     if (!is_new && one.error < at->second.error) at->second = one;
   }
@@ -52,7 +62,9 @@ std::vector<rival> affordable(const std::vector<rival>& all, double cost) {
 }
 
 best_at_cost best_of(const std::vector<rival>& sorted, double cost) {
-  best_at_cost result{.cost = cost, .best = {sorted.front()}, .next = {}};
+  best_at_cost result{.cost = cost, .best = {}, .next = {}};
+  if (sorted.empty()) return result;
+  result.best.push_back(sorted.front());
   for (const rival& one : std::span(sorted).subspan(1)) {
     if (!errs_more(one, sorted.front())) {
       result.best.push_back(one);
@@ -90,15 +102,15 @@ std::vector<double> distinct_costs(const std::vector<rival>& all, double toleran
 std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance, std::size_t most) {
   std::vector<rival> sound;
   std::ranges::copy_if(all, std::back_inserter(sound), [](const rival& one) {
-    return std::isfinite(one.error) && one.error >= 0.0 && std::isfinite(one.cost) && one.cost > 0.0;
+    return std::isfinite(one.cost) && one.cost > 0.0;
   });
   std::vector<best_at_cost> found;
   bool is_compared = false;
   for (const double cost : distinct_costs(sound, tolerance)) {
-    const auto sorted = affordable(sound, cost);
-    if (sorted.size() > 1 && !is_compared) found.clear();
-    is_compared = is_compared || sorted.size() > 1;
-    found.push_back(best_of(sorted, cost));
+    const bool are_several = methods_up_to(sound, cost) > 1;
+    if (are_several && !is_compared) found.clear();
+    is_compared = is_compared || are_several;
+    found.push_back(best_of(affordable(sound, cost), cost));
   }
   if (found.size() <= most) return found;
   std::vector<best_at_cost> chosen;
@@ -154,7 +166,7 @@ std::vector<range_of_costs> ranges_of(const std::vector<best_at_cost>& found) {
   return result;
 }
 
-std::string text_of(const range_of_costs& range) {
+std::string words_of(const range_of_costs& range) {
   if (range.from == range.to) return fmt::format("at {:.4g}", range.from);
   return fmt::format("from {:.4g} to {:.4g}", range.from, range.to);
 }
@@ -182,27 +194,37 @@ std::string lead_of(const std::vector<best_at_cost>& found, const std::string& e
 
 std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
                        const std::string& error) {
-  if (found.empty()) return "No method is ranked: there is nothing to say on who is best.";
+  if (std::ranges::all_of(found, [](const best_at_cost& one) { return one.best.empty(); }))
+    return "No method is ranked: there is nothing to say on who is best.";
   const auto ranges = ranges_of(found);
-  const bool is_alone = std::ranges::none_of(
-      found, [](const best_at_cost& one) { return one.next || one.best.size() > 1; });
+  std::set<std::string> ranked;
+  for (const auto& one : found) {
+    for (const rival& method : one.best) ranked.insert(method.method);
+    if (one.next) ranked.insert(one.next->method);
+  }
+  const bool is_alone = ranked.size() == 1;
+  const bool is_tie =
+      std::ranges::all_of(found, [](const best_at_cost& one) { return !one.next && one.best.size() > 1; });
   std::string text;
-  if (is_alone) {
+  if (is_tie) {
+    const range_of_costs whole{found.front().cost, found.back().cost, {}};
+    text = fmt::format("No method is known to be better than another {} {}: error bars do not separate {}.",
+                       words_of(whole), unit, named(found.back().best));
+  } else if (is_alone) {
     text = fmt::format("Only {} is ranked: there is no other to compare with.", named(found.back().best));
   } else if (ranges.size() > 1) {
     for (const auto& range : ranges) {
       text += fmt::format("{}{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
-                          named(range.best),
-                          range.best.size() > 1 ? " (which error bars do not separate)" : "", text_of(range));
+                          range.best.empty() ? "none is ranked" : named(range.best),
+                          range.best.size() > 1 ? " (which error bars do not separate)" : "", words_of(range));
     }
     text += fmt::format(" {}.", unit);
   } else if (ranges.front().best.size() == 1) {
-    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), text_of(ranges.front()), unit,
+    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), words_of(ranges.front()), unit,
                        lead_of(found, error));
   } else {
-    text = fmt::format("Error bars do not separate {} {} {}{}.", named(ranges.front().best),
-                       text_of(ranges.front()), unit,
-                       found.back().next ? ", which are the best" : ": no method is known to be better");
+    text = fmt::format("The best are {} {} {}: error bars do not separate them.", named(ranges.front().best),
+                       words_of(ranges.front()), unit);
   }
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
   if (!has_error_bars && !is_alone) text += " Some errors have no error bar, and differences may be chance.";

@@ -16,7 +16,7 @@ struct rival {
   std::string method;
   double step;                   // as typed
   double cost;                   // of a unit of time
-  double error;                  // the smaller, the better
+  double error;                  // the smaller, the better; NaN: it takes part, but is not ranked
   double standard_error;         // NaN: not known
   std::vector<double> groups{};  // the part of each group of trajectories, which all rivals share; or empty
 };
@@ -32,14 +32,14 @@ bool errs_more(const rival& a, const rival& b);
 /// The methods at up to a cost, each at the step at which it errs least.
 struct best_at_cost {
   double cost;
-  std::vector<rival> best;     // the least error, and those that errs_more() does not separate from it
+  std::vector<rival> best;     // the least error, and those that errs_more() does not separate from it; or none
   std::optional<rival> next;   // the least error of the others
   bool has_error_bars = true;  // of all that are compared
 };
 
 /// At up to `most` costs, the least and the largest among them, that rivals have. Costs that differ by less than
-/// the factor `tolerance` are one. Where two methods can be afforded at some cost, costs at which only one can
-/// are left out; rivals without a finite error are left out.
+/// the factor `tolerance` are one. Where two methods can be afforded at some cost, ranked or not, costs at which
+/// only one can are left out.
 std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance, std::size_t most = 4);
 
 /// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit`, such as

@@ -161,6 +161,7 @@ void add_verdict(page& report, const comparison& all) {
     const std::string sentence = verdict_on(all, m, found) + left_out(all, m);
     report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
     for (const best_at_cost& one : found) {
+      if (one.best.empty()) continue;  // the sentence says so
       const rival& first = one.best.front();
       std::vector<std::string> cells{
           fmt::format("{:.4g}", one.cost),

@@ -29,7 +29,7 @@ std::string quantity(const comparison& all, std::size_t m) {
 }
 
 std::string errors_compared(const comparison& all, std::size_t m) {
-  return all.metrics()[m].is_acceptance() ? "rejection rate" : quantity(all, m);
+  return all.metrics()[m].is_acceptance() ? "rejection rate" : "error";
 }
 
 std::string verdict_by_evaluations(const comparison& all, std::size_t m) {

@@ -94,7 +94,7 @@ void add_entries(const fs::path& manifest, const std::vector<fs::path>& files, c
     whole.update(entry);
     all["files"][path.filename().string()] = whole;
   }
-  file->write(text_of(all));
+  file->write(program::text_of(all));
   file->commit(true);
 }
 

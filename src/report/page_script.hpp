@@ -7,7 +7,7 @@
 
 namespace nysalt {
 
-/// Tables of a few rows are read at a glance: controls are for longer ones. What is no number goes last in a
+/// Tables of a few rows, and what is above the sections, are read at a glance: controls are for the others. What is no number goes last in a
 /// column of numbers, whichever way the column is sorted. The value of a point of a picture is its <title>,
 /// which a browser shows late, and not at all on a touch.
 inline constexpr std::string_view page_script = R"js(
@@ -23,7 +23,7 @@ const made = (tag, properties, ...children) => {
 };
 for (const table of document.querySelectorAll('table')) {
   const rows = [...table.tBodies[0].rows];
-  if (rows.length < 4) continue;
+  if (rows.length < 8 || !table.parentElement.matches('h2 ~ *')) continue;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
     const button = made('button', { type: 'button', title: 'Sort by this column' }, ...head.childNodes);
     head.append(button);
@@ -42,7 +42,6 @@ for (const table of document.querySelectorAll('table')) {
       table.tBodies[0].append(...rows);
     });
   });
-  if (rows.length < 8) continue;
   const input = made('input', { type: 'search', autocomplete: 'off' });
   const shown = made('output');
   input.addEventListener('input', () => {

@@ -11,7 +11,7 @@ addEventListener('load', () => {
     const rows = table.tBodies[0].rows.length;
     const heads = [...table.tHead.rows[0].cells];
     const button = head => head.querySelector('button');
-    if (rows < 4) {
+    if (rows < 8 || !table.parentElement.matches('h2 ~ *')) {
       if (heads.some(button)) wrong.push('a small table has buttons');
       continue;
     }
@@ -41,8 +41,10 @@ addEventListener('load', () => {
       }
     });
     const input = table.parentElement.previousElementSibling?.querySelector('input');
-    if (Boolean(input) !== rows >= 8) wrong.push('a field is missing, or needless');
-    if (!input) continue;
+    if (!input) {
+      wrong.push('a field is missing');
+      continue;
+    }
     const visible = () => [...table.tBodies[0].rows].filter(row => row.offsetParent !== null);
     const word = table.tBodies[0].rows[0].cells[0].textContent;
     const write = text => {

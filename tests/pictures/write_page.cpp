@@ -43,6 +43,7 @@ int main(int, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   std::filesystem::create_directories(folder);
   page report("Pictures");
+  report.heading("All");
   report.picture(errors(), "Error against cost, of `<b>&\"'`.");
   report.picture(lines(), "A line.");
   for (const auto& picture : report.figures()) draw(picture, folder);

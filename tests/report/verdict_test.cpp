@@ -91,9 +91,20 @@ BOOST_AUTO_TEST_CASE(what_error_bars_do_not_separate_is_named_together) {
     for (const auto& one : found) BOOST_TEST((names(one) == list{"a"}) == is_separated);
     const std::string text = verdict_of(found, unit);
     BOOST_TEST(has(text, "Nothing beats `a`") == is_separated, text);
-    BOOST_TEST(has(text, "Error bars do not separate `a` and `b`") == !is_separated, text);
-    BOOST_TEST(has(text, "no method is known to be better") == !is_separated, text);
+    BOOST_TEST(has(text, "No method is known to be better than another from 50 to 400 evaluations: error bars do not "
+                         "separate `a` and `b`.") == !is_separated,
+               text);
   }
+}
+
+BOOST_AUTO_TEST_CASE(two_that_are_equal_and_better_than_the_rest_are_the_best) {
+  const auto found = best_at_costs(together({method("a", 1.0, 2.0), method("b", 1.0, 2.0), method("c", 2.0, 2.0)}), 1.01);
+  for (const auto& one : found) {
+    BOOST_TEST((names(one) == list{"a", "b"}));
+    BOOST_TEST(one.next->method == "c");
+  }
+  BOOST_TEST(verdict_of(found, unit) ==
+             "The best are `a` and `b` from 50 to 400 evaluations: error bars do not separate them.");
 }
 
 /// Two methods that are equally good, with errors of so many trajectories: how often one is called better.
@@ -154,10 +165,28 @@ BOOST_AUTO_TEST_CASE(what_has_no_error_is_left_out) {
     BOOST_TEST((names(one) == list{"a"}));
     BOOST_TEST(one.next->method == "b");
   }
-  BOOST_TEST(best_at_costs(together({failed, lost, untimed}), 1.01).empty());
+  const auto none = best_at_costs(together({failed, lost, untimed}), 1.01);
+  for (const auto& one : none) BOOST_TEST(one.best.empty());
+  BOOST_TEST(has(verdict_of(none, unit), "No method is ranked"));
   BOOST_TEST(has(verdict_of({}, unit), "No method is ranked"));
   all[0].error = 1e-6;  // but where it has one, it counts
   BOOST_TEST((names(best_at_costs(all, 1.01).front()) == list{"failed"}));
+}
+
+// Where the others are no better than doing nothing, the one that is has beaten them.
+BOOST_AUTO_TEST_CASE(what_is_not_ranked_takes_part) {
+  auto all = together({method("a", 1.0, 4.0), method("b", 2.0, 4.0)});
+  for (auto& one : all) {
+    if (one.cost < (one.method == "a" ? 100.0 : 400.0)) one.error = not_a_number;
+  }
+  const auto found = best_at_costs(all, 1.01);
+  BOOST_TEST_REQUIRE(found.size() == 4U);
+  BOOST_TEST(found[0].best.empty());
+  for (std::size_t i = 1; i < 4; ++i) BOOST_TEST((names(found[i]) == list{"a"}));
+  BOOST_TEST(!found[1].next);
+  BOOST_TEST(found[3].next->method == "b");
+  BOOST_TEST(verdict_of(found, unit) ==
+             "Who is best depends on the cost: none is ranked at 50, `a` from 100 to 400 evaluations.");
 }
 
 BOOST_AUTO_TEST_CASE(a_method_alone_beats_nothing) {
