@@ -101,9 +101,8 @@ std::vector<double> distinct_costs(const std::vector<rival>& all, double toleran
 
 std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance, std::size_t most) {
   std::vector<rival> sound;
-  std::ranges::copy_if(all, std::back_inserter(sound), [](const rival& one) {
-    return std::isfinite(one.cost) && one.cost > 0.0;
-  });
+  std::ranges::copy_if(all, std::back_inserter(sound),
+                       [](const rival& one) { return std::isfinite(one.cost) && one.cost > 0.0; });
   std::vector<best_at_cost> found;
   bool is_compared = false;
   for (const double cost : distinct_costs(sound, tolerance)) {
@@ -214,14 +213,15 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
     text = fmt::format("Only {} is ranked: there is no other to compare with.", named(found.back().best));
   } else if (ranges.size() > 1) {
     for (const auto& range : ranges) {
-      text += fmt::format("{}{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
-                          range.best.empty() ? "none is ranked" : named(range.best),
-                          range.best.size() > 1 ? " (which error bars do not separate)" : "", words_of(range));
+      text +=
+          fmt::format("{}{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
+                      range.best.empty() ? "none is ranked" : named(range.best),
+                      range.best.size() > 1 ? " (which error bars do not separate)" : "", words_of(range));
     }
     text += fmt::format(" {}.", unit);
   } else if (ranges.front().best.size() == 1) {
-    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), words_of(ranges.front()), unit,
-                       lead_of(found, error));
+    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), words_of(ranges.front()),
+                       unit, lead_of(found, error));
   } else {
     text = fmt::format("The best are {} {} {}: error bars do not separate them.", named(ranges.front().best),
                        words_of(ranges.front()), unit);

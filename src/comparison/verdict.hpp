@@ -21,26 +21,27 @@ struct rival {
   std::vector<double> groups{};  // the part of each group of trajectories, which all rivals share; or empty
 };
 
-/// The factor by which the error of `a` is larger. The standard error is that of the differences group by group;
-/// without groups, of independent errors. NaN where an error is zero.
+/// The factor by which the error of `a` is larger. The standard error is that of the differences group by
+/// group; without groups, of independent errors. NaN where an error is zero.
 estimate error_ratio(const rival& a, const rival& b);
 
-/// Whether the error of `a` is larger by more than two standard errors of the logarithm of the ratio; of errors
-/// without standard errors, whether it is larger.
+/// Whether the error of `a` is larger by more than two standard errors of the logarithm of the ratio; of
+/// errors without standard errors, whether it is larger.
 bool errs_more(const rival& a, const rival& b);
 
 /// The methods at up to a cost, each at the step at which it errs least.
 struct best_at_cost {
   double cost;
-  std::vector<rival> best;     // the least error, and those that errs_more() does not separate from it; or none
+  std::vector<rival> best;  // the least error, and those that errs_more() does not separate from it; or none
   std::optional<rival> next;   // the least error of the others
   bool has_error_bars = true;  // of all that are compared
 };
 
-/// At up to `most` costs, the least and the largest among them, that rivals have. Costs that differ by less than
-/// the factor `tolerance` are one. Where two methods can be afforded at some cost, ranked or not, costs at which
-/// only one can are left out.
-std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance, std::size_t most = 4);
+/// At up to `most` costs, the least and the largest among them, that rivals have. Costs that differ by less
+/// than the factor `tolerance` are one. Where two methods can be afforded at some cost, ranked or not, costs
+/// at which only one can are left out.
+std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance,
+                                        std::size_t most = 4);
 
 /// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit`, such as
 /// "force evaluations per unit time", is that of the costs, `error` what is compared.

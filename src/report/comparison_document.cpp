@@ -96,7 +96,11 @@ json best_json(const comparison& all, std::size_t m) {
     };
     json best = json::array();
     for (const rival& method : one.best) best.push_back(named_at(method));
-    json at{{"evaluations_per_time", one.cost}, {"best", best}, {"next", nullptr}, {"ratio", nullptr}, {"standard_error", nullptr}};
+    json at{{"evaluations_per_time", one.cost},
+            {"best", best},
+            {"next", nullptr},
+            {"ratio", nullptr},
+            {"standard_error", nullptr}};
     if (one.next) {
       const estimate ratio = error_ratio(*one.next, one.best.front());
       at["next"] = named_at(*one.next);

@@ -131,7 +131,8 @@ std::string verdict_on(const comparison& all, std::size_t m, const std::vector<b
     return names;
   };
   if (leaders(found) != leaders(in_seconds)) {
-    text += " In seconds: " + verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
+    text +=
+        " In seconds: " + verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
   }
   return text;
 }
@@ -357,10 +358,11 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
   }
   json document = document_of(all);
   document["question"] = all.question();
-  const std::vector<std::pair<const char*, std::string>> texts{{"rows.csv", csv_of(all)},
-                                                 {"report.json", text_of(document)},
-                                                 {"report.md", report.markdown(folder_of_pictures)},
-                                                 {"report.html", report.html(pictures)}};
+  const std::vector<std::pair<const char*, std::string>> texts{
+      {"rows.csv", csv_of(all)},
+      {"report.json", text_of(document)},
+      {"report.md", report.markdown(folder_of_pictures)},
+      {"report.html", report.html(pictures)}};
   std::vector<std::filesystem::path> files;
   for (const auto& [name, text] : texts) {
     files.push_back(folder / name);

@@ -33,7 +33,8 @@ std::string errors_compared(const comparison& all, std::size_t m) {
 }
 
 std::string verdict_by_evaluations(const comparison& all, std::size_t m) {
-  return verdict_of(best_by(all, m, evaluations_of), "force evaluations per unit time", errors_compared(all, m));
+  return verdict_of(best_by(all, m, evaluations_of), "force evaluations per unit time",
+                    errors_compared(all, m));
 }
 
 std::string plain_verdict(const comparison& all, std::size_t m) {

@@ -121,13 +121,15 @@ void require_manifest(const fs::path& file) {
   require_no_input(manifest);
   std::error_code ignored;
   if (fs::is_directory(manifest, ignored)) {
-    refuse("cannot write {}: it is a folder, and a record of how {} is made goes there; name a file elsewhere",
-           manifest.string(), file.string());
+    refuse(
+        "cannot write {}: it is a folder, and a record of how {} is made goes there; name a file elsewhere",
+        manifest.string(), file.string());
   }
   if (!is_there(manifest)) return;
   if (!fs::is_regular_file(manifest, ignored) || entries_in(manifest).is_null()) {
-    refuse("cannot write {}: {}, where a record of how the file is made would go; name a file in another folder",
-           file.string(), is_foreign(manifest));
+    refuse(
+        "cannot write {}: {}, where a record of how the file is made would go; name a file in another folder",
+        file.string(), is_foreign(manifest));
   }
 }
 
@@ -145,7 +147,7 @@ json versions() {
 }
 
 void record_results(const std::vector<fs::path>& files, const common_settings& common, const json& more,
-            std::chrono::milliseconds patience) {
+                    std::chrono::milliseconds patience) {
   if (common.command.empty() || files.empty()) return;
   const fs::path manifest = manifest_of(files.front());
   require_no_input(manifest);

@@ -23,18 +23,18 @@ std::filesystem::path earlier_manifest_of(std::filesystem::path file);
 /// Entries of a manifest, by names of files; null for what is not whole, or no manifest of nysalt.
 json entries_in(const std::filesystem::path& manifest);
 
-/// Throws refusal if entries cannot be added in the folder of a file: its manifest.json is an input, a folder,
-/// or not of nysalt, or the file itself has that name.
+/// Throws refusal if entries cannot be added in the folder of a file: its manifest.json is an input, a
+/// folder, or not of nysalt, or the file itself has that name.
 void require_manifest(const std::filesystem::path& file);
 
 /// Of the program and the libraries in it, by name.
 json versions();
 
 /// Entries of files of one folder in its manifest: command, seed, versions, compiler, flags, time, and the
-/// members of `more`. Those of other files stay, also of other processes that write at the same time, for which
-/// it waits up to `patience`. Without a command, as of callers of the library, there is no manifest.
-void record_results(const std::vector<std::filesystem::path>& files, const common_settings& common, const json& more = {},
-            std::chrono::milliseconds patience = std::chrono::minutes(1));
+/// members of `more`. Those of other files stay, also of other processes that write at the same time, for
+/// which it waits up to `patience`. Without a command, as of callers of the library, there is no manifest.
+void record_results(const std::vector<std::filesystem::path>& files, const common_settings& common,
+                    const json& more = {}, std::chrono::milliseconds patience = std::chrono::minutes(1));
 
 /// A whole file, which is not recorded yet.
 void write_unrecorded(const std::filesystem::path& file, std::string_view text);

@@ -19,10 +19,11 @@ namespace nysalt {
 namespace {
 
 /// Nothing may be fetched, from wherever.
-constexpr std::string_view page_policy = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+constexpr std::string_view page_policy =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves. On paper no picture and
-/// no row breaks, a table that goes on has its head again, and there are no controls.
+/// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves. On paper no picture
+/// and no row breaks, a table that goes on has its head again, and there are no controls.
 constexpr std::string_view page_style = R"(
 body{font:16px/1.55 system-ui,sans-serif;color:#222;background:#fff}
 body{max-width:68rem;margin:2rem auto;padding:0 1rem}
@@ -132,8 +133,10 @@ struct html_of_block {
           "<code>{0}.gp</code> and <code>{0}.dat</code> draw it later.</p>",
           picture.name);
     }
-    return fmt::format("<figure>\n<div role=\"img\" aria-label=\"{}\">\n{}\n</div>\n<figcaption>{}</figcaption>\n</figure>\n",
-                       html_plain(picture.caption), drawn, html_sentence(picture.caption));
+    return fmt::format(
+        "<figure>\n<div role=\"img\" "
+        "aria-label=\"{}\">\n{}\n</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        html_plain(picture.caption), drawn, html_sentence(picture.caption));
   }
 };
 

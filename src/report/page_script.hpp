@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a page does where scripts run: tables are sorted and filtered, pictures show values. Nothing is fetched,
-// and without the script the page is whole.
+// What a page does where scripts run: tables are sorted and filtered, pictures show values. Nothing is
+// fetched, and without the script the page is whole.
 #pragma once
 
 #include <string_view>
 
 namespace nysalt {
 
-/// Tables of a few rows, and what is above the sections, are read at a glance: controls are for the others. What is no number goes last in a
-/// column of numbers, whichever way the column is sorted. The value of a point of a picture is its <title>,
-/// which a browser shows late, and not at all on a touch.
+/// Tables of a few rows, and what is above the sections, are read at a glance: controls are for the others.
+/// What is no number goes last in a column of numbers, whichever way the column is sorted. The value of a
+/// point of a picture is its <title>, which a browser shows late, and not at all on a touch.
 inline constexpr std::string_view page_script = R"js(
 'use strict';
 const numberIn = text => {

@@ -70,7 +70,8 @@ bool draw(const figure& f, const std::filesystem::path& folder) {
     const bool has_ended = std::system(command.c_str()) == 0;
     const std::string text = has_ended ? bytes_of(made) : std::string();
     std::filesystem::remove(made, failure);
-    if (is_whole_picture(text, kind) && is_written(folder / picture, kind == "svg" ? finished_svg(text, f) : text)) {
+    if (is_whole_picture(text, kind) &&
+        is_written(folder / picture, kind == "svg" ? finished_svg(text, f) : text)) {
       continue;
     }
     drawn = false;

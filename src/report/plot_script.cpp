@@ -23,7 +23,8 @@ std::string values_of(const curve& one, const std::string& name, std::size_t blo
   constexpr std::size_t most = 60;  // of a curve: more would lie on each other
   const std::size_t every = one.x.size() / most + 1;
   return fmt::format(
-      "'{0}.dat' index {1} every {2} using 1:2:(sprintf('{1}.%d', {2} * int($0))) with labels hypertext point "
+      "'{0}.dat' index {1} every {2} using 1:2:(sprintf('{1}.%d', {2} * int($0))) with labels hypertext "
+      "point "
       "pt 7 ps 2.5 lc rgb '#ff000000' notitle",
       name, block, every);
 }

@@ -43,7 +43,8 @@ std::string finished_tag(const std::string& tag, const figure& f) {
   static const std::regex point(R"re(showHypertext\(evt,'(\d+)\.(\d+)'\))re");
   if (std::smatch found; std::regex_search(tag, found, point)) {
     const auto number = [&](std::size_t k) { return std::strtoul(found[k].str().c_str(), nullptr, 10); };
-    return fmt::format("<g class=\"point\"><title>{}</title>", html_escaped(value_of(f, number(1), number(2))));
+    return fmt::format("<g class=\"point\"><title>{}</title>",
+                       html_escaped(value_of(f, number(1), number(2))));
   }
   return std::regex_replace(std::regex_replace(tag, plot, ""), id, "$1" + f.name + "-");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Pages for check_page.sh and check_controls.sh: write_page FOLDER writes one that is well, and some that must be
-// found.
+// Pages for check_page.sh and check_controls.sh: write_page FOLDER writes one that is well, and some that
+// must be found.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -52,8 +52,10 @@ int main(int, char** arguments) {
   report.table(small);
   table large({"method", "step", "error", "marks"});
   for (int i = 0; i < 12; ++i) {
-    large.add({std::vector<std::string>{"verlet", "learned:fg4", "bcss3"}[static_cast<std::size_t>(i % 3)], std::to_string(0.01 * (i * 7 % 12)),
-               i == 5 ? "-" : std::to_string(i * 5 % 12 - 4) + "e-" + std::to_string(i % 4), i == 3 ? "tail" : ""});
+    large.add({std::vector<std::string>{"verlet", "learned:fg4", "bcss3"}[static_cast<std::size_t>(i % 3)],
+               std::to_string(0.01 * (i * 7 % 12)),
+               i == 5 ? "-" : std::to_string(i * 5 % 12 - 4) + "e-" + std::to_string(i % 4),
+               i == 3 ? "tail" : ""});
   }
   report.table(large);
   const std::string well = report.html(folder);

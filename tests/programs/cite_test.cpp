@@ -139,7 +139,10 @@ BOOST_AUTO_TEST_CASE(manifests_of_earlier_versions_are_read_where_there_is_no_en
   const scratch folder("cite_earlier");
   const auto earlier = [&](const std::string& file, const std::string& method) {
     std::ofstream(folder / (file + ".manifest.json"))
-        << json{{"file", file}, {"command", "nysalt"}, {"options", "run.system=phi4\nrun.method=" + method}, {"versions", json::object()}};
+        << json{{"file", file},
+                {"command", "nysalt"},
+                {"options", "run.system=phi4\nrun.method=" + method},
+                {"versions", json::object()}};
   };
   earlier("old.csv", "pefrl");
   const auto of_pefrl = with(random_numbers, {"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Output files: whole or not at all, equal for equal runs, and with a manifest of their folder, which records how
-// each was made.
+// Output files: whole or not at all, equal for equal runs, and with a manifest of their folder, which records
+// how each was made.
 #include <boost/test/unit_test.hpp>
 
 #include <regex>
@@ -81,9 +81,8 @@ BOOST_AUTO_TEST_CASE(a_manifest_tells_where_a_file_is_from) {
 // Each its own file, at the same time.
 BOOST_AUTO_TEST_CASE(commands_that_write_into_one_folder_lose_no_entry) {
   const scratch folder("at_once");
-  const finished done = shell(folder,
-                              "for i in 1 2 3 4 5 6 7 8; do \"$nysalt\" " + run_it +
-                                  "--threads 1 --seed $i --output $i.csv & done; wait");
+  const finished done = shell(folder, "for i in 1 2 3 4 5 6 7 8; do \"$nysalt\" " + run_it +
+                                          "--threads 1 --seed $i --output $i.csv & done; wait");
   BOOST_TEST(done.err == "");
   BOOST_TEST(folder.files().size() == 9U);
   for (int i = 1; i <= 8; ++i) BOOST_TEST(recorded(folder / (std::to_string(i) + ".csv"))["seed"] == i);
@@ -96,8 +95,9 @@ BOOST_AUTO_TEST_CASE(a_result_without_its_manifest_is_said_to_be_whole) {
   const std::string before = contents(folder / "manifest.json");
   const auto small = (before.size() + std::filesystem::file_size(folder / "a.csv")) / 2 / 512;
   BOOST_TEST_REQUIRE(small * 512 > std::filesystem::file_size(folder / "a.csv"));
-  const finished done = shell(folder, "ulimit -f " + std::to_string(small) + "; LLVM_PROFILE_FILE=/dev/null \"$nysalt\" " +
-                                          run_it + "--output b.csv");
+  const finished done =
+      shell(folder, "ulimit -f " + std::to_string(small) + "; LLVM_PROFILE_FILE=/dev/null \"$nysalt\" " +
+                        run_it + "--output b.csv");
   BOOST_TEST(done.code == not_written);
   BOOST_TEST(has(done.err, "b.csv is whole, but not the manifest"), done.err);
   BOOST_TEST(contents(folder / "manifest.json") == before);
@@ -220,7 +220,8 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
     }
   }
   for (const char* file : {"rows.csv", "report.md", "report.html", "report.json"})
-    BOOST_TEST(recorded(folder / "new/folder" / file)["command"].get<std::string>().ends_with("new/folder"), file);
+    BOOST_TEST(recorded(folder / "new/folder" / file)["command"].get<std::string>().ends_with("new/folder"),
+               file);
   for (const auto& file : pictures) BOOST_TEST(!file.ends_with(".part"), file);
 
   // Rows as the JSON document tells them, to the last bit.
@@ -247,8 +248,10 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
   // The verdict comes first, then pictures, then all rows.
   const std::string markdown = contents(folder / "new/folder/report.md");
   std::size_t at = 0;
-  for (const char* next : {"\nNothing beats `bcss2` from ", "| evaluations/time, at most |", "\n## ", "](pictures/path_stiff_energy_against_evaluations.svg)",
-                           "](pictures/path_stiff_energy_against_seconds.svg)", "\n## All rows\n", "| standard error |"}) {
+  for (const char* next :
+       {"\nNothing beats `bcss2` from ", "| evaluations/time, at most |", "\n## ",
+        "](pictures/path_stiff_energy_against_evaluations.svg)",
+        "](pictures/path_stiff_energy_against_seconds.svg)", "\n## All rows\n", "| standard error |"}) {
     at = markdown.find(next, at);
     BOOST_TEST_REQUIRE(at != std::string::npos, "missing, or too early: " << next);
   }

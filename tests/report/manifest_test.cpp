@@ -105,14 +105,17 @@ BOOST_AUTO_TEST_CASE(a_writer_that_never_ends_is_not_waited_for_without_end) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
-  for (const std::string text : {"{\"name\": \"a web page\"}", "[]", "not json", "", "{\"format\": \"nysalt manifest\"}",
-                                 "{\"format\": \"nysalt manifest\", \"version\": 2, \"files\": {}}",
-                                 "{\"format\": \"nysalt manifest\", \"version\": 1, \"files\": []}"}) {
+  for (const std::string text :
+       {"{\"name\": \"a web page\"}", "[]", "not json", "", "{\"format\": \"nysalt manifest\"}",
+        "{\"format\": \"nysalt manifest\", \"version\": 2, \"files\": {}}",
+        "{\"format\": \"nysalt manifest\", \"version\": 1, \"files\": []}"}) {
     const scratch folder("manifest_foreign");
     std::ofstream(folder / "manifest.json") << text;
-    BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "a.csv"); }, {"cannot write", "manifest.json"}));
+    BOOST_TEST(
+        refuses<refusal>([&] { require_manifest(folder / "a.csv"); }, {"cannot write", "manifest.json"}));
     BOOST_TEST(refuses<nysalt::detail::write_failure>(
-        [&] { write_result(folder / "a.csv", "1\n", made_by("first")); }, {"a.csv is whole", "manifest.json"}));
+        [&] { write_result(folder / "a.csv", "1\n", made_by("first")); },
+        {"a.csv is whole", "manifest.json"}));
     BOOST_TEST(contents(folder / "manifest.json") == text);
     BOOST_TEST(contents(folder / "a.csv") == "1\n");
   }
@@ -135,7 +138,7 @@ BOOST_AUTO_TEST_CASE(an_earlier_manifest_of_the_same_file_goes_and_others_stay) 
   write_file(folder / "d.csv.manifest.json", earlier("d.csv"));
   note_input(folder / "d.csv.manifest.json");
   for (const char* name : {"a.csv", "c.csv", "d.csv"}) write_result(folder / name, "1\n", made_by("new"));
-  BOOST_TEST((folder.files() ==
-              std::set<std::string>{"a.csv", "b.csv.manifest.json", "c.csv", "c.csv.manifest.json", "d.csv",
-                                    "d.csv.manifest.json", "manifest.json"}));
+  BOOST_TEST(
+      (folder.files() == std::set<std::string>{"a.csv", "b.csv.manifest.json", "c.csv", "c.csv.manifest.json",
+                                               "d.csv", "d.csv.manifest.json", "manifest.json"}));
 }

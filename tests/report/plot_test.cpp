@@ -123,9 +123,12 @@ BOOST_AUTO_TEST_CASE(of_many_points_some_say_their_values_and_these_are_theirs) 
 
 // Ids are those of one file, and pictures of one page are many.
 BOOST_AUTO_TEST_CASE(ids_begin_with_the_name_and_texts_stay) {
-  const std::string svg = "<svg><defs><path id='gpPt1'/></defs><use xlink:href='#gpPt1' id='x'/><text> id='y' url(#z)</text></svg>";
+  const std::string svg =
+      "<svg><defs><path id='gpPt1'/></defs><use xlink:href='#gpPt1' id='x'/><text> id='y' "
+      "url(#z)</text></svg>";
   BOOST_TEST(finished_svg(svg, {"p", {}}) ==
-             "<svg><defs><path id='p-gpPt1'/></defs><use xlink:href='#p-gpPt1' id='p-x'/><text> id='y' url(#z)</text></svg>");
+             "<svg><defs><path id='p-gpPt1'/></defs><use xlink:href='#p-gpPt1' id='p-x'/><text> id='y' "
+             "url(#z)</text></svg>");
 }
 
 BOOST_AUTO_TEST_CASE(points_that_are_not_finite_leave_a_gap) {

@@ -63,7 +63,8 @@ BOOST_AUTO_TEST_CASE(a_clear_winner_is_named_at_every_cost) {
       BOOST_TEST(one.next->method == "b");
     }
     const std::string text = verdict_of(found, unit);
-    BOOST_TEST(has(text, "Nothing beats `a` from 50 to 400 evaluations: the error of `b` is 3.00 ± 0.08"), text);
+    BOOST_TEST(has(text, "Nothing beats `a` from 50 to 400 evaluations: the error of `b` is 3.00 ± 0.08"),
+               text);
   }
 }
 
@@ -78,27 +79,32 @@ BOOST_AUTO_TEST_CASE(curves_that_cross_have_a_winner_on_either_side) {
     }
     const std::string text = verdict_of(found, unit);
     BOOST_TEST(has(text, "Who is best depends on the cost: `low` "), text);
-    BOOST_TEST(has(text, "(which error bars do not separate) at " + std::to_string(static_cast<int>(at))), text);
+    BOOST_TEST(has(text, "(which error bars do not separate) at " + std::to_string(static_cast<int>(at))),
+               text);
     BOOST_TEST(!has(text, "Nothing beats"), text);
   }
 }
 
 BOOST_AUTO_TEST_CASE(what_error_bars_do_not_separate_is_named_together) {
-  // The logarithm of 1.1 is .095: more than two standard errors of .02 sqrt(2) each, less than of .05 sqrt(2).
+  // The logarithm of 1.1 is .095: more than two standard errors of .02 sqrt(2) each, less than of .05
+  // sqrt(2).
   for (const auto& [bar, is_separated] : {std::pair{0.02, true}, std::pair{0.05, false}}) {
     const auto found =
         best_at_costs(together({method("a", 1.0, 2.0, bar), method("b", 1.1, 2.0, bar)}), 1.01);
     for (const auto& one : found) BOOST_TEST((names(one) == list{"a"}) == is_separated);
     const std::string text = verdict_of(found, unit);
     BOOST_TEST(has(text, "Nothing beats `a`") == is_separated, text);
-    BOOST_TEST(has(text, "No method is known to be better than another from 50 to 400 evaluations: error bars do not "
-                         "separate `a` and `b`.") == !is_separated,
-               text);
+    BOOST_TEST(
+        has(text,
+            "No method is known to be better than another from 50 to 400 evaluations: error bars do not "
+            "separate `a` and `b`.") == !is_separated,
+        text);
   }
 }
 
 BOOST_AUTO_TEST_CASE(two_that_are_equal_and_better_than_the_rest_are_the_best) {
-  const auto found = best_at_costs(together({method("a", 1.0, 2.0), method("b", 1.0, 2.0), method("c", 2.0, 2.0)}), 1.01);
+  const auto found =
+      best_at_costs(together({method("a", 1.0, 2.0), method("b", 1.0, 2.0), method("c", 2.0, 2.0)}), 1.01);
   for (const auto& one : found) {
     BOOST_TEST((names(one) == list{"a", "b"}));
     BOOST_TEST(one.next->method == "c");
@@ -134,7 +140,7 @@ double share_called_better(double bar_of, bool in_groups) {
 }
 
 BOOST_AUTO_TEST_CASE(chance_makes_one_of_two_equal_methods_better_as_seldom_as_two_standard_errors_say) {
-  constexpr double expected = 0.0455;  // beyond two standard deviations
+  constexpr double expected = 0.0455;               // beyond two standard deviations
   constexpr double four_deviations = 4.0 * 0.0033;  // sqrt(.0455 * .9545/4000)
   for (const bool in_groups : {false, true})
     BOOST_TEST(std::abs(share_called_better(1.0, in_groups) - expected) < four_deviations);
@@ -195,7 +201,8 @@ BOOST_AUTO_TEST_CASE(a_method_alone_beats_nothing) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_without_bars_are_said_to_have_none) {
-  const auto found = best_at_costs(together({method("a", 1.0, 2.0, not_a_number), method("b", 1.1, 2.0, not_a_number)}), 1.01);
+  const auto found = best_at_costs(
+      together({method("a", 1.0, 2.0, not_a_number), method("b", 1.1, 2.0, not_a_number)}), 1.01);
   BOOST_TEST((names(found.front()) == list{"a"}));
   BOOST_TEST(has(verdict_of(found, unit), "differences may be chance"));
   const auto with_bars = best_at_costs(together({method("a", 1.0, 2.0), method("b", 2.0, 2.0)}), 1.01);
@@ -230,8 +237,9 @@ BOOST_AUTO_TEST_CASE(costs_are_those_of_the_data) {
 
 BOOST_AUTO_TEST_CASE(a_method_is_taken_at_the_step_where_it_errs_least) {
   // Of the smallest step rounding errs more.
-  const std::vector<rival> all{{"a", 0.1, 10.0, 1.0, 0.01}, {"a", 0.05, 20.0, 0.1, 0.001}, {"a", 0.025, 40.0, 0.5, 0.005},
-                               {"b", 0.1, 10.0, 2.0, 0.01}, {"b", 0.05, 20.0, 0.3, 0.001}, {"b", 0.025, 40.0, 0.2, 0.001}};
+  const std::vector<rival> all{{"a", 0.1, 10.0, 1.0, 0.01},    {"a", 0.05, 20.0, 0.1, 0.001},
+                               {"a", 0.025, 40.0, 0.5, 0.005}, {"b", 0.1, 10.0, 2.0, 0.01},
+                               {"b", 0.05, 20.0, 0.3, 0.001},  {"b", 0.025, 40.0, 0.2, 0.001}};
   const auto found = best_at_costs(all, 1.01);
   BOOST_TEST(found.back().best.front().method == "a");
   BOOST_TEST(found.back().best.front().step == 0.05);

@@ -35,7 +35,8 @@ nlohmann::ordered_json json_of(const finished& done) {
 nlohmann::ordered_json recorded(const std::filesystem::path& file) {
   const auto all =
       nlohmann::ordered_json::parse(contents(file.parent_path() / "manifest.json"), nullptr, false);
-  return all.is_object() ? all.value("files", nlohmann::ordered_json()).value(file.filename().string(), nlohmann::ordered_json())
+  return all.is_object() ? all.value("files", nlohmann::ordered_json())
+                               .value(file.filename().string(), nlohmann::ordered_json())
                          : nlohmann::ordered_json();
 }
 

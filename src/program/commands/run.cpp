@@ -73,8 +73,7 @@ void require_files(const run_command& command) {
   if (command.output.empty()) refuse("--checkpoint needs --output: printed results cannot be continued");
   require_writable(command.checkpoint);
   std::vector<std::string> others{command.method, command.output, manifest_of(command.output)};
-  for (const char* beside : {".part", ".new.part", ".sorted.part"})
-    others.push_back(command.output + beside);
+  for (const char* beside : {".part", ".new.part", ".sorted.part"}) others.push_back(command.output + beside);
   for (const char* kind : {".svg", ".png", ".dat", ".gp"}) {
     if (!command.plot) continue;
     others.push_back(std::filesystem::path(command.output).replace_extension(kind));
