@@ -200,10 +200,9 @@ std::vector<best_at_cost> best_by(const comparison& all, std::size_t m, double (
     }
     ranked.push_back(one);
   }
-  constexpr double of_counts = 1.01;                           // the evaluation of the start
-  constexpr double of_times = 1.05;                            // by which times of rounds differ
-  const std::size_t most = all.metrics().size() == 1 ? 4 : 3;  // the table of all metrics stays small
-  return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times, most);
+  constexpr double of_counts = 1.01;  // the evaluation of the start
+  constexpr double of_times = 1.05;   // by which times of rounds differ
+  return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times);
 }
 
 namespace {

@@ -99,7 +99,7 @@ std::vector<double> distinct_costs(const std::vector<rival>& all, double toleran
 
 }  // namespace
 
-std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance, std::size_t most) {
+std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance) {
   std::vector<rival> sound;
   std::ranges::copy_if(all, std::back_inserter(sound),
                        [](const rival& one) { return std::isfinite(one.cost) && one.cost > 0.0; });
@@ -111,6 +111,10 @@ std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double to
     is_compared = is_compared || are_several;
     found.push_back(best_of(affordable(sound, cost), cost));
   }
+  return found;
+}
+
+std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most) {
   if (found.size() <= most) return found;
   std::vector<best_at_cost> chosen;
   for (std::size_t i = 0; i < most; ++i) {
@@ -170,7 +174,12 @@ std::string words_of(const range_of_costs& range) {
   return fmt::format("from {:.4g} to {:.4g}", range.from, range.to);
 }
 
-/// ": its error is 2.1 ± 0.1 to 9 ± 1 times smaller than that of the next"
+std::string leaders_of(const range_of_costs& range) {
+  if (range.best.empty()) return "none is ranked";
+  return named(range.best) + (range.best.size() > 1 ? " (which error bars do not separate)" : "");
+}
+
+/// ": the error of the next is 2.1 ± 0.1 to 9 ± 1 times larger"
 std::string lead_of(const std::vector<best_at_cost>& found, const std::string& error) {
   std::vector<estimate> ratios;
   std::set<std::string> seconds;
@@ -211,12 +220,14 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
                        words_of(whole), unit, named(found.back().best));
   } else if (is_alone) {
     text = fmt::format("Only {} is ranked: there is no other to compare with.", named(found.back().best));
+  } else if (constexpr std::size_t readable = 4; ranges.size() > readable) {
+    text = fmt::format("Who is best depends on the cost, and changes {} times: {} {}, {} {} {}.",
+                       ranges.size() - 1, leaders_of(ranges.front()), words_of(ranges.front()),
+                       leaders_of(ranges.back()), words_of(ranges.back()), unit);
   } else if (ranges.size() > 1) {
     for (const auto& range : ranges) {
-      text +=
-          fmt::format("{}{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
-                      range.best.empty() ? "none is ranked" : named(range.best),
-                      range.best.size() > 1 ? " (which error bars do not separate)" : "", words_of(range));
+      text += fmt::format("{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
+                          leaders_of(range), words_of(range));
     }
     text += fmt::format(" {}.", unit);
   } else if (ranges.front().best.size() == 1) {

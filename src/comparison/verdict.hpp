@@ -37,11 +37,12 @@ struct best_at_cost {
   bool has_error_bars = true;  // of all that are compared
 };
 
-/// At up to `most` costs, the least and the largest among them, that rivals have. Costs that differ by less
-/// than the factor `tolerance` are one. Where two methods can be afforded at some cost, ranked or not, costs
-/// at which only one can are left out.
-std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance,
-                                        std::size_t most = 4);
+/// At every cost that rivals have; costs that differ by less than the factor `tolerance` are one. Where two
+/// methods can be afforded at some cost, ranked or not, costs at which only one can are left out.
+std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance);
+
+/// Up to `most` of them, the first and the last among these.
+std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most);
 
 /// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit`, such as
 /// "force evaluations per unit time", is that of the costs, `error` what is compared.

@@ -161,7 +161,7 @@ void add_verdict(page& report, const comparison& all) {
     const auto found = best_by(all, m, evaluations_of);
     const std::string sentence = verdict_on(all, m, found) + left_out(all, m);
     report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
-    for (const best_at_cost& one : found) {
+    for (const best_at_cost& one : some_of(found, is_one ? 4 : 3)) {
       if (one.best.empty()) continue;  // the sentence says so
       const rival& first = one.best.front();
       std::vector<std::string> cells{
