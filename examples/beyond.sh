@@ -63,8 +63,8 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
   section "$report" "# " | sed -n '/^```/,/^```/p' | sed -e '/^```/d' -e 's/ --resume//' -e 's/ --output .*//' \
     -e 's/^[^ ]*nysalt/nysalt/' >>"$chapters"
   echo '```' >>"$chapters"
-  say "![$title: against evaluations](beyond/$name/${metric}_against_evaluations.svg)"
-  say "![$title: against seconds](beyond/$name/${metric}_against_seconds.svg)"
+  say "![$title: against evaluations](beyond/$name/pictures/${metric}_against_evaluations.svg)"
+  say "![$title: against seconds](beyond/$name/pictures/${metric}_against_seconds.svg)"
   say "What an error of $level costs ([every row](beyond/$name/rows.csv), by every metric):"
   section "$report" "### The cost of an error of $level" >>"$chapters"
   section "$report" "### The cost of an error of $level" | awk -F ' *[|] *' -v case="$title" -v level="$level" -v one_step="$one_step_cost" '

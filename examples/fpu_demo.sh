@@ -28,5 +28,5 @@ follow verlet verlet 0.02 10
 follow learned "$folder/scheme.json" 0.02 10
 
 echo
-echo "The report: $folder/report.html, report.md, rows.csv. Pictures (.svg and .png) in $folder:"
-echo "path_stiff_energy_against_evaluations, path_stiff_energy_against_seconds, accurate, verlet, learned."
+echo "The report: $folder/report.html, report.md, rows.csv. Its pictures (.svg and .png) are in $folder/pictures,"
+echo "and those of the energies, accurate, verlet and learned, in $folder."

@@ -25,4 +25,4 @@ echo "== The law of the stiff energy, and its autocovariance; the floor is what 
   --trajectories 4000 --range 0,1 --output "$folder/law"
 
 echo
-echo "In $folder/path and law: report.html, report.md, rows.csv, and the pictures (.svg and .png)"
+echo "In $folder/path and law: report.html, report.md, rows.csv; pictures (.svg and .png) in pictures"

@@ -16,8 +16,8 @@ with h5py.File("out.h5") as run:
     print(f"{run.attrs['method']}, step {run.attrs['step']}, omega {omega}, seed {run.attrs['seed']}")
 
 values = np.load("out.npy", mmap_mode="r")  # trajectories x samples x observables
-with open("out.npy.manifest.json") as manifest:
-    names = json.load(manifest)["observables"]
+with open("manifest.json") as manifest:     # of the folder: an entry for each file
+    names = json.load(manifest)["files"]["out.npy"]["observables"]
 q1 = values[:, :, names.index("q1")]
 print(f"mean energy {at_the_end[is_whole].mean():.3f} and q1 {np.nanmean(q1[:, -1]):.3f} at t = {t[-1]:.2f}")
 # [/docs]

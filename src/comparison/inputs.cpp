@@ -30,9 +30,13 @@ void note_input(const std::filesystem::path& file) {
   all().insert(whole(file));
 }
 
-void require_no_input(const std::filesystem::path& output) {
+bool is_input(const std::filesystem::path& file) {
   const std::lock_guard lock(guard);
-  if (!all().contains(whole(output))) return;
+  return all().contains(whole(file));
+}
+
+void require_no_input(const std::filesystem::path& output) {
+  if (!is_input(output)) return;
   refuse("cannot write {}: it was read as input; name another file", output.string());
 }
 

@@ -9,6 +9,9 @@ namespace nysalt::program {
 /// Notes a file that was read. Thread-safe.
 void note_input(const std::filesystem::path& file);
 
+/// Whether the path leads to a file that was read.
+bool is_input(const std::filesystem::path& file);
+
 /// Throws refusal if the path leads to a file that was read.
 void require_no_input(const std::filesystem::path& output);
 

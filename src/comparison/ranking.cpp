@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "nysalt/analysis/pareto_front.hpp"
@@ -78,6 +79,16 @@ bool has_tail(const measurement& one) { return one.spread && one.spread->largest
 double error_of(const comparison& all, std::size_t m, const row& line) {
   const double value = ranked_value(all, m, line).mean;
   return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
+}
+
+rival rival_of(const comparison& all, std::size_t m, const row& line) {
+  rival result{.method = line.method,
+               .step = line.nominal,
+               .cost = line.evaluations_per_time,
+               .error = error_of(all, m, line),
+               .standard_error = ranked_value(all, m, line).standard_error};
+  if (!is_by_median(all, m)) result.groups = line.measurements[m].groups;
+  return result;
 }
 
 }  // namespace
@@ -156,23 +167,7 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
 }
 
 estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
-  const double learned = error_of(all, m, *pair.learned);
-  const double best = error_of(all, m, *pair.best);
-  if (learned == 0.0 || best == 0.0) return {};
-  const double ratio = best / learned;
-  const auto& a = pair.best->measurements[m].groups;
-  const auto& b = pair.learned->measurements[m].groups;
-  if (is_by_median(all, m) || a.empty() || a.size() != b.size()) {
-    const double of_best = ranked_value(all, m, *pair.best).standard_error / best;
-    const double of_learned = ranked_value(all, m, *pair.learned).standard_error / learned;
-    return {ratio, ratio * std::hypot(of_best, of_learned)};
-  }
-  // d ln(best/learned) = d best/best - d learned/learned: acceptances and rejections move by as much.
-  std::vector<double> in_best;
-  std::vector<double> in_learned;
-  for (const double x : a) in_best.push_back(x / best);
-  for (const double x : b) in_learned.push_back(x / learned);
-  return {ratio, ratio * paired_difference(in_best, in_learned).standard_error};
+  return error_ratio(rival_of(all, m, *pair.best), rival_of(all, m, *pair.learned));
 }
 
 double evaluations_of(const row& line) { return line.evaluations_per_time; }
@@ -190,6 +185,24 @@ std::vector<const row*> pareto_front(const comparison& all, std::size_t m, doubl
   std::vector<const row*> front;
   for (const std::size_t i : nysalt::pareto_front(points)) front.push_back(ranked[i]);
   return front;
+}
+
+std::vector<best_at_cost> best_by(const comparison& all, std::size_t m, double (*cost)(const row&)) {
+  const bool is_by_step = all.options().equal_cost && cost == evaluations_of;
+  std::vector<rival> ranked;
+  for (const row& line : all.rows()) {
+    rival one = rival_of(all, m, line);
+    one.error = is_ranked(all, m, line) ? std::max(one.error, baseline_of(all, m, line).floor.value_or(0.0))
+                                        : std::numeric_limits<double>::quiet_NaN();
+    one.cost = cost(line);
+    for (const row& other : all.rows()) {  // a run of a few steps may cost one evaluation more
+      if (is_by_step && other.nominal == line.nominal) one.cost = std::max(one.cost, cost(other));
+    }
+    ranked.push_back(one);
+  }
+  constexpr double of_counts = 1.01;  // the evaluation of the start
+  constexpr double of_times = 1.05;   // by which times of rounds differ
+  return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times);
 }
 
 namespace {

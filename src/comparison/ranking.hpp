@@ -8,6 +8,7 @@
 
 #include "comparison.hpp"
 #include "nysalt/analysis/threshold.hpp"
+#include "verdict.hpp"
 
 namespace nysalt::program {
 
@@ -62,6 +63,9 @@ estimate gain(const comparison& all, std::size_t metric, const at_equal_cost& pa
 std::vector<const row*> pareto_front(const comparison& all, std::size_t metric, double (*cost)(const row&));
 double evaluations_of(const row& line);
 double seconds_of(const row& line);
+
+/// The ranked rows with the least errors at costs that the rows span; errors below the floor are ties.
+std::vector<best_at_cost> best_by(const comparison& all, std::size_t metric, double (*cost)(const row&));
 
 /// The costs at which a method's error comes to a level, in evaluations and in seconds a unit of time.
 struct cost_at_level {

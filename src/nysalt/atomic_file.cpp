@@ -35,6 +35,11 @@ namespace {
   throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
 }
 
+[[noreturn]] void another_writes(const std::filesystem::path& file) {
+  throw file_in_use(fmt::format(
+      "cannot write {}: another process writes it; wait for that, or name another file", file.string()));
+}
+
 [[noreturn]] void failed_to_write(const std::filesystem::path& file) {
   throw write_failure(
       fmt::format("cannot write {}: is the folder there, writable, and not full?", file.string()));
@@ -59,7 +64,7 @@ void remove_left(const std::filesystem::path& part, const std::filesystem::path&
   if (left >= 0) close(left);
   if (!is_file)
     cannot_write(target, fmt::format("{} exists and is not a regular file; remove it", part.string()));
-  if (!is_free) cannot_write(target, "another process writes it; wait for that, or name another file");
+  if (!is_free) another_writes(target);
 }
 
 }  // namespace
@@ -76,7 +81,7 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
     if (errno != EEXIST) failed_to_write(target);
     remove_left(part, target);
   }
-  cannot_write(target, "another process writes it; wait for that, or name another file");
+  another_writes(target);
 }
 
 std::filesystem::path behind_links(const std::filesystem::path& file) {

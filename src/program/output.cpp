@@ -58,15 +58,13 @@ void require_writable(const std::filesystem::path& named) {
     refuse("cannot write {}: it is not a regular file; name another, or leave out --output", named.string());
   }
   const fs::path file = nysalt::detail::behind_links(named);
-  for (const fs::path& path : {file, manifest_of(named)}) {
-    require_no_input(path);
-    require_room_for_name(path);
-    if (fs::is_directory(path, ignored)) {
-      refuse("cannot write {}: it is a folder; name another file", path.string());
-    }
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-      refuse("cannot write {}: it is not a regular file; name another, or leave out --output", path.string());
-    }
+  require_no_input(file);
+  require_room_for_name(file);
+  if (fs::is_directory(file, ignored)) {
+    refuse("cannot write {}: it is a folder; name another file", file.string());
+  }
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+    refuse("cannot write {}: it is not a regular file; name another, or leave out --output", file.string());
   }
   const fs::path folder = folder_of(file);
   if (!fs::is_directory(folder, ignored)) {
@@ -75,6 +73,11 @@ void require_writable(const std::filesystem::path& named) {
   if (access(folder.c_str(), W_OK) != 0) {
     refuse("cannot write {}: the folder {} is not writable", file.string(), folder.string());
   }
+}
+
+void require_result(const std::filesystem::path& file) {
+  require_writable(file);
+  require_manifest(file);
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -88,7 +91,7 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 void require_table(const std::string& output, bool plot, const std::string& method) {
   if (plot && output.empty()) refuse("--plot needs --output: the picture goes beside it");
   if (output.empty()) return;
-  require_writable(output);
+  require_result(output);
   if (!method.empty() && is_same_file(method, output)) {
     refuse("--output {} is the file of the method: name another", output);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Results on their way out: standard output, files, and the manifests beside them.
+// Results on their way out: standard output, files, and manifests of their folders.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,9 @@ void print(std::string_view text);
 
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
+
+/// The same of a result, which is recorded in the manifest of its folder.
+void require_result(const std::filesystem::path& file);
 
 /// Whether two paths lead to one file, be it there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -12,6 +12,8 @@
 #include "comparison/method_source.hpp"
 #include "comparison/refusal.hpp"
 #include "recorded_options.hpp"
+#include "report/manifest.hpp"
+#include "settings.hpp"
 
 namespace nysalt::program {
 
@@ -65,32 +67,45 @@ cited_setup setup_of(const recorded_options& given) {
   return setup;
 }
 
-/// A file is searched beside the manifest first, as results and schemes are often kept together.
-std::string found_beside(const fs::path& manifest, const std::string& method) {
-  const fs::path beside = manifest.parent_path() / method;
+/// A file is searched beside the result first, as results and schemes are often kept together.
+std::string found_beside(const fs::path& result, const std::string& method) {
+  const fs::path beside = result.parent_path() / method;
   return is_file(beside) ? beside.string() : method;
 }
 
-/// The result is read too if it is a scheme.
-void add_manifest(const fs::path& path, const fs::path& result, std::vector<cited_setup>& to) {
-  std::ifstream stream(path);
-  const json manifest = json::parse(stream, nullptr, false);
-  if (!manifest.is_object() || !manifest.contains("options") || !manifest["options"].is_string()) {
+/// Adds what made a result, by its entry in a manifest; the result is read too if it is a scheme.
+void add_entry(const json& entry, const fs::path& result, std::vector<cited_setup>& to) {
+  if (!entry.is_object() || !entry.contains("options") || !entry["options"].is_string()) {
     refuse("this is not a manifest of nysalt");
   }
-  const recorded_options given(manifest["options"].get<std::string>());
+  const recorded_options given(entry["options"].get<std::string>());
   const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability", "export"};
   if (std::ranges::find(known, given.command()) == known.end()) {
     refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));
   }
   std::vector<cited_setup> setups{setup_of(given)};
   for (const char* option : {"method", "methods", "METHOD"}) {
-    for (const auto& method : given.of(option)) add_method(found_beside(path, method), setups);
+    for (const auto& method : given.of(option)) add_method(found_beside(result, method), setups);
   }
   const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";
   if (writes_schemes && is_file(result)) add_method(result.string(), setups);
   citations_for(setups);  // what has no name is refused here, where the file is known
   to.insert(to.end(), setups.begin(), setups.end());
+}
+
+/// The same; what is refused names the manifest.
+void add_entry(const json& entry, const fs::path& result, const fs::path& manifest,
+               std::vector<cited_setup>& to) {
+  try {
+    add_entry(entry, result, to);
+  } catch (const std::exception& problem) {  // also what the options cannot be read by
+    refuse("{}, {}: {}", manifest.string(), result.filename().string(), problem.what());
+  }
+}
+
+json parsed(const fs::path& file) {
+  std::ifstream stream(file);
+  return json::parse(stream, nullptr, false);
 }
 
 }  // namespace
@@ -115,24 +130,30 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
 }
 
 void add_file(const std::string& file, std::vector<cited_setup>& to) {
-  constexpr std::string_view ending = ".manifest.json";
+  constexpr std::string_view earlier_ending = ".manifest.json";
   std::error_code ignored;
   fs::path path(file);
   if (fs::is_directory(path, ignored)) path /= "report.json";
   if (!path.has_parent_path()) path = "." / path;  // a file, even if a method has the same name
-  if (file.ends_with(ending)) path.replace_extension().replace_extension();
-  const fs::path manifest = path.string().append(ending);
-  if (!is_file(path) && !is_file(manifest)) {
-    refuse("{}: there is no such file, and no report in a folder of that name", file);
-  }
-  if (!is_file(manifest)) {
-    add_method(path.string(), to);
+  const fs::path manifest = manifest_of(path);
+  const json entries = is_file(manifest) ? entries_in(manifest) : json();
+  if (path.filename() == manifest.filename() && entries.is_object()) {
+    for (const auto& [name, entry] : entries.items()) {
+      add_entry(entry, path.parent_path() / name, manifest, to);
+    }
     return;
   }
-  try {
-    add_manifest(manifest, path, to);
-  } catch (const std::exception& problem) {  // also what the options cannot be read by
-    refuse("{}: {}", manifest.string(), problem.what());
+  if (file.ends_with(earlier_ending)) path.replace_extension().replace_extension();
+  const fs::path earlier = earlier_manifest_of(path);
+  const std::string name = path.filename().string();
+  if (entries.contains(name) && !file.ends_with(earlier_ending)) {
+    add_entry(entries[name], path, manifest, to);
+  } else if (is_file(earlier)) {
+    add_entry(parsed(earlier), path, earlier, to);
+  } else if (is_file(path)) {
+    add_method(path.string(), to);
+  } else {
+    refuse("{}: there is no such file, and no report in a folder of that name", file);
   }
 }
 

@@ -88,6 +88,30 @@ json crossing_json(const threshold_crossing& crossing) {
           {"standard_error", number(crossing.standard_error)}};
 }
 
+json best_json(const comparison& all, std::size_t m) {
+  json result = json::array();
+  for (const best_at_cost& one : best_by(all, m, evaluations_of)) {
+    const auto named_at = [](const rival& method) {
+      return json{{"method", method.method}, {"step", method.step}};
+    };
+    json best = json::array();
+    for (const rival& method : one.best) best.push_back(named_at(method));
+    json at{{"evaluations_per_time", one.cost},
+            {"best", best},
+            {"next", nullptr},
+            {"ratio", nullptr},
+            {"standard_error", nullptr}};
+    if (one.next) {
+      const estimate ratio = error_ratio(*one.next, one.best.front());
+      at["next"] = named_at(*one.next);
+      at["ratio"] = number(ratio.mean);
+      at["standard_error"] = number(ratio.standard_error);
+    }
+    result.push_back(at);
+  }
+  return result;
+}
+
 json rankings_json(const comparison& all) {
   json result = json::array();
   const auto named = [](const std::vector<const row*>& rows) {
@@ -109,6 +133,8 @@ json rankings_json(const comparison& all) {
     }
     result.push_back({{"metric", all.metrics()[m].text()},
                       {"ranked_by", is_by_median(all, m) ? "median" : "mean"},
+                      {"verdict", plain_verdict(all, m)},
+                      {"best_at_costs", best_json(all, m)},
                       {"front_by_evaluations", named(pareto_front(all, m, evaluations_of))},
                       {"front_by_seconds", named(pareto_front(all, m, seconds_of))},
                       {"levels", levels}});

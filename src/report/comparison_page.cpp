@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
+#include <set>
+#include <utility>
 
 #include "build_info.hpp"
 #include "comparison/catalogue.hpp"
@@ -31,6 +34,22 @@ void add_question(page& report, const comparison& all) {
         "steps are equal cost.");
   }
   if (!all.common().command.empty()) report.code(all.common().command);
+}
+
+std::string with_capital(std::string title) {
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  return title;
+}
+
+std::string listed_plainly(const std::vector<rival>& methods) {
+  std::string text = named(methods);
+  std::erase(text, '`');
+  return text;
+}
+
+std::vector<best_at_cost> in_nanoseconds(std::vector<best_at_cost> costs) {
+  for (auto& one : costs) one.cost *= 1e9;
+  return costs;
 }
 
 std::string listed_front(const std::vector<const row*>& front) {
@@ -100,6 +119,67 @@ table level_table(const comparison& all, std::size_t m, double level) {
   return result;
 }
 
+/// By evaluations, and by seconds where these have others at the head.
+std::string verdict_on(const comparison& all, std::size_t m, const std::vector<best_at_cost>& found) {
+  std::string text = verdict_by_evaluations(all, m);
+  const auto in_seconds = best_by(all, m, seconds_of);
+  const auto leaders = [](const std::vector<best_at_cost>& costs) {
+    std::set<std::string> names;
+    for (const auto& one : costs) {
+      for (const rival& best : one.best) names.insert(best.method);
+    }
+    return names;
+  };
+  if (leaders(found) != leaders(in_seconds)) {
+    text +=
+        " In seconds: " + verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
+  }
+  return text;
+}
+
+/// Methods without any ranked row, and why.
+std::string left_out(const comparison& all, std::size_t m) {
+  std::string text;
+  for (const auto& method : all.options().methods) {
+    const auto is_of_it = [&](const row& line) { return line.method == method; };
+    const auto is_ranked_row = [&](const row& line) { return is_of_it(line) && is_ranked(all, m, line); };
+    const auto first = std::ranges::find_if(all.rows(), is_of_it);
+    if (first == all.rows().end() || std::ranges::any_of(all.rows(), is_ranked_row)) continue;
+    const std::string marks = joined_marks(all, m, *first);
+    text += fmt::format("{}`{}` ({})", text.empty() ? "" : ", ", method, marks.empty() ? "no value" : marks);
+  }
+  return text.empty() ? text : fmt::format(" Not ranked at any step: {}.", text);
+}
+
+/// The verdict of each metric in a sentence, and of all in one table.
+void add_verdict(page& report, const comparison& all) {
+  const bool is_one = all.metrics().size() == 1;
+  std::vector<std::string> names{"evaluations/time, at most", "best", "step", "error", "next", "next / best"};
+  if (!is_one) names.insert(names.begin(), "metric");
+  table best(names, is_one ? 2 : 3);
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    const auto found = best_by(all, m, evaluations_of);
+    const std::string sentence = verdict_on(all, m, found) + left_out(all, m);
+    report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
+    for (const best_at_cost& one : some_of(found, is_one ? 4 : 3)) {
+      if (one.best.empty()) continue;  // the sentence says so
+      const rival& first = one.best.front();
+      std::vector<std::string> cells{
+          fmt::format("{:.4g}", one.cost),
+          listed_plainly(one.best) + (one.best.size() > 1 ? " (not separated)" : ""),
+          fmt::format("{:g}", first.step),
+          std::isnan(first.standard_error)
+              ? fmt::format("{:.2e}", first.error)
+              : fmt::format("{:.2e} ± {:.0e}", first.error, first.standard_error),
+          one.next ? one.next->method : "-",
+          one.next ? with_error(error_ratio(*one.next, first)) : "-"};
+      if (!is_one) cells.insert(cells.begin(), quantity(all, m));
+      best.add(std::move(cells));
+    }
+  }
+  if (!best.empty()) report.table(std::move(best));
+}
+
 void add_ranking(page& report, const comparison& all, std::size_t m) {
   const bool is_ranked_at_all =
       std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
@@ -125,9 +205,7 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
 }
 
 void add_metric(page& report, const comparison& all, std::size_t m) {
-  std::string title = quantity(all, m);
-  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
-  report.heading(title);
+  report.heading(with_capital(quantity(all, m)));
   for (auto& picture : pictures_of_errors(all, m)) {
     const std::string caption = (is_by_median(all, m) ? "median " : "") + quantity(all, m) + " against " +
                                 picture.panels.front().x_label +
@@ -138,18 +216,26 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
     report.text(fmt::format("{} of {} methods are drawn: the cheapest of both kinds.", drawn,
                             all.options().methods.size()));
   }
-  report.table(rows_of(all, m));
-  std::vector<std::string> sentences = meanings_of_marks(all, m);
-  for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
-  if (!sentences.empty()) report.list(sentences);
-  if (table against = baselines_of(all, m); !against.empty()) {
-    report.subheading("What they are seen against");
-    report.table(std::move(against));
-  }
-  add_ranking(report, all, m);
   for (auto& picture : pictures_of_laws(all, m)) {
     const std::string caption = quantity(all, m) + ", " + picture.panels.front().title;
     report.picture(std::move(picture), caption);
+  }
+  add_ranking(report, all, m);
+}
+
+/// Every row, and what it is seen against.
+void add_rows(page& report, const comparison& all) {
+  report.heading("All rows");
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    report.subheading(with_capital(quantity(all, m)));
+    report.table(rows_of(all, m));
+    std::vector<std::string> sentences = meanings_of_marks(all, m);
+    for (const auto& text : reasons_of(all, m)) sentences.push_back(text);
+    if (!sentences.empty()) report.list(sentences);
+    if (table against = baselines_of(all, m); !against.empty()) {
+      report.subheading("What they are seen against");
+      report.table(std::move(against));
+    }
   }
 }
 
@@ -226,9 +312,11 @@ void add_files(page& report, const comparison& all) {
 
 page report_of(const comparison& all) {
   page report("Speed against error: " + all.system().description());
+  add_verdict(report, all);
   add_question(report, all);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) add_metric(report, all, m);
   add_energies(report, all);
+  add_rows(report, all);
   add_fits(report, all);
   add_files(report, all);
   report.heading("How it was measured");
@@ -261,17 +349,26 @@ page report_of(const comparison& all) {
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder) {
   std::vector<std::string> warnings;
   const page report = report_of(all);
+  const auto pictures = folder / folder_of_pictures;
+  std::filesystem::create_directories(pictures);
   for (const figure& picture : report.figures()) {
-    if (auto warning = write_pictures(picture, folder, all.common()); !warning.empty()) {
+    if (auto warning = write_pictures(picture, pictures, all.common()); !warning.empty()) {
       warnings.push_back(std::move(warning));
     }
   }
-  write_result(folder / "rows.csv", csv_of(all), all.common());
   json document = document_of(all);
   document["question"] = all.question();
-  write_result(folder / "report.json", text_of(document), all.common());
-  write_result(folder / "report.md", report.markdown(), all.common());
-  write_result(folder / "report.html", report.html(folder), all.common());
+  const std::vector<std::pair<const char*, std::string>> texts{
+      {"rows.csv", csv_of(all)},
+      {"report.json", text_of(document)},
+      {"report.md", report.markdown(folder_of_pictures)},
+      {"report.html", report.html(pictures)}};
+  std::vector<std::filesystem::path> files;
+  for (const auto& [name, text] : texts) {
+    files.push_back(folder / name);
+    write_unrecorded(files.back(), text);
+  }
+  record_results(files, all.common());
   return warnings;
 }
 

@@ -13,7 +13,10 @@ namespace nysalt::program {
 /// The results of a comparison for machines, and for people.
 json document_of(const comparison& all);
 std::string readable(const comparison& all);
-/// Report, table and pictures in a folder. Returns warnings of pictures that could not be drawn.
+/// In the folder of a report.
+constexpr const char* folder_of_pictures = "pictures";
+/// Report and tables in a folder, and pictures in one below. Returns warnings of pictures that could not be
+/// drawn.
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);
 /// Every row by every metric.
 std::string csv_of(const comparison& all);

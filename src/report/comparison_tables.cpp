@@ -28,6 +28,21 @@ std::string quantity(const comparison& all, std::size_t m) {
   return metric.name + " error";
 }
 
+std::string errors_compared(const comparison& all, std::size_t m) {
+  return all.metrics()[m].is_acceptance() ? "rejection rate" : "error";
+}
+
+std::string verdict_by_evaluations(const comparison& all, std::size_t m) {
+  return verdict_of(best_by(all, m, evaluations_of), "force evaluations per unit time",
+                    errors_compared(all, m));
+}
+
+std::string plain_verdict(const comparison& all, std::size_t m) {
+  std::string text = verdict_by_evaluations(all, m);
+  std::erase(text, '`');
+  return text;
+}
+
 namespace {
 
 std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
@@ -163,14 +178,6 @@ table baselines_of(const comparison& all, std::size_t m) {
                 is_of_law ? shown(worst.floor) : horizon});
   }
   return result;
-}
-
-/// To the first digit of the error: 125 ± 10, 48.4 ± 0.5.
-std::string with_error(const estimate& value) {
-  if (std::isnan(value.mean)) return "-";
-  if (!(value.standard_error > 0.0)) return fmt::format("{:.4g}", value.mean);
-  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(value.standard_error))));
-  return fmt::format("{0:.{2}f} ± {1:.{2}f}", value.mean, value.standard_error, decimals);
 }
 
 table equal_cost_table(const comparison& all, std::size_t m) {

@@ -18,13 +18,19 @@ std::int64_t peak_memory();
 /// The label of the values of a metric, on axes.
 std::string quantity(const comparison& all, std::size_t metric);
 
+/// What errors of a metric are called in sentences.
+std::string errors_compared(const comparison& all, std::size_t metric);
+/// Who is best at which cost in evaluations, in a sentence or two; names are between backquotes.
+std::string verdict_by_evaluations(const comparison& all, std::size_t metric);
+/// The same without backquotes.
+std::string plain_verdict(const comparison& all, std::size_t metric);
+
 /// The marks of a finding, joined by commas.
 std::string joined_marks(const comparison& all, std::size_t metric, const row& line);
 
 /// The rows of a metric, and what costs nothing: null model and floor.
 table rows_of(const comparison& all, std::size_t metric);
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);
-std::string with_error(const estimate& value);
 /// Reference, null model and floor or horizon, over the steps that share a reference.
 table baselines_of(const comparison& all, std::size_t metric);
 table equal_cost_table(const comparison& all, std::size_t metric);

@@ -8,16 +8,130 @@
 #include <Eigen/Core>
 #include <boost/version.hpp>
 #include <ctime>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
 
 #include "build_info.hpp"
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "write_file.hpp"
 
 namespace nysalt::program {
 
-std::filesystem::path manifest_of(std::filesystem::path file) { return file += ".manifest.json"; }
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* name_of_manifest = "manifest.json";
+constexpr const char* format_of_manifest = "nysalt manifest";
+constexpr int version_of_manifest = 1;
+
+json parsed(const fs::path& file) {
+  std::ifstream stream(file);
+  return json::parse(stream, nullptr, false);
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+std::string is_foreign(const fs::path& manifest) {
+  return fmt::format("{} is no manifest of this version of nysalt", manifest.string());
+}
+
+/// The manifest for writing, when no other process writes it.
+std::unique_ptr<atomic_file> locked(const fs::path& manifest, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds between_attempts(5);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    try {
+      return std::make_unique<atomic_file>(manifest);
+    } catch (const nysalt::detail::file_in_use&) {
+      if (std::chrono::steady_clock::now() > end) throw;
+    }
+    std::this_thread::sleep_for(between_attempts);
+  }
+}
+
+/// What an earlier version recorded of the file that was there before would contradict the new entry.
+void remove_earlier(const fs::path& file) {
+  const fs::path earlier = earlier_manifest_of(file);
+  if (!is_there(earlier)) return;
+  const json found = parsed(earlier);
+  const bool is_of_file = found.is_object() && found.contains("options") && found.contains("versions") &&
+                          found.value("file", json()) == file.filename().string();
+  std::error_code ignored;
+  if (is_of_file && !is_input(earlier)) fs::remove(earlier, ignored);
+}
+
+json entry_for(const common_settings& common) {
+  return {{"command", common.command},
+          {"options", common.options},
+          {"seed", common.seed},
+          {"versions", versions()},
+          {"compiler", compiler},
+          {"flags", compiler_flags},
+          {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+}
+
+/// The entries that are there are read only once no other process can change them.
+void add_entries(const fs::path& manifest, const std::vector<fs::path>& files, const json& entry,
+                 std::chrono::milliseconds patience) {
+  const auto file = locked(manifest, patience);
+  json all{{"format", format_of_manifest}, {"version", version_of_manifest}, {"files", json::object()}};
+  if (is_there(manifest)) {
+    all["files"] = entries_in(manifest);
+    if (all["files"].is_null()) throw std::runtime_error(is_foreign(manifest));
+  }
+  for (const auto& path : files) {
+    json whole{{"file", path.filename().string()}};
+    whole.update(entry);
+    all["files"][path.filename().string()] = whole;
+  }
+  file->write(program::text_of(all));
+  file->commit(true);
+}
+
+}  // namespace
+
+fs::path manifest_of(const fs::path& file) { return file.parent_path() / name_of_manifest; }
+
+fs::path earlier_manifest_of(fs::path file) { return file += ".manifest.json"; }
+
+json entries_in(const fs::path& manifest) {
+  const json found = parsed(manifest);
+  if (!found.is_object() || found.value("format", json()) != format_of_manifest) return {};
+  if (found.value("version", json()) != version_of_manifest) return {};
+  const json files = found.value("files", json());
+  return files.is_object() ? files : json();
+}
+
+void require_manifest(const fs::path& file) {
+  const fs::path manifest = manifest_of(file);
+  if (file.filename() == name_of_manifest) {
+    refuse("cannot write {}: the folder's record of how its files were made has that name; take another",
+           file.string());
+  }
+  require_no_input(manifest);
+  std::error_code ignored;
+  if (fs::is_directory(manifest, ignored)) {
+    refuse(
+        "cannot write {}: it is a folder, and a record of how {} is made goes there; name a file elsewhere",
+        manifest.string(), file.string());
+  }
+  if (!is_there(manifest)) return;
+  if (!fs::is_regular_file(manifest, ignored) || entries_in(manifest).is_null()) {
+    refuse(
+        "cannot write {}: {}, where a record of how the file is made would go; name a file in another folder",
+        file.string(), is_foreign(manifest));
+  }
+}
 
 json versions() {
   const auto eigen = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
@@ -32,40 +146,41 @@ json versions() {
           {"fmt", of_fmt}};
 }
 
-void write_manifest(const std::filesystem::path& file, const common_settings& common, const json& more) {
-  if (common.command.empty()) return;
-  json manifest{{"file", file.filename().string()},
-                {"command", common.command},
-                {"options", common.options},
-                {"seed", common.seed},
-                {"versions", versions()},
-                {"compiler", compiler},
-                {"flags", compiler_flags},
-                {"time", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-  if (!more.is_null()) manifest.update(more);
-  require_no_input(manifest_of(file));
+void record_results(const std::vector<fs::path>& files, const common_settings& common, const json& more,
+                    std::chrono::milliseconds patience) {
+  if (common.command.empty() || files.empty()) return;
+  const fs::path manifest = manifest_of(files.front());
+  require_no_input(manifest);
+  json entry = entry_for(common);
+  if (!more.is_null()) entry.update(more);
   try {
-    write_file(manifest_of(file), text_of(manifest));
+    add_entries(manifest, files, entry, patience);
   } catch (const std::runtime_error& problem) {
+    const std::string others = files.size() == 1 ? " is" : fmt::format(" and {} more are", files.size() - 1);
     throw nysalt::detail::write_failure(
-        message("{} is whole, but not the manifest: {}", file.string(), problem.what()));
+        message("{}{} whole, but not the manifest: {}", files.front().string(), others, problem.what()));
   }
+  for (const auto& path : files) remove_earlier(path);
 }
 
-void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common) {
+void write_unrecorded(const fs::path& file, std::string_view text) {
   require_no_input(file);
   write_file(file, text);
-  write_manifest(file, common);
 }
 
-std::string write_pictures(const figure& picture, const std::filesystem::path& folder,
-                           const common_settings& common) {
+void write_result(const fs::path& file, std::string_view text, const common_settings& common) {
+  write_unrecorded(file, text);
+  record_results({file}, common);
+}
+
+std::string write_pictures(const figure& picture, const fs::path& folder, const common_settings& common) {
   if (!draw(picture, folder)) {
     return fmt::format("gnuplot could not draw {}: is it installed? The script and the data are there",
                        picture.name);
   }
-  for (const char* kind : {".svg", ".png", ".gp", ".dat"})
-    write_manifest(folder / (picture.name + kind), common);
+  std::vector<fs::path> files;
+  for (const char* kind : {".svg", ".png", ".gp", ".dat"}) files.push_back(folder / (picture.name + kind));
+  record_results(files, common);
   return {};
 }
 

@@ -10,15 +10,20 @@
 #include <vector>
 
 #include "escaped.hpp"
-#include "inline_svg.hpp"
+#include "page_script.hpp"
 #include "plain_words.hpp"
+#include "svg.hpp"
 
 namespace nysalt {
 
 namespace {
 
-/// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves; on paper no
-/// picture and no row breaks.
+/// Nothing may be fetched, from wherever.
+constexpr std::string_view page_policy =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves. On paper no picture
+/// and no row breaks, a table that goes on has its head again, and there are no controls.
 constexpr std::string_view page_style = R"(
 body{font:16px/1.55 system-ui,sans-serif;color:#222;background:#fff}
 body{max-width:68rem;margin:2rem auto;padding:0 1rem}
@@ -36,19 +41,36 @@ pre{padding:.7rem;overflow-x:auto}
 pre code{padding:0}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
-th,td{padding:.2rem .7rem;text-align:left;white-space:nowrap;border-bottom:1px solid #e5e5e5}
-th{border-bottom:2px solid #bbb}
-th.n,td.n{text-align:right}
+th,td{padding:.2rem .7rem;text-align:left;border-bottom:1px solid #e5e5e5}
+th{border-bottom:2px solid #bbb;white-space:nowrap}
+th.n,td.n{text-align:right;white-space:nowrap}
+th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer;text-align:inherit}
+th button::after{content:"\2195";color:#999;padding-left:.25em}
+th[aria-sort=ascending] button::after{content:"\2191";color:inherit}
+th[aria-sort=descending] button::after{content:"\2193";color:inherit}
+button:focus-visible,input:focus-visible{outline:2px solid #0b5394;outline-offset:2px}
+.filter{margin:.6rem 0}
+.filter input{font:inherit;padding:.1rem .4rem;border:1px solid #888;border-radius:3px;max-width:60vw}
+.filter output{color:#555}
 figure{margin:1.5rem 0}
 figure svg{display:block;max-width:100%;height:auto}
 figcaption{color:#444;font-size:.92rem}
+figure svg *{pointer-events:none}
+figure svg .point *{pointer-events:all}
+.point:hover use{opacity:.25}
+.value{position:fixed;max-width:90vw;background:#222;color:#fff;font-size:.85rem;padding:.2rem .5rem}
+.value{border-radius:3px;pointer-events:none}
 .missing{color:#777;font-style:italic}
 @media print{
-body{max-width:none;margin:0;font-size:11pt}
-figure,tr{break-inside:avoid}
+body{max-width:none;margin:0;padding:0;font-size:10pt}
+figure,tr,pre{break-inside:avoid}
+nav,.value,.filter label{display:none}
+th button::after{content:none}
+thead{display:table-header-group}
+table{font-size:8pt}
 h1,h2,h3{break-after:avoid}
 .scroll{overflow:visible}
-th,td{white-space:normal}
+th,td,th.n,td.n{white-space:normal;padding:.15rem .35rem}
 a{color:inherit}
 }
 )";
@@ -104,20 +126,21 @@ struct html_of_block {
     return fmt::format("<pre><code>{}</code></pre>\n", html_escaped(code.text));
   }
   std::string operator()(const picture_block& picture) const {
-    std::string drawn =
-        inline_svg(pictures / (picture.name + ".svg"), picture.name, html_plain(picture.caption));
+    std::string drawn = svg_element(pictures / (picture.name + ".svg"));
     if (drawn.empty()) {
       drawn = fmt::format(
           "<p class=\"missing\">The picture {0} is missing, as gnuplot is not there or failed: "
           "<code>{0}.gp</code> and <code>{0}.dat</code> draw it later.</p>",
           picture.name);
     }
-    return fmt::format("<figure>\n{}\n<figcaption>{}</figcaption>\n</figure>\n", drawn,
-                       html_sentence(picture.caption));
+    return fmt::format(
+        "<figure>\n<div role=\"img\" "
+        "aria-label=\"{}\">\n{}\n</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        html_plain(picture.caption), drawn, html_sentence(picture.caption));
   }
 };
 
-/// The contents at the top of a page of more than three sections.
+/// The contents of a page of more than three sections.
 std::string html_contents(const std::vector<page_block>& blocks) {
   std::string items;
   int headings = 0;
@@ -140,12 +163,16 @@ std::string page_html(const std::string& title, const std::vector<page_block>& b
   std::string result = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-      html_plain(title), page_style, html_sentence(title));
-  result += html_contents(blocks);
+      page_policy, html_plain(title), page_style, html_sentence(title));
   html_of_block write{pictures};
-  for (const auto& block : blocks) result += std::visit(write, block);
-  return result + "</body>\n</html>\n";
+  for (const auto& block : blocks) {
+    const bool begins_sections = std::holds_alternative<heading_block>(block) && write.headings == 0;
+    if (begins_sections) result += html_contents(blocks);  // what is above comes first
+    result += std::visit(write, block);
+  }
+  return result + fmt::format("<script>{}</script>\n</body>\n</html>\n", page_script);
 }
 
 }  // namespace nysalt

@@ -16,6 +16,7 @@
 #include "nysalt/detail/unfinished_names.hpp"
 #include "plot_script.hpp"
 #include "quoted.hpp"
+#include "svg.hpp"
 
 namespace nysalt {
 
@@ -31,12 +32,24 @@ void detail::require_plain(const std::string& name) {
 
 namespace {
 
-/// gnuplot ends well where its disk was full.
-bool is_whole_picture(const std::filesystem::path& file, const std::string& kind) {
-  const std::string_view end = kind == "png" ? std::string_view("IEND\xae\x42\x60\x82", 8) : "</svg>";
+std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream input(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(input), {}};
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+/// gnuplot ends well where its disk was full.
+bool is_whole_picture(const std::string& text, const std::string& kind) {
+  const std::string_view end = kind == "png" ? std::string_view("IEND\xae\x42\x60\x82", 8) : "</svg>";
   return text.find(end, text.size() - std::min<std::size_t>(text.size(), 64)) != std::string::npos;
+}
+
+bool is_written(const std::filesystem::path& file, const std::string& text) {
+  try {
+    write_file(file, text);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -54,12 +67,14 @@ bool draw(const figure& f, const std::filesystem::path& folder) {
     const std::filesystem::path made = folder / (picture + ".tmp");
     const detail::unfinished_name unfinished(made);
     std::error_code failure;
-    if (std::system(command.c_str()) == 0 && is_whole_picture(made, kind)) {
-      std::filesystem::rename(made, folder / picture, failure);
-      if (!failure) continue;
+    const bool has_ended = std::system(command.c_str()) == 0;
+    const std::string text = has_ended ? bytes_of(made) : std::string();
+    std::filesystem::remove(made, failure);
+    if (is_whole_picture(text, kind) &&
+        is_written(folder / picture, kind == "svg" ? finished_svg(text, f) : text)) {
+      continue;
     }
     drawn = false;
-    std::filesystem::remove(made, failure);
     if (std::filesystem::is_regular_file(folder / picture, failure))
       std::filesystem::remove(folder / picture, failure);  // that of older data
   }

@@ -18,6 +18,17 @@ namespace nysalt::detail {
 
 namespace {
 
+/// Unseen, over the points: finished_svg() replaces curve and point by what they are.
+std::string values_of(const curve& one, const std::string& name, std::size_t block) {
+  constexpr std::size_t most = 60;  // of a curve: more would lie on each other
+  const std::size_t every = one.x.size() / most + 1;
+  return fmt::format(
+      "'{0}.dat' index {1} every {2} using 1:2:(sprintf('{1}.%d', {2} * int($0))) with labels hypertext "
+      "point "
+      "pt 7 ps 2.5 lc rgb '#ff000000' notitle",
+      name, block, every);
+}
+
 /// Fronts first, so that they lie behind, and what is emphasised last.
 std::string plot_command(const panel& plot, const std::string& name, std::size_t first_block) {
   std::vector<std::string> elements;
@@ -35,6 +46,9 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   draw_if([](const curve& c) { return !c.front && !c.emphasised; });
   draw_if([](const curve& c) { return !c.front && c.emphasised; });
   for (std::size_t j = 0; j < plot.curves.size(); ++j) elements.push_back(key_entry(plot, j));
+  for (std::size_t j = 0; j < plot.curves.size(); ++j) {
+    if (!plot.curves[j].front) elements.push_back(values_of(plot.curves[j], name, first_block + j));
+  }
   const auto labels = labels_of_stretches(plot);
   for (std::size_t j = 0; j < labels.size(); ++j) {
     elements.push_back(

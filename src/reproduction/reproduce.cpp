@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "comparison/all_ranks.hpp"
 #include "comparison/progress.hpp"
@@ -11,6 +12,7 @@
 #include "program/commands.hpp"
 #include "program/output.hpp"
 #include "report.hpp"
+#include "report/manifest.hpp"
 
 namespace nysalt::program::paper {
 
@@ -58,7 +60,10 @@ class timetable {
 int reproduce(const reproduce_command& command, const common_settings& common) {
   if (!all_ranks().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
   const auto planned = parts_named(command.parts);
-  if (!command.output.empty()) require_folder(command.output);
+  if (!command.output.empty()) {
+    require_folder(command.output);
+    require_manifest(std::filesystem::path(command.output) / "paper.json");
+  }
   progress shown;
   const setting setup(common, command.quick);
   timetable plan(planned);

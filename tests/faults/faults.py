@@ -6,8 +6,9 @@ usage: faults.py PROGRAM FOLDER [--some]; the exit code is 1 if a promise was br
 
 After each failure the output is the old file or the whole new one, the exit code is 0 or 4, nothing unfinished stays
 (but what a checkpoint goes on with), and doing the work again, from the checkpoint where there is one, gives the bytes of
-a run that nothing happened to. --some: a few calls of each kind.
+a run that nothing happened to. The manifest of the folder is whole, and keeps the entry of another file. --some: a few calls of each kind.
 """
+import json
 import os
 import shutil
 import subprocess
@@ -38,6 +39,16 @@ def fresh(folder, output):
     os.makedirs(folder)
     with open(os.path.join(folder, output), "w") as file:
         file.write("old")
+    with open(os.path.join(folder, "manifest.json"), "w") as file:
+        json.dump({"format": "nysalt manifest", "version": 1, "files": {"other.csv": {"command": "none"}}}, file)
+
+
+def has_lost_an_entry(folder):
+    """Of a file that the work does not write."""
+    try:
+        return "other.csv" not in json.loads(contents(folder, "manifest.json"))["files"]
+    except ValueError:
+        return True
 
 
 def contents(folder, name):
@@ -97,6 +108,8 @@ def one_failure(folder, arguments, output, has_checkpoint, expected, fault):
         return "exit code 0 without the output"
     if failed.returncode == 4 and failed.stderr.count("\n") != 1:
         return f"the message is not one line: {failed.stderr[:200]}"
+    if has_lost_an_entry(folder):
+        return "the manifest is not whole, or has lost an entry"
     left = [one for one in os.listdir(folder) if ".part" in one]
     if left and not killed and not has_checkpoint:
         return f"left: {left}"
@@ -106,6 +119,8 @@ def one_failure(folder, arguments, output, has_checkpoint, expected, fault):
         return f"again: exit code {done.returncode}: {done.stderr.strip()[:200]}"
     if contents(folder, output) != expected:
         return "again: other bytes"
+    if has_lost_an_entry(folder) or output not in json.loads(contents(folder, "manifest.json"))["files"]:
+        return "again: the manifest has not both entries"
     left = [one for one in os.listdir(folder) if ".part" in one]
     return f"again: left {left}" if left else ""
 

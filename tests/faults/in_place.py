@@ -1,11 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """A program that breaks the promises which faults.py tries: it writes its output in place."""
+import json
+import os
 import sys
 
+output = sys.argv[sys.argv.index("--output") + 1]
 try:
-    with open(sys.argv[sys.argv.index("--output") + 1], "w") as file:
+    with open(output, "w") as file:
         file.write("a whole output")
+    with open("manifest.json") as file:
+        manifest = json.load(file)
+    manifest["files"][output] = {}
+    with open("manifest.new", "w") as file:
+        json.dump(manifest, file)
+    os.rename("manifest.new", "manifest.json")
 except OSError as problem:
     print(f"in_place: {problem}", file=sys.stderr)
     sys.exit(2)

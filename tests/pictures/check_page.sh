@@ -5,29 +5,13 @@ set -euo pipefail
 
 page=$1
 pictures=$(dirname "${BASH_SOURCE[0]}")
-fail() { printf 'check_page: %s: %s\n' "$page" "$*" >&2; exit 1; }
+source "$pictures/browser.sh"
 
-command -v chromium >/dev/null || fail 'chromium is not installed: ./dev pictures installs it'
-[[ -s $page ]] || fail 'there is no such page'
 bytes=$(stat -c %s "$page")
 ((bytes < 2000000)) || fail "it has $bytes bytes, and should stay below 2 MB"
 
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-mkdir "$scratch/page"
 # Chromium draws pages of some 16000 pixels: without its long tables the pictures of a report fit.
 { cat "$page"; echo '<style>table, ul, pre { display: none }</style>'; } >"$scratch/page/report.html"
-
-browser() {  # OPTION... PAGE
-  local sandbox=()
-  ((EUID != 0)) || sandbox=(--no-sandbox)  # Chromium refuses to run as root with it
-  timeout 120 chromium --headless --disable-gpu --hide-scrollbars --user-data-dir="$scratch/profile" \
-    "${sandbox[@]}" --virtual-time-budget=10000 "${@:1:$#-1}" "file://${!#}" 2>"$scratch/log" ||
-    { tail -n 3 "$scratch/log" >&2; fail 'chromium could not show it'; }
-}
-
-# The line that a script of ours leaves in <pre id="found">.
-found() { sed -n 's|.*<pre id="found">\(.*\)</pre>.*|\1|p' "$1"; }
 
 # First what the page holds, and where: figures, pictures, height, what it asks for, one x,y,width,height each.
 { cat "$scratch/page/report.html"; echo '<script>'; cat "$pictures/measure.js"; echo '</script>'; } \

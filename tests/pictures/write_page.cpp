@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Pages for check_page.sh: write_page FOLDER writes one that is well, and some that must be found.
+// Pages for check_page.sh and check_controls.sh: write_page FOLDER writes one that is well, and some that
+// must be found.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -42,9 +43,21 @@ int main(int, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   std::filesystem::create_directories(folder);
   page report("Pictures");
+  report.heading("All");
   report.picture(errors(), "Error against cost, of `<b>&\"'`.");
   report.picture(lines(), "A line.");
   for (const auto& picture : report.figures()) draw(picture, folder);
+  table small({"method", "error"});
+  for (int i = 0; i < 3; ++i) small.add({"m" + std::to_string(i), "1e-" + std::to_string(i)});
+  report.table(small);
+  table large({"method", "step", "error", "marks"});
+  for (int i = 0; i < 12; ++i) {
+    large.add({std::vector<std::string>{"verlet", "learned:fg4", "bcss3"}[static_cast<std::size_t>(i % 3)],
+               std::to_string(0.01 * (i * 7 % 12)),
+               i == 5 ? "-" : std::to_string(i * 5 % 12 - 4) + "e-" + std::to_string(i % 4),
+               i == 3 ? "tail" : ""});
+  }
+  report.table(large);
   const std::string well = report.html(folder);
   write_file(folder / "well.html", well);
   const std::size_t last = well.rfind("<svg");
@@ -52,6 +65,10 @@ int main(int, char** arguments) {
   const std::string broken = "<svg width=\"800\" height=\"520\"><path d=\"nonsense\"/>";
   write_file(folder / "broken.html", well.substr(0, last) + broken + well.substr(end));
   write_file(folder / "asking.html", replaced(well, "</h1>", "</h1><img src=\"http://127.0.0.1:9/x.png\">"));
+  write_file(folder / "no_script.html", well.substr(0, well.find("<script>")));
+  write_file(folder / "unsorted.html", replaced(well, "way * compared(a, b)", "compared(a, b)"));
+  write_file(folder / "wrong_filter.html", replaced(well, "!words.every(", "words.every("));
+  write_file(folder / "no_values.html", replaced(well, "value.hidden = false", "value.hidden = true"));
   write_file(folder / "heavy.html", well + std::string(2'000'000, ' '));
   std::filesystem::remove(folder / "lines.svg");
   write_file(folder / "missing.html", report.html(folder));

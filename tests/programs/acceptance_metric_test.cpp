@@ -55,10 +55,10 @@ BOOST_AUTO_TEST_CASE(tables_and_pictures_are_of_acceptances) {
   BOOST_TEST(done.out.find("its rejections / learned") != std::string::npos);
   const auto rows = contents(folder / "out/rows.csv");
   BOOST_TEST(rows.find("\nacceptance,") != std::string::npos);
-  const auto script = contents(folder / "out/acceptance_against_evaluations.gp");
+  const auto script = contents(folder / "out/pictures/acceptance_against_evaluations.gp");
   BOOST_TEST(script.find("set logscale x\n") != std::string::npos);
   BOOST_TEST(script.find("logscale xy") == std::string::npos);
-  BOOST_TEST(!contents(folder / "out/acceptance_against_seconds.svg").empty());
+  BOOST_TEST(!contents(folder / "out/pictures/acceptance_against_seconds.svg").empty());
 }
 
 BOOST_AUTO_TEST_CASE(what_diverged_is_rejected_and_if_all_did_there_is_no_result) {

@@ -378,7 +378,9 @@ BOOST_AUTO_TEST_CASE(energies_that_are_no_numbers_are_told_of_as_diverged) {
 BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const scratch folder("bad_output");
   std::filesystem::create_directory(folder / "there");
-  std::filesystem::create_directory(folder / "manifest.manifest.json");
+  std::filesystem::create_directories(folder / "there" / "manifest.json");
+  std::filesystem::create_directory(folder / "foreign");
+  std::ofstream(folder / "foreign" / "manifest.json") << "{\"name\": \"a web page\"}";
   std::ofstream(folder / "file") << "kept";
   const std::string fast = " --step 0.02 --horizon 0.1 ";
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
@@ -391,7 +393,11 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
                           {few + "--output ''", {"--output", "empty"}},
                           {few + "--output there/", {"there"}},
                           {rows + "--output there", {"there", "folder"}},
-                          {rows + "--output manifest", {"manifest.manifest.json", "folder"}},
+                          {rows + "--output there/out.csv", {"there/manifest.json", "folder"}},
+                          {rows + "--output manifest.json", {"manifest.json", "take another"}},
+                          {rows + "--output foreign/out.csv", {"foreign/manifest.json is no manifest"}},
+                          {few + "--output foreign/scheme.json", {"foreign/manifest.json is no manifest"}},
+                          {errors + "--output foreign", {"foreign/manifest.json is no manifest"}},
                           {rows + "--output out.svg --plot", {"--plot", ".svg", ".csv"}},
                           {rows + "--output out.dat --plot", {"--plot", ".dat", ".csv"}},
                           {rows + "--output nowhere/out.csv", {"nowhere", "make it"}},
@@ -403,6 +409,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
                           {errors + "--output /proc/folder", {"/proc/folder"}},
                       });
   BOOST_TEST(contents(folder / "file") == "kept");
+  BOOST_TEST(contents(folder / "foreign" / "manifest.json") == "{\"name\": \"a web page\"}");
 }
 
 // One trajectory has no error bar, and that is all that it lacks.

@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(files_know_what_they_were_made_with) {
       with(random_numbers, {"hairer_lubich_wanner_2006", "okunbor_skeel_1992", "ceres", "blanes_moan_2002"});
   make("learn --family nystrom --system fpu --step 0.03 --trajectories 10 --output scheme.json");
   BOOST_TEST((cited(folder, "scheme.json") == of_scheme));
-  BOOST_TEST((cited(folder, "scheme.json.manifest.json") == of_scheme));
+  BOOST_TEST((cited(folder, "manifest.json") == of_scheme));
   BOOST_TEST((cited(folder, "--methods scheme.json") == of_scheme));
 
   const std::string running = "run --step 0.03 --horizon 0.3 ";
@@ -128,10 +128,38 @@ BOOST_AUTO_TEST_CASE(files_know_what_they_were_made_with) {
   make(running + "--system fpu --method scheme.json --output out.csv");
   const auto above = shell(folder, "mkdir above; cd above; \"$nysalt\" cite --json ../out.csv");
   BOOST_TEST((keys(above) == of_scheme));
-  BOOST_TEST_REQUIRE(shell(folder, "rm scheme.json.manifest.json; mv scheme.json verlet").code == 0);
+  BOOST_TEST_REQUIRE(shell(folder, "mv scheme.json verlet").code == 0);
   BOOST_TEST((cited(folder, "verlet") == of_scheme));  // a file, and one that needs no manifest
   BOOST_TEST((cited(folder, "--methods verlet") == with({"verlet_1967"})));
-  must_be_told(folder, "out.csv", "out.csv.manifest.json: ");  // as its scheme is gone
+  must_be_told(folder, "out.csv", "manifest.json, out.csv: ");  // as its scheme is gone
+}
+
+// FILE.manifest.json, of one file.
+BOOST_AUTO_TEST_CASE(manifests_of_earlier_versions_are_read_where_there_is_no_entry) {
+  const scratch folder("cite_earlier");
+  const auto earlier = [&](const std::string& file, const std::string& method) {
+    std::ofstream(folder / (file + ".manifest.json"))
+        << json{{"file", file},
+                {"command", "nysalt"},
+                {"options", "run.system=phi4\nrun.method=" + method},
+                {"versions", json::object()}};
+  };
+  earlier("old.csv", "pefrl");
+  const auto of_pefrl = with(random_numbers, {"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002"});
+  BOOST_TEST((cited(folder, "old.csv") == of_pefrl));
+  BOOST_TEST((cited(folder, "old.csv.manifest.json") == of_pefrl));
+  BOOST_TEST_REQUIRE(
+      run(folder, "run --system phi4 --method verlet --step 0.03 --horizon 0.3 --output new.csv").code == 0);
+  BOOST_TEST((cited(folder, "old.csv") == of_pefrl));  // the manifest of the folder says nothing of it
+  earlier("new.csv", "pefrl");
+  const auto of_verlet = with(random_numbers, {"aoki_kusnezov_2002", "verlet_1967"});
+  BOOST_TEST((cited(folder, "new.csv") == of_verlet));
+  BOOST_TEST((cited(folder, "manifest.json") == of_verlet));
+  // What is written anew is no longer what the earlier one says.
+  BOOST_TEST_REQUIRE(
+      run(folder, "run --system phi4 --method verlet --step 0.03 --horizon 0.3 --output old.csv").code == 0);
+  BOOST_TEST(!folder.files().contains("old.csv.manifest.json"));
+  BOOST_TEST((cited(folder, "old.csv") == of_verlet));
 }
 
 BOOST_AUTO_TEST_CASE(a_recommendation_cites_its_winner_and_its_rivals) {

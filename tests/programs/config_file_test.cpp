@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(a_section_of_another_command_changes_nothing) {
   // Nor is it written down with what was made.
   const folder_with folder("[learn]\nstep = 0.02\ntrajectories = 3\n[recommend]\nhorizon = 2\nseed = 9\n");
   BOOST_TEST_REQUIRE(run(folder, "learn --config options.toml --output scheme.json").code == 0);
-  const auto manifest = nlohmann::ordered_json::parse(contents(folder / "scheme.json.manifest.json"));
+  const auto manifest = recorded(folder / "scheme.json");
   BOOST_TEST(manifest["seed"] == 1);
   BOOST_TEST(manifest["options"] == "learn.step=0.02\nlearn.trajectories=3\nlearn.output=\"scheme.json\"\n");
 }

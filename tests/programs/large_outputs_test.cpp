@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_manifest_says_what_numpys_file_has_no_place_for) {
   BOOST_TEST(document["output"] == "a.npy");
   const array stored = read_npy(folder / "a.npy");
   BOOST_TEST(stored.shape == (std::vector<std::uint64_t>{40, 286, 2}), boost::test_tools::per_element());
-  const auto manifest = nlohmann::ordered_json::parse(contents(folder / "a.npy.manifest.json"));
+  const auto manifest = recorded(folder / "a.npy");
   BOOST_TEST(manifest["observables"] == (nlohmann::ordered_json{"energy", "q2"}));
   BOOST_TEST(manifest["diverged"] == document["diverged"]);
   BOOST_TEST(manifest["sample_every"] == 7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Output files: whole or not at all, equal for equal runs, and with a manifest that tells where they are
-// from.
+// Output files: whole or not at all, equal for equal runs, and with a manifest of their folder, which records
+// how each was made.
 #include <boost/test/unit_test.hpp>
 
 #include <regex>
@@ -56,8 +56,8 @@ BOOST_AUTO_TEST_CASE(equal_runs_write_equal_bytes) {
 BOOST_AUTO_TEST_CASE(a_manifest_tells_where_a_file_is_from) {
   const scratch folder("manifest");
   BOOST_REQUIRE(run(folder, run_it + "--seed 7 --observables 'energy' --output 'my out.csv'").code == 0);
-  BOOST_TEST((folder.files() == names{"my out.csv", "my out.csv.manifest.json"}));
-  const auto manifest = nlohmann::json::parse(contents(folder / "my out.csv.manifest.json"));
+  BOOST_TEST((folder.files() == names{"manifest.json", "my out.csv"}));
+  const auto manifest = recorded(folder / "my out.csv");
   BOOST_TEST(manifest["file"] == "my out.csv");
   BOOST_TEST(manifest["seed"] == 7);
   BOOST_TEST(manifest["command"].get<std::string>().ends_with(
@@ -78,13 +78,40 @@ BOOST_AUTO_TEST_CASE(a_manifest_tells_where_a_file_is_from) {
   BOOST_TEST(contents(folder / "my out.csv") == before);
 }
 
+// Each its own file, at the same time.
+BOOST_AUTO_TEST_CASE(commands_that_write_into_one_folder_lose_no_entry) {
+  const scratch folder("at_once");
+  const finished done = shell(folder, "for i in 1 2 3 4 5 6 7 8; do \"$nysalt\" " + run_it +
+                                          "--threads 1 --seed $i --output $i.csv & done; wait");
+  BOOST_TEST(done.err == "");
+  BOOST_TEST(folder.files().size() == 9U);
+  for (int i = 1; i <= 8; ++i) BOOST_TEST(recorded(folder / (std::to_string(i) + ".csv"))["seed"] == i);
+}
+
+// A disk that is full, for the manifest alone.
+BOOST_AUTO_TEST_CASE(a_result_without_its_manifest_is_said_to_be_whole) {
+  const scratch folder("manifest_fails");
+  BOOST_TEST_REQUIRE(run(folder, run_it + "--output a.csv").code == 0);
+  const std::string before = contents(folder / "manifest.json");
+  const auto small = (before.size() + std::filesystem::file_size(folder / "a.csv")) / 2 / 512;
+  BOOST_TEST_REQUIRE(small * 512 > std::filesystem::file_size(folder / "a.csv"));
+  const finished done =
+      shell(folder, "ulimit -f " + std::to_string(small) + "; LLVM_PROFILE_FILE=/dev/null \"$nysalt\" " +
+                        run_it + "--output b.csv");
+  BOOST_TEST(done.code == not_written);
+  BOOST_TEST(has(done.err, "b.csv is whole, but not the manifest"), done.err);
+  BOOST_TEST(contents(folder / "manifest.json") == before);
+  BOOST_TEST(contents(folder / "a.csv") == contents(folder / "b.csv"));
+  BOOST_TEST((folder.files() == names{"a.csv", "b.csv", "manifest.json"}));
+}
+
 BOOST_AUTO_TEST_CASE(data_hold_nothing_of_machine_or_hour) {
   const scratch folder("data");
   BOOST_REQUIRE(run(folder, learn + "--output scheme.json").code == 0);
   BOOST_REQUIRE(run(folder, run_it + "--output out.csv").code == 0);
   for (const char* file : {"scheme.json", "out.csv"}) {
     const std::string text = contents(folder / file);
-    const auto manifest = nlohmann::json::parse(contents(folder / (std::string(file) + ".manifest.json")));
+    const auto manifest = recorded(folder / file);
     for (const char* key : {"command", "compiler", "flags", "time"}) {
       BOOST_TEST(!has(text, manifest[key].get<std::string>()), file << " holds the " << key);
     }
@@ -97,15 +124,13 @@ BOOST_AUTO_TEST_CASE(an_old_file_is_replaced_whole) {
   const scratch folder("replaced");
   const std::string old(1'000'000, 'x');
   std::ofstream(folder / "out.csv") << old;
-  std::ofstream(folder / "out.csv.manifest.json") << old;
   std::ofstream(folder / "scheme.json") << old;
   BOOST_REQUIRE(run(folder, run_it + "--output out.csv").code == 0);
   BOOST_REQUIRE(run(folder, learn + "--output scheme.json").code == 0);
   BOOST_TEST(contents(folder / "out.csv") == run(run_it).out);
-  BOOST_TEST(nlohmann::json::accept(contents(folder / "out.csv.manifest.json")));
+  BOOST_TEST(nlohmann::json::accept(contents(folder / "manifest.json")));
   BOOST_TEST(nlohmann::json::accept(contents(folder / "scheme.json")));
-  BOOST_TEST((folder.files() ==
-              names{"out.csv", "out.csv.manifest.json", "scheme.json", "scheme.json.manifest.json"}));
+  BOOST_TEST((folder.files() == names{"manifest.json", "out.csv", "scheme.json"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_refused_leaves_an_old_file_alone) {
@@ -176,19 +201,28 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
   const scratch folder("comparison");
   const finished done = run(folder, compare + "--output new/folder");
   BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
-  names files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "new/folder")) {
-    files.insert(entry.path().filename());
-  }
-  for (const char* file : {"rows.csv", "report.md", "report.html", "report.json"}) {
-    BOOST_TEST(files.contains(file), file);
-    BOOST_TEST(files.contains(std::string(file) + ".manifest.json"), file << ": manifest");
-  }
+  const auto files_in = [&](const std::string& below) {
+    names files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / below)) {
+      files.insert(entry.path().filename());
+    }
+    return files;
+  };
+  // What a person opens, and little else.
+  BOOST_TEST((files_in("new/folder") ==
+              names{"manifest.json", "pictures", "report.html", "report.json", "report.md", "rows.csv"}));
+  const auto pictures = files_in("new/folder/pictures");
+  BOOST_TEST(pictures.contains("manifest.json"));
   for (const char* picture : {"path_stiff_energy_against_evaluations", "path_stiff_energy_against_seconds"}) {
-    BOOST_TEST(files.contains(std::string(picture) + ".svg"), picture);
-    BOOST_TEST(files.contains(std::string(picture) + ".png"), picture);
+    for (const char* kind : {".svg", ".png", ".gp", ".dat"}) {
+      BOOST_TEST(pictures.contains(std::string(picture) + kind), picture << kind);
+      BOOST_TEST(recorded(folder / "new/folder/pictures" / (std::string(picture) + kind))["seed"] == 1);
+    }
   }
-  for (const auto& file : files) BOOST_TEST(!file.ends_with(".part"), file);
+  for (const char* file : {"rows.csv", "report.md", "report.html", "report.json"})
+    BOOST_TEST(recorded(folder / "new/folder" / file)["command"].get<std::string>().ends_with("new/folder"),
+               file);
+  for (const auto& file : pictures) BOOST_TEST(!file.ends_with(".part"), file);
 
   // Rows as the JSON document tells them, to the last bit.
   const auto rows = json_of(run(compare + "--json"))["rows"];
@@ -211,6 +245,22 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
       BOOST_TEST(has(text, what), page << " lacks " << what);
     }
   }
+  // The verdict comes first, then pictures, then all rows.
+  const std::string markdown = contents(folder / "new/folder/report.md");
+  std::size_t at = 0;
+  for (const char* next :
+       {"\nNothing beats `bcss2` from ", "| evaluations/time, at most |", "\n## ",
+        "](pictures/path_stiff_energy_against_evaluations.svg)",
+        "](pictures/path_stiff_energy_against_seconds.svg)", "\n## All rows\n", "| standard error |"}) {
+    at = markdown.find(next, at);
+    BOOST_TEST_REQUIRE(at != std::string::npos, "missing, or too early: " << next);
+  }
+  const auto& ranking = report["rankings"][0];
+  BOOST_TEST(ranking["verdict"].get<std::string>().starts_with("Nothing beats bcss2 from "));
+  BOOST_TEST(ranking["best_at_costs"].size() == 2U);
+  BOOST_TEST(ranking["best_at_costs"][0]["best"][0]["method"] == "bcss2");
+  BOOST_TEST(ranking["best_at_costs"][0]["next"]["method"] == "verlet");
+  BOOST_TEST(ranking["best_at_costs"][0]["ratio"] > 1.0);
   // The page needs nothing else, and weighs less than 2 MB.
   const std::string page = contents(folder / "new/folder/report.html");
   BOOST_TEST(has(page, "<svg"));
@@ -229,7 +279,7 @@ BOOST_AUTO_TEST_CASE(a_comparison_of_laws_draws_them) {
     const finished done = run(folder, line + " --output " + metric);
     BOOST_REQUIRE_MESSAGE(done.code == 0, done.err);
     for (const char* step : {"_at_0_1", "_at_0_2"}) {
-      const auto picture = (folder / metric) / (metric + "_energy" + step);
+      const auto picture = folder / metric / "pictures" / (metric + "_energy" + step);
       BOOST_TEST(has(contents(picture.string() + ".svg"), "<svg"));
       BOOST_TEST(contents(picture.string() + ".png").starts_with("\x89PNG"));
       for (const char* curve : {"reference", "baoab", "obabo"})

@@ -192,8 +192,7 @@ BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
 BOOST_AUTO_TEST_CASE(a_plugin_is_compiled_with_the_options_of_the_program) {
   const scratch folder("plugin_options");
   run(folder, "learn --system oscillator --step 0.01 --family nystrom --trajectories 2 --output scheme.json");
-  std::ifstream manifest(folder / "scheme.json.manifest.json");
-  std::istringstream options(json::parse(manifest).at("flags").get<std::string>());
+  std::istringstream options(recorded(folder / "scheme.json").at("flags").get<std::string>());
   std::ifstream file(std::filesystem::path(NYSALT_PROGRAM).parent_path() / "plugin.flags");
   const std::set<std::string> of_plugins{std::istream_iterator<std::string>(file), {}};
   int compared = 0;

@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(what_is_half_asked_is_refused) {
   refused(folder, alone + "--output a.csv --checkpoint ./a.csv --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint a.csv.part --every 10", "name another file");
   refused(folder, alone + "--output c.next --checkpoint c --every 10", "name another file");
-  refused(folder, alone + "--output a.csv --checkpoint a.csv.manifest.json --every 10", "name another file");
+  refused(folder, alone + "--output a.csv --checkpoint manifest.json --every 10", "name another file");
   refused(folder, alone + "--plot --output a.csv --checkpoint a.svg --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint none/c --every 10", "there is no folder none");
   refused(folder, with_checkpoint(alone, "cut") + "--resume", "there is no checkpoint cut.checkpoint");

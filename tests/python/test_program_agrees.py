@@ -86,8 +86,8 @@ def test_samples_are_those_of_the_program(program, tmp_path, system, options, me
     program(*asked, "--output", "run.npy")
     values = np.load(tmp_path / "run.npy")
     assert np.array_equal(run.values, values, equal_nan=True)
-    lost = {its["trajectory"]: its["step"] for its in json.loads((tmp_path / "run.npy.manifest.json").read_text())[
-        "diverged"]}
+    manifest = json.loads((tmp_path / "manifest.json").read_text())
+    lost = {one["trajectory"]: one["step"] for one in manifest["files"]["run.npy"]["diverged"]}
     assert {int(m): int(run.diverged[m]) for m in np.flatnonzero(run.diverged >= 0)} == lost
     assert np.isnan(run.values[:, -1, 0]).sum() == len(lost)
 

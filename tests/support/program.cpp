@@ -32,4 +32,12 @@ nlohmann::ordered_json json_of(const finished& done) {
   return nlohmann::ordered_json::parse(done.out, nullptr, false);
 }
 
+nlohmann::ordered_json recorded(const std::filesystem::path& file) {
+  const auto all =
+      nlohmann::ordered_json::parse(contents(file.parent_path() / "manifest.json"), nullptr, false);
+  return all.is_object() ? all.value("files", nlohmann::ordered_json())
+                               .value(file.filename().string(), nlohmann::ordered_json())
+                         : nlohmann::ordered_json();
+}
+
 }  // namespace nysalt::test

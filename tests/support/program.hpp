@@ -3,6 +3,7 @@
 // program.cpp, as reading JSON is long to compile.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -28,5 +29,8 @@ finished run(const std::string& arguments);
 
 /// The one document that a run printed; discarded (is_discarded()) if it is none.
 nlohmann::ordered_json json_of(const finished& done);
+
+/// What the manifest of a folder records of a file; null if nothing.
+nlohmann::ordered_json recorded(const std::filesystem::path& file);
 
 }  // namespace nysalt::test

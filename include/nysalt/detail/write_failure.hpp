@@ -11,4 +11,10 @@ class write_failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Another process writes the file.
+class file_in_use : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace nysalt::detail

@@ -89,7 +89,10 @@ int compare(const compare_command& command, const common_settings& common) {
   } else {
     int code = unfinished;
     on_first(all_ranks(), [&] {
-      require_folder(folder);
+      for (const auto& of_results : {folder, folder / folder_of_pictures}) {
+        require_folder(of_results);
+        require_manifest(of_results / "report.json");
+      }
       if (command.resume) code = print_answer(folder, all);
     });
     broadcast(all_ranks(), code);

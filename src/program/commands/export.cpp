@@ -13,7 +13,7 @@ namespace nysalt::program {
 
 int export_method(const export_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
-    if (!command.output.empty()) require_writable(command.output);
+    if (!command.output.empty()) require_result(command.output);
     const method_source source = find_method(command.method);
     const export_source exported = exported_from(source, command.how);
     const std::string text = export_text(command.host, exported);

@@ -12,7 +12,7 @@ namespace nysalt::program {
 int learn(const learn_command& command, const common_settings& common) {
   fitted_family training(command, common);
   on_first(all_ranks(), [&] {
-    if (!command.output.empty()) require_writable(command.output);
+    if (!command.output.empty()) require_result(command.output);
   });
   warn_of_threads(common);
   training.learn();

@@ -15,7 +15,7 @@ namespace {
 
 /// Does the work, prints what was found, and writes the scheme of a winner that was learned.
 int tell(auto& all, const std::string& output, const common_settings& common) {
-  if (!output.empty()) on_first(all_ranks(), [&] { require_writable(output); });
+  if (!output.empty()) on_first(all_ranks(), [&] { require_result(output); });
   warn_of_threads(common);
   all.learn_and_rank();
   const auto scheme = all.scheme();

@@ -72,13 +72,11 @@ void require_files(const run_command& command) {
   require_at_least_one("--every", *command.every);
   if (command.output.empty()) refuse("--checkpoint needs --output: printed results cannot be continued");
   require_writable(command.checkpoint);
-  std::vector<std::string> others{command.method, command.output};
-  for (const char* beside : {".part", ".new.part", ".sorted.part", ".manifest.json"})
-    others.push_back(command.output + beside);
+  std::vector<std::string> others{command.method, command.output, manifest_of(command.output)};
+  for (const char* beside : {".part", ".new.part", ".sorted.part"}) others.push_back(command.output + beside);
   for (const char* kind : {".svg", ".png", ".dat", ".gp"}) {
     if (!command.plot) continue;
-    const std::string picture = std::filesystem::path(command.output).replace_extension(kind);
-    others.insert(others.end(), {picture, picture + ".manifest.json"});
+    others.push_back(std::filesystem::path(command.output).replace_extension(kind));
   }
   for (const std::string& name : {command.checkpoint, command.checkpoint + ".next.part"}) {
     for (const std::string& other : others) {
@@ -186,7 +184,7 @@ int run(const run_command& asked, const common_settings& common) {
     if (!was_finished) {
       output->commit();
       if (!command.output.empty())
-        write_manifest(command.output, common, more_of_manifest(command, plan.steps, diverged));
+        record_results({command.output}, common, more_of_manifest(command, plan.steps, diverged));
       if (command.plot) draw_run(command, *output, plan.steps, common);
       output->finish();
     }

@@ -79,7 +79,7 @@ void require_files(const sample_command& command) {
   if (!command.every) refuse("--checkpoint needs --every: after how many trajectories is one made?");
   require_at_least_one("--every", *command.every);
   require_writable(command.checkpoint);
-  for (const std::string& other : {command.output, command.output + ".manifest.json", command.method}) {
+  for (const std::string& other : {command.output, manifest_of(command.output).string(), command.method}) {
     if (is_same_file(command.checkpoint, other))
       refuse("--checkpoint {} needs a name of its own, which {} has: name another file", command.checkpoint,
              other);

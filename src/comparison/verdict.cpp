@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+#include <span>
+
+namespace nysalt::program {
+
+estimate error_ratio(const rival& a, const rival& b) {
+  if (!(a.error > 0.0) || !(b.error > 0.0)) return {};
+  const double ratio = a.error / b.error;
+  if (a.groups.empty() || a.groups.size() != b.groups.size()) {
+    return {ratio, ratio * std::hypot(a.standard_error / a.error, b.standard_error / b.error)};
+  }
+  // d ln(a/b) = d a/a - d b/b
+  std::vector<double> in_a;
+  std::vector<double> in_b;
+  for (const double x : a.groups) in_a.push_back(x / a.error);
+  for (const double x : b.groups) in_b.push_back(x / b.error);
+  return {ratio, ratio * paired_difference(in_a, in_b).standard_error};
+}
+
+bool errs_more(const rival& a, const rival& b) {
+  if (!(a.error > b.error)) return false;
+  constexpr double separated = 2.0;  // standard errors
+  if (b.error == 0.0) return std::isnan(a.standard_error) || a.error > separated * a.standard_error;
+  const estimate ratio = error_ratio(a, b);
+  if (std::isnan(ratio.standard_error)) return true;
+  return std::log(ratio.mean) > separated * ratio.standard_error / ratio.mean;
+}
+
+namespace {
+
+bool has_error(const rival& one) { return std::isfinite(one.error) && one.error >= 0.0; }
+
+std::size_t methods_up_to(const std::vector<rival>& all, double cost) {
+  std::set<std::string> methods;
+  for (const rival& one : all) {
+    if (one.cost <= cost) methods.insert(one.method);
+  }
+  return methods.size();
+}
+
+/// The ranked rivals that cost no more, each method where it errs least; the least error first.
+std::vector<rival> affordable(const std::vector<rival>& all, double cost) {
+  std::map<std::string, rival> by_method;
+  for (const rival& one : all) {
+    if (one.cost > cost || !has_error(one)) continue;
+    const auto [at, is_new] = by_method.emplace(one.method, one);
+    if (!is_new && one.error < at->second.error) at->second = one;
+  }
+  std::vector<rival> result;
+  for (const auto& [method, one] : by_method) result.push_back(one);
+  std::ranges::stable_sort(result, {}, &rival::error);
+  return result;
+}
+
+best_at_cost best_of(const std::vector<rival>& sorted, double cost) {
+  best_at_cost result{.cost = cost, .best = {}, .next = {}};
+  if (sorted.empty()) return result;
+  result.best.push_back(sorted.front());
+  for (const rival& one : std::span(sorted).subspan(1)) {
+    if (!errs_more(one, sorted.front())) {
+      result.best.push_back(one);
+    } else if (!result.next) {
+      result.next = one;
+    }
+  }
+  if (sorted.size() > 1) {
+    result.has_error_bars =
+        std::ranges::none_of(sorted, [](const rival& one) { return std::isnan(one.standard_error); });
+  }
+  return result;
+}
+
+/// The costs of all, those that are nearly the same as the largest of these.
+std::vector<double> distinct_costs(const std::vector<rival>& all, double tolerance) {
+  std::vector<double> costs;
+  for (const rival& one : all) costs.push_back(one.cost);
+  std::ranges::sort(costs);
+  std::vector<double> result;
+  double first = 0.0;
+  for (const double cost : costs) {
+    if (!result.empty() && cost <= tolerance * first) {
+      result.back() = cost;
+    } else {
+      result.push_back(cost);
+      first = cost;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance) {
+  std::vector<rival> sound;
+  std::ranges::copy_if(all, std::back_inserter(sound),
+                       [](const rival& one) { return std::isfinite(one.cost) && one.cost > 0.0; });
+  std::vector<best_at_cost> found;
+  bool is_compared = false;
+  for (const double cost : distinct_costs(sound, tolerance)) {
+    const bool are_several = methods_up_to(sound, cost) > 1;
+    if (are_several && !is_compared) found.clear();
+    is_compared = is_compared || are_several;
+    found.push_back(best_of(affordable(sound, cost), cost));
+  }
+  return found;
+}
+
+std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most) {
+  if (found.size() <= most) return found;
+  std::vector<best_at_cost> chosen;
+  for (std::size_t i = 0; i < most; ++i) {
+    chosen.push_back(found[i * (found.size() - 1) / (most - 1)]);
+  }
+  return chosen;
+}
+
+std::string named(const std::vector<rival>& methods) {
+  constexpr std::size_t enough = 3;
+  const std::size_t shown = methods.size() > enough ? enough - 1 : methods.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool is_last = i > 0 && i + 1 == methods.size();
+    text += fmt::format("{}`{}`", i == 0 ? "" : is_last ? " and " : ", ", methods[i].method);
+  }
+  if (shown < methods.size()) text += fmt::format(" and {} more", methods.size() - shown);
+  return text;
+}
+
+std::string with_error(const estimate& value) {
+  if (std::isnan(value.mean)) return "-";
+  if (!(value.standard_error > 0.0)) return fmt::format("{:.4g}", value.mean);
+  const int decimals = static_cast<int>(std::max(0.0, -std::floor(std::log10(value.standard_error))));
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}", value.mean, value.standard_error, decimals);
+}
+
+namespace {
+
+/// Neighbouring costs with the same methods at the head.
+struct range_of_costs {
+  double from;
+  double to;
+  std::vector<rival> best;
+};
+
+std::set<std::string> names_of(const std::vector<rival>& methods) {
+  std::set<std::string> names;
+  for (const rival& one : methods) names.insert(one.method);
+  return names;
+}
+
+std::vector<range_of_costs> ranges_of(const std::vector<best_at_cost>& found) {
+  std::vector<range_of_costs> result;
+  for (const auto& [cost, best, next, has_error_bars] : found) {
+    if (!result.empty() && names_of(result.back().best) == names_of(best)) {
+      result.back().to = cost;
+    } else {
+      result.push_back({cost, cost, best});
+    }
+  }
+  return result;
+}
+
+std::string words_of(const range_of_costs& range) {
+  if (range.from == range.to) return fmt::format("at {:.4g}", range.from);
+  return fmt::format("from {:.4g} to {:.4g}", range.from, range.to);
+}
+
+std::string leaders_of(const range_of_costs& range) {
+  if (range.best.empty()) return "none is ranked";
+  return named(range.best) + (range.best.size() > 1 ? " (which error bars do not separate)" : "");
+}
+
+/// ": the error of the next is 2.1 ± 0.1 to 9 ± 1 times larger"
+std::string lead_of(const std::vector<best_at_cost>& found, const std::string& error) {
+  std::vector<estimate> ratios;
+  std::set<std::string> seconds;
+  for (const auto& one : found) {
+    if (!one.next) continue;
+    seconds.insert(one.next->method);
+    ratios.push_back(error_ratio(*one.next, one.best.front()));
+  }
+  std::erase_if(ratios, [](const estimate& ratio) { return std::isnan(ratio.mean); });
+  if (ratios.empty()) return {};
+  const auto [least, largest] = std::ranges::minmax_element(ratios, {}, &estimate::mean);
+  const std::string low = with_error(*least);
+  const std::string high = with_error(*largest);
+  const std::string span = low == high ? low : low + " to " + high;
+  const std::string other = seconds.size() == 1 ? "`" + *seconds.begin() + "`" : "the next";
+  return fmt::format(": the {} of {} is {} times larger", error, other, span);
+}
+
+}  // namespace
+
+std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
+                       const std::string& error) {
+  if (std::ranges::all_of(found, [](const best_at_cost& one) { return one.best.empty(); }))
+    return "No method is ranked: there is nothing to say on who is best.";
+  const auto ranges = ranges_of(found);
+  std::set<std::string> ranked;
+  for (const auto& one : found) {
+    for (const rival& method : one.best) ranked.insert(method.method);
+    if (one.next) ranked.insert(one.next->method);
+  }
+  const bool is_alone = ranked.size() == 1;
+  const bool is_tie =
+      std::ranges::all_of(found, [](const best_at_cost& one) { return !one.next && one.best.size() > 1; });
+  std::string text;
+  if (is_tie) {
+    const range_of_costs whole{found.front().cost, found.back().cost, {}};
+    text = fmt::format("No method is known to be better than another {} {}: error bars do not separate {}.",
+                       words_of(whole), unit, named(found.back().best));
+  } else if (is_alone) {
+    text = fmt::format("Only {} is ranked: there is no other to compare with.", named(found.back().best));
+  } else if (constexpr std::size_t readable = 4; ranges.size() > readable) {
+    text = fmt::format("Who is best depends on the cost, and changes {} times: {} {}, {} {} {}.",
+                       ranges.size() - 1, leaders_of(ranges.front()), words_of(ranges.front()),
+                       leaders_of(ranges.back()), words_of(ranges.back()), unit);
+  } else if (ranges.size() > 1) {
+    for (const auto& range : ranges) {
+      text += fmt::format("{}{} {}", text.empty() ? "Who is best depends on the cost: " : ", ",
+                          leaders_of(range), words_of(range));
+    }
+    text += fmt::format(" {}.", unit);
+  } else if (ranges.front().best.size() == 1) {
+    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), words_of(ranges.front()),
+                       unit, lead_of(found, error));
+  } else {
+    text = fmt::format("The best are {} {} {}: error bars do not separate them.", named(ranges.front().best),
+                       words_of(ranges.front()), unit);
+  }
+  const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
+  if (!has_error_bars && !is_alone) text += " Some errors have no error bar, and differences may be chance.";
+  return text;
+}
+
+}  // namespace nysalt::program

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+// The methods that err least at a cost, as far as error bars separate them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nysalt/analysis/statistics.hpp"
+
+namespace nysalt::program {
+
+/// A method at one step: its cost and its error.
+struct rival {
+  std::string method;
+  double step;                   // as typed
+  double cost;                   // of a unit of time
+  double error;                  // the smaller, the better; NaN: it takes part, but is not ranked
+  double standard_error;         // NaN: not known
+  std::vector<double> groups{};  // the part of each group of trajectories, which all rivals share; or empty
+};
+
+/// The factor by which the error of `a` is larger. The standard error is that of the differences group by
+/// group; without groups, of independent errors. NaN where an error is zero.
+estimate error_ratio(const rival& a, const rival& b);
+
+/// Whether the error of `a` is larger by more than two standard errors of the logarithm of the ratio; of
+/// errors without standard errors, whether it is larger.
+bool errs_more(const rival& a, const rival& b);
+
+/// The methods at up to a cost, each at the step at which it errs least.
+struct best_at_cost {
+  double cost;
+  std::vector<rival> best;  // the least error, and those that errs_more() does not separate from it; or none
+  std::optional<rival> next;   // the least error of the others
+  bool has_error_bars = true;  // of all that are compared
+};
+
+/// At every cost that rivals have; costs that differ by less than the factor `tolerance` are one. Where two
+/// methods can be afforded at some cost, ranked or not, costs at which only one can are left out.
+std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance);
+
+/// Up to `most` of them, the first and the last among these.
+std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most);
+
+/// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit`, such as
+/// "force evaluations per unit time", is that of the costs, `error` what is compared.
+std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
+                       const std::string& error = "error");
+
+/// "`a`, `b` and 2 more"
+std::string named(const std::vector<rival>& methods);
+
+/// Mean and standard error, to the first digit of that: 125 ± 10, 48.4 ± 0.5.
+std::string with_error(const estimate& value);
+
+}  // namespace nysalt::program

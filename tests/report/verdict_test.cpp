@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSL-1.0
+// Who is best at which cost: what error bars do not separate is not called better.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../../src/comparison/verdict.hpp"
+
+using namespace nysalt;
+using namespace nysalt::program;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const std::string unit = "evaluations";
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+/// A method of an order: error = scale * (cost/100)^-order at costs 50, 100, ..., with relative error bars.
+std::vector<rival> method(const std::string& name, double scale, double order, double bar = 0.02) {
+  std::vector<rival> result;
+  for (const double cost : {50.0, 100.0, 200.0, 400.0}) {
+    const double error = scale * std::pow(cost / 100.0, -order);
+    result.push_back(
+        {.method = name, .step = 1.0 / cost, .cost = cost, .error = error, .standard_error = bar * error});
+  }
+  return result;
+}
+
+std::vector<rival> together(std::initializer_list<std::vector<rival>> all) {
+  std::vector<rival> result;
+  for (const auto& one : all) result.insert(result.end(), one.begin(), one.end());
+  return result;
+}
+
+std::vector<std::string> names(const best_at_cost& one) {
+  std::vector<std::string> result;
+  for (const rival& best : one.best) result.push_back(best.method);
+  std::ranges::sort(result);
+  return result;
+}
+
+using list = std::vector<std::string>;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_clear_winner_is_named_at_every_cost) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> order(1.0, 6.0);
+  for (int draw = 0; draw < 100; ++draw) {
+    const double p = order(random);
+    auto all = together({method("a", 1.0, p), method("b", 3.0, p), method("c", 10.0, p)});
+    std::ranges::shuffle(all, random);
+    const auto found = best_at_costs(all, 1.01);
+    BOOST_TEST_REQUIRE(found.size() == 4U);
+    for (const auto& one : found) {
+      BOOST_TEST((names(one) == list{"a"}));
+      BOOST_TEST(one.next->method == "b");
+    }
+    const std::string text = verdict_of(found, unit);
+    BOOST_TEST(has(text, "Nothing beats `a` from 50 to 400 evaluations: the error of `b` is 3.00 ± 0.08"),
+               text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(curves_that_cross_have_a_winner_on_either_side) {
+  // Equal at 100 or 200: the higher order wins above, and a tie is where they cross.
+  for (const double at : {100.0, 200.0}) {
+    const double scale = std::pow(at / 100.0, 2.0);
+    const auto found = best_at_costs(together({method("low", 1.0, 2.0), method("high", scale, 4.0)}), 1.01);
+    for (const auto& one : found) {
+      const list expected = one.cost < at ? list{"low"} : one.cost > at ? list{"high"} : list{"high", "low"};
+      BOOST_TEST(names(one) == expected, boost::test_tools::per_element());
+    }
+    const std::string text = verdict_of(found, unit);
+    BOOST_TEST(has(text, "Who is best depends on the cost: `low` "), text);
+    BOOST_TEST(has(text, "(which error bars do not separate) at " + std::to_string(static_cast<int>(at))),
+               text);
+    BOOST_TEST(!has(text, "Nothing beats"), text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_error_bars_do_not_separate_is_named_together) {
+  // The logarithm of 1.1 is .095: more than two standard errors of .02 sqrt(2) each, less than of .05
+  // sqrt(2).
+  for (const auto& [bar, is_separated] : {std::pair{0.02, true}, std::pair{0.05, false}}) {
+    const auto found =
+        best_at_costs(together({method("a", 1.0, 2.0, bar), method("b", 1.1, 2.0, bar)}), 1.01);
+    for (const auto& one : found) BOOST_TEST((names(one) == list{"a"}) == is_separated);
+    const std::string text = verdict_of(found, unit);
+    BOOST_TEST(has(text, "Nothing beats `a`") == is_separated, text);
+    BOOST_TEST(
+        has(text,
+            "No method is known to be better than another from 50 to 400 evaluations: error bars do not "
+            "separate `a` and `b`.") == !is_separated,
+        text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_that_are_equal_and_better_than_the_rest_are_the_best) {
+  const auto found =
+      best_at_costs(together({method("a", 1.0, 2.0), method("b", 1.0, 2.0), method("c", 2.0, 2.0)}), 1.01);
+  for (const auto& one : found) {
+    BOOST_TEST((names(one) == list{"a", "b"}));
+    BOOST_TEST(one.next->method == "c");
+  }
+  BOOST_TEST(verdict_of(found, unit) ==
+             "The best are `a` and `b` from 50 to 400 evaluations: error bars do not separate them.");
+}
+
+// The sentence is of all costs, also of those that a small table leaves out.
+BOOST_AUTO_TEST_CASE(a_winner_at_one_cost_between_others_is_not_overlooked) {
+  std::vector<rival> all;
+  for (int i = 1; i <= 9; ++i) {
+    const double error = 1.0 / i;
+    all.push_back({"a", 0.1, 10.0 * i, error, 0.01 * error});
+    all.push_back({"b", 0.1, 10.0 * i, (i == 5 ? 0.5 : 2.0) * error, 0.01 * error});
+  }
+  all.push_back({"a", 0.1, 60.0, 0.01, 0.0001});
+  const std::string text = verdict_of(best_at_costs(all, 1.01), unit);
+  BOOST_TEST(text ==
+             "Who is best depends on the cost: `a` from 10 to 40, `b` at 50, `a` from 60 to 90 evaluations.");
+  std::vector<rival> changing;
+  for (int i = 1; i <= 9; ++i) {
+    for (const bool of_a : {true, false}) {
+      const double error = (of_a == (i % 2 == 0) ? 1.0 : 0.5) * std::pow(0.1, i);
+      changing.push_back({of_a ? "a" : "b", 0.1, 10.0 * i, error, 0.01 * error});
+    }
+  }
+  BOOST_TEST(verdict_of(best_at_costs(changing, 1.01), unit) ==
+             "Who is best depends on the cost, and changes 8 times: `a` at 10, `a` at 90 evaluations.");
+}
+
+/// Two methods that are equally good, with errors of so many trajectories: how often one is called better.
+double share_called_better(double bar_of, bool in_groups) {
+  constexpr int draws = 4000;
+  constexpr int groups = 100;
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal(1.0, 0.2);
+  int called = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    std::vector<rival> both;
+    const double shared = normal(random);  // what makes all trajectories of both err more
+    for (const char* name : {"a", "b"}) {
+      std::vector<double> errors(groups);
+      for (double& error : errors) error = shared * normal(random);
+      const estimate mean = mean_and_error(errors);
+      both.push_back({.method = name,
+                      .step = 0.1,
+                      .cost = 1.0,
+                      .error = mean.mean,
+                      .standard_error = bar_of * mean.standard_error});
+      if (in_groups) both.back().groups = errors;
+    }
+    called += best_at_costs(both, 1.01).front().best.size() == 1U ? 1 : 0;
+  }
+  return called / static_cast<double>(draws);
+}
+
+BOOST_AUTO_TEST_CASE(chance_makes_one_of_two_equal_methods_better_as_seldom_as_two_standard_errors_say) {
+  constexpr double expected = 0.0455;               // beyond two standard deviations
+  constexpr double four_deviations = 4.0 * 0.0033;  // sqrt(.0455 * .9545/4000)
+  for (const bool in_groups : {false, true})
+    BOOST_TEST(std::abs(share_called_better(1.0, in_groups) - expected) < four_deviations);
+  BOOST_TEST(share_called_better(0.3, false) > 0.4);  // too small error bars are seen
+}
+
+BOOST_AUTO_TEST_CASE(what_trajectories_share_does_not_hide_a_difference) {
+  rival a{.method = "a", .step = 0.1, .cost = 1.0, .error = 1.0, .standard_error = 0.2};
+  rival b{.method = "b", .step = 0.1, .cost = 1.0, .error = 1.1, .standard_error = 0.22};
+  BOOST_TEST(!errs_more(b, a));
+  for (int i = 0; i < 20; ++i) {
+    a.groups.push_back(1.0 + 0.9 * std::sin(i));
+    b.groups.push_back(1.1 * a.groups.back() + 1e-3 * std::cos(3.0 * i));
+  }
+  BOOST_TEST(errs_more(b, a));
+  BOOST_TEST(!errs_more(a, b));
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_error_is_left_out) {
+  auto failed = method("failed", 1e-6, 2.0);  // it would win
+  for (auto& one : failed) one.error = not_a_number;
+  auto lost = method("lost", 1e-6, 2.0);
+  for (auto& one : lost) one.error = std::numeric_limits<double>::infinity();
+  auto untimed = method("untimed", 1e-6, 2.0);
+  for (auto& one : untimed) one.cost = not_a_number;
+  auto all = together({failed, lost, untimed, method("a", 1.0, 2.0), method("b", 2.0, 2.0)});
+  for (const auto& one : best_at_costs(all, 1.01)) {
+    BOOST_TEST((names(one) == list{"a"}));
+    BOOST_TEST(one.next->method == "b");
+  }
+  const auto none = best_at_costs(together({failed, lost, untimed}), 1.01);
+  for (const auto& one : none) BOOST_TEST(one.best.empty());
+  BOOST_TEST(has(verdict_of(none, unit), "No method is ranked"));
+  BOOST_TEST(has(verdict_of({}, unit), "No method is ranked"));
+  all[0].error = 1e-6;  // but where it has one, it counts
+  BOOST_TEST((names(best_at_costs(all, 1.01).front()) == list{"failed"}));
+}
+
+// Where the others are no better than doing nothing, the one that is has beaten them.
+BOOST_AUTO_TEST_CASE(what_is_not_ranked_takes_part) {
+  auto all = together({method("a", 1.0, 4.0), method("b", 2.0, 4.0)});
+  for (auto& one : all) {
+    if (one.cost < (one.method == "a" ? 100.0 : 400.0)) one.error = not_a_number;
+  }
+  const auto found = best_at_costs(all, 1.01);
+  BOOST_TEST_REQUIRE(found.size() == 4U);
+  BOOST_TEST(found[0].best.empty());
+  for (std::size_t i = 1; i < 4; ++i) BOOST_TEST((names(found[i]) == list{"a"}));
+  BOOST_TEST(!found[1].next);
+  BOOST_TEST(found[3].next->method == "b");
+  BOOST_TEST(verdict_of(found, unit) ==
+             "Who is best depends on the cost: none is ranked at 50, `a` from 100 to 400 evaluations.");
+}
+
+BOOST_AUTO_TEST_CASE(a_method_alone_beats_nothing) {
+  const std::string text = verdict_of(best_at_costs(method("a", 1.0, 2.0), 1.01), unit);
+  BOOST_TEST(text == "Only `a` is ranked: there is no other to compare with.");
+}
+
+BOOST_AUTO_TEST_CASE(errors_without_bars_are_said_to_have_none) {
+  const auto found = best_at_costs(
+      together({method("a", 1.0, 2.0, not_a_number), method("b", 1.1, 2.0, not_a_number)}), 1.01);
+  BOOST_TEST((names(found.front()) == list{"a"}));
+  BOOST_TEST(has(verdict_of(found, unit), "differences may be chance"));
+  const auto with_bars = best_at_costs(together({method("a", 1.0, 2.0), method("b", 2.0, 2.0)}), 1.01);
+  BOOST_TEST(!has(verdict_of(with_bars, unit), "chance"));
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_zero_are_compared_too) {
+  const rival exact{.method = "a", .step = 0.1, .cost = 1.0, .error = 0.0, .standard_error = 0.0};
+  rival other{.method = "b", .step = 0.1, .cost = 1.0, .error = 1e-3, .standard_error = 1e-4};
+  BOOST_TEST(errs_more(other, exact));
+  BOOST_TEST(!errs_more(exact, exact));
+  other.standard_error = 1e-3;
+  BOOST_TEST(!errs_more(other, exact));
+}
+
+BOOST_AUTO_TEST_CASE(costs_are_those_of_the_data) {
+  // At 10 only one method can be afforded: that says nothing of the other.
+  std::vector<rival> all{{"cheap", 0.1, 10.0, 1.0, 0.01}};
+  for (int i = 1; i <= 10; ++i) {
+    all.push_back({"cheap", 0.1 / i, 20.0 * i, 1.0 / i, 0.01});
+    all.push_back({"good", 0.1 / i, 20.1 * i, 0.5 / i, 0.001});
+  }
+  const auto found = best_at_costs(all, 1.01);
+  BOOST_TEST_REQUIRE(found.size() == 10U);
+  BOOST_TEST(found.front().cost == 20.1);
+  BOOST_TEST(found.back().cost == 20.1 * 10);
+  for (const auto& one : found) BOOST_TEST((names(one) == list{"good"}));
+  const auto few = some_of(found, 4);
+  BOOST_TEST_REQUIRE(few.size() == 4U);
+  BOOST_TEST(few.front().cost == found.front().cost);
+  BOOST_TEST(few.back().cost == found.back().cost);
+  BOOST_TEST(some_of(few, 10).size() == 4U);
+  // Without the tolerance the slightly more expensive one is refused at the costs of the other.
+  BOOST_TEST((names(best_at_costs(all, 1.0).front()) == list{"good"}));
+  BOOST_TEST(best_at_costs(all, 1.0).size() == 20U - 1U);
+}
+
+BOOST_AUTO_TEST_CASE(a_method_is_taken_at_the_step_where_it_errs_least) {
+  // Of the smallest step rounding errs more.
+  const std::vector<rival> all{{"a", 0.1, 10.0, 1.0, 0.01},    {"a", 0.05, 20.0, 0.1, 0.001},
+                               {"a", 0.025, 40.0, 0.5, 0.005}, {"b", 0.1, 10.0, 2.0, 0.01},
+                               {"b", 0.05, 20.0, 0.3, 0.001},  {"b", 0.025, 40.0, 0.2, 0.001}};
+  const auto found = best_at_costs(all, 1.01);
+  BOOST_TEST(found.back().best.front().method == "a");
+  BOOST_TEST(found.back().best.front().step == 0.05);
+}
+
+BOOST_AUTO_TEST_CASE(the_unit_of_errors_and_costs_decides_nothing) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-3.0, 3.0);
+  for (int draw = 0; draw < 100; ++draw) {
+    std::vector<rival> all;
+    for (const char* name : {"a", "b", "c"}) {
+      const auto more = method(name, std::exp(any(random)), 3.0 + any(random), 0.3);
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    auto scaled = all;
+    for (auto& one : scaled) {
+      one.error *= 1024.0;
+      one.standard_error *= 1024.0;
+      one.cost *= 0.25;
+    }
+    const auto found = best_at_costs(all, 1.01);
+    const auto again = best_at_costs(scaled, 1.01);
+    BOOST_TEST_REQUIRE(found.size() == again.size());
+    for (std::size_t i = 0; i < found.size(); ++i) BOOST_TEST((names(found[i]) == names(again[i])));
+  }
+}
