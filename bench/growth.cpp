@@ -25,7 +25,7 @@ runner ensemble_of(std::int64_t trajectories) {
           [all] { run_ensemble(*all, steps, 1); }};
 }
 
-/// A hundred steps or more: moving between looks at the state, not looking at it.
+/// A hundred steps or more: steps between observations, not observing.
 std::int64_t steps_of_turn(Eigen::Index masses) { return std::max<std::int64_t>(100, 1'000'000 / masses); }
 
 runner chain_of(Eigen::Index masses) {

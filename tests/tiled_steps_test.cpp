@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(threads_take_systems_that_are_worth_them) {
   BOOST_TEST(threads_in_tiles({.sites = 4096, .components = 2}, 4) == 2);
   BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 4) == 4);
   BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 1, 4) == 1);
-  BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 1, 3) == 0);  // looked at too often
+  BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 1, 3) == 0);  // observed too often
   BOOST_TEST(threads_in_tiles({.sites = 1'000'000}, 4, 1) == 4);
   BOOST_TEST(threads_in_tiles(lattice(32), 2) == 0);
   BOOST_TEST(threads_in_tiles(lattice(100), 1) == 0);

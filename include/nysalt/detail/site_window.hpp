@@ -13,7 +13,7 @@
 
 namespace nysalt::detail {
 
-/// Kicks between two looks at the state, where nothing looks.
+/// Kicks between two observations, where nothing is observed.
 inline constexpr std::int64_t any_number_of_kicks = std::numeric_limits<std::int64_t>::max();
 
 /// The left or the right of something.
@@ -66,7 +66,7 @@ class site_window {
 
 /// How many of the threads step a trajectory in tiles. 0, so that it is better stepped without tiles, of a
 /// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much or that makes few kicks
-/// between two looks at the state.
+/// between two observations.
 int threads_in_tiles(const site_layout& layout, int threads, std::int64_t kicks = any_number_of_kicks);
 
 /// Sites whose energies are summed in order, before the sums are added in a tree: a multiple of sites_of_row.

@@ -32,7 +32,7 @@ class letters_in_portions {
 /// Steps of a whole system by several threads.
 class tiled_steps {
  public:
-  /// For at most that number of kicks between two looks at the state. Refers to the functions.
+  /// For at most that number of kicks between two observations. Refers to the functions.
   tiled_steps(const site_kernels& system, int threads, std::int64_t kicks);
   /// `steps` steps of the program. Cost: that of the steps, and of moving the state to the cache and back
   /// once for some tens of kicks.

@@ -32,7 +32,7 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
   static constexpr std::size_t slots = sizeof...(Part);
   static constexpr bool moves_q = false;
   static constexpr int displaced_forces = static_cast<int>(sizeof...(Part));
-  static constexpr std::array<char, sizeof...(Part)> digits{static_cast<char>('0' + Part)...};
+  static constexpr std::array<char, sizeof...(Part)> digits{static_cast<char>('0' + Part)...};  ///< numbers of the parts
   /// The part whose time each coefficient is, a digit for each.
   static constexpr std::string_view times{digits.data(), digits.size()};
 

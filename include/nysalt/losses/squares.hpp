@@ -79,7 +79,7 @@ R* products_of_columns(const column_of_residuals<R>& one, column_of_residuals<R>
   return count == 1 ? products_of_columns<1>(one, others, products) : products;
 }
 
-/// The column of a stretch: row after row of the upper triangle of (r, J)^T (r, J).
+/// The terms of a window: row after row of the upper triangle of (r, J)^T (r, J).
 template <class Residuals, class R>
 void products_of_residuals(const Residuals& r, std::vector<R>& terms) {
   const std::size_t parameters = r.parameters;

@@ -33,7 +33,7 @@ constexpr Eigen::Index most_overlap = 16;
 constexpr Eigen::Index most_kicks = 64;
 // A sweep that makes fewer of them costs more on one thread than it gains. Measured on square lattices.
 constexpr Eigen::Index many_kicks = 8;
-// Between two looks: with fewer, a chain in tiles takes longer than one in a loop over all sites.
+// Between two observations: with fewer, a chain in tiles takes longer than one in a loop over all sites.
 constexpr std::int64_t enough_kicks = 4;
 // Two threads with less than this each lose more by meeting than they gain. Measured on chains and lattices.
 constexpr Eigen::Index values_of_thread = 4096;
