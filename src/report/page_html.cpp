@@ -42,8 +42,9 @@ pre code{padding:0}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
 th,td{padding:.2rem .7rem;text-align:left;border-bottom:1px solid #e5e5e5}
-th{border-bottom:2px solid #bbb;white-space:nowrap}
-th.n,td.n{text-align:right;white-space:nowrap}
+th{border-bottom:2px solid #bbb}
+th.n,td.n{text-align:right}
+td.n{white-space:nowrap}
 th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer;text-align:inherit}
 th button::after{content:"\2195";color:#999;padding-left:.25em}
 th[aria-sort=ascending] button::after{content:"\2191";color:inherit}
