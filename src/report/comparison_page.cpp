@@ -131,8 +131,10 @@ std::string verdict_on(const comparison& all, std::size_t m, const std::vector<b
     return names;
   };
   if (leaders(found) != leaders(in_seconds)) {
-    text +=
-        " In seconds: " + verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
+    std::string of_seconds =
+        verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
+    of_seconds.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(of_seconds.front())));
+    text += " In seconds: " + of_seconds;
   }
   return text;
 }

@@ -42,8 +42,10 @@ pre code{padding:0}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
 th,td{padding:.2rem .7rem;text-align:left;border-bottom:1px solid #e5e5e5}
-th{border-bottom:2px solid #bbb;white-space:nowrap}
-th.n,td.n{text-align:right;white-space:nowrap}
+th{border-bottom:2px solid #bbb}
+th.n,td.n{text-align:right}
+td.n{white-space:nowrap}
+td.long{white-space:normal;min-width:12rem}
 th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer;text-align:inherit}
 th button::after{content:"\2195";color:#999;padding-left:.25em}
 th[aria-sort=ascending] button::after{content:"\2191";color:inherit}
@@ -63,14 +65,15 @@ figure svg .point *{pointer-events:all}
 .missing{color:#777;font-style:italic}
 @media print{
 body{max-width:none;margin:0;padding:0;font-size:10pt}
-figure,tr,pre{break-inside:avoid}
+figure,thead,tr,pre{break-inside:avoid}
+pre{white-space:pre-wrap;overflow:visible}
 nav,.value,.filter label{display:none}
 th button::after{content:none}
 thead{display:table-header-group}
-table{font-size:8pt}
+table{font-size:7pt}
 h1,h2,h3{break-after:avoid}
 .scroll{overflow:visible}
-th,td,th.n,td.n{white-space:normal;padding:.15rem .35rem}
+th,td{padding:.15rem .3rem}
 a{color:inherit}
 }
 )";

@@ -42,8 +42,9 @@ std::string table::html() const {
   const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
     result += "<tr>";
     for (std::size_t j = 0; j < cells.size(); ++j) {
-      result +=
-          fmt::format("<{0}{1}>{2}</{0}>", tag, j < left_ ? "" : " class=\"n\"", html_escaped(cells[j]));
+      constexpr std::size_t on_a_line = 30;  // bytes: what is longer is a list
+      const char* kind = j < left_ ? "" : cells[j].size() > on_a_line ? " class=\"n long\"" : " class=\"n\"";
+      result += fmt::format("<{0}{1}>{2}</{0}>", tag, kind, html_escaped(cells[j]));
     }
     result += "</tr>\n";
   };
