@@ -166,16 +166,18 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
-  /// The same of the kernel of a processed word, without P(-h); else synchronous(). No evaluation.
+  /// The same of the kernel of a processed word, without P(-h), else that of synchronous(), in x. No evaluation, and no
+  /// allocation where x has the system's dimension.
   template <Scalar T>
-  phase_point<T, dimension> of_kernel(const open_run<T, dimension>& run) const {
-    if (!is_processed_) return synchronous(run);
-    flow_state<T, dimension> x = run.state;
+  void of_kernel(const open_run<T, dimension>& run, flow_state<T, dimension>& x) const {
+    x = run.state;
+    if (is_processed_ && run.step == 0) return;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    if constexpr (!TypeLevelWord<W>) {
-      if (run.step > 0) letters_.close_kernel(*system_, x, cursor);
+    if (is_processed_) {
+      if constexpr (!TypeLevelWord<W>) letters_.close_kernel(*system_, x, cursor);
+      return;
     }
-    return {std::move(x.q), std::move(x.p)};
+    with_letters([&](const auto& letters) { letters.close(*system_, x, cursor); });
   }
 
   /// One plain step, letter by letter, from only q and p (f is scratch): what learning and the

@@ -102,7 +102,8 @@ class lockstep {
       good_ = run_;
       const std::int64_t next = std::min((run_.step / steps_between_checks + 1) * steps_between_checks, end);
       advance(next);
-      const condition failed = both(diverged_(stepper_->of_kernel(run_)), live_);
+      stepper_->of_kernel(run_, checked_);
+      const condition failed = both(diverged_(checked_), live_);
       const bool all_well = !any(failed);
       if (!all_well) drop(failed, next);
       seen(next, all_well);
@@ -118,7 +119,10 @@ class lockstep {
     while (any(unknown)) {
       stepper_->advance(run, 1);
       condition found = unknown;  // at the present check at the latest
-      if (run.step < end) found = both(unknown, diverged_(stepper_->of_kernel(run)));
+      if (run.step < end) {
+        stepper_->of_kernel(run, checked_);
+        found = both(unknown, diverged_(checked_));
+      }
       diverged_at_.take(found, run.step);
       unknown = both(unknown, !found);
     }
@@ -137,6 +141,7 @@ class lockstep {
   const Stepper* stepper_;
   open_run<T, dimension> run_;
   open_run<T, dimension> good_;
+  flow_state<T, dimension> checked_;  // the state at a check: kept, so that no check allocates
   divergence<typename Stepper::system_type, T> diverged_;
   condition live_;
   first_in_lanes<T> diverged_at_{};
