@@ -54,11 +54,12 @@ class problem {
     return std::make_shared<const test::one_step<nystrom>>(chain_, data_, measure_);
   }
 
-  /// Multiplications and additions that a pass does for one pair, counted: a step with two derivatives, the residuals,
-  /// and the six terms that these add to the sums of the trajectory.
+  /// Multiplications and additions that a pass does for one pair, counted: a step with two derivatives, the
+  /// residuals, and the six terms that these add to the sums of the trajectory.
   std::int64_t operations_of_pair() const {
     using C = dual<counting, 2>;
-    const auto c = nystrom::coefficients(std::array{C::variable(counting(0.5), 0), C::variable(counting(0.4), 1)});
+    const auto c =
+        nystrom::coefficients(std::array{C::variable(counting(0.5), 0), C::variable(counting(0.4), 1)});
     const stepper<chain_type, nystrom::word, C> one(chain_, c, data_.step);
     const phase_point<double, Eigen::Dynamic> first = data_.start[0];
     auto x = phase_point<double, 6>{first.q, first.p}.cast<C>();
@@ -127,7 +128,8 @@ void race_learning_pass() {
   const auto numbers = std::make_shared<const std::vector<double>>(shared->numbers());
   const double operations = static_cast<double>(shared->operations_of_pair()) * shared->samples();
   const auto steps = static_cast<std::int64_t>(operations / (default_lanes * (multiplications + additions)));
-  std::printf("learning pass: %lld operations a pair\n", static_cast<long long>(shared->operations_of_pair()));
+  std::printf("learning pass: %lld operations a pair\n",
+              static_cast<long long>(shared->operations_of_pair()));
   std::vector<runner> runners;
   runners.push_back({"pass", shared->samples(), [=] { benchmark::DoNotOptimize(shared->pass(*loss)); }});
   runners.push_back({"same number of operations", shared->samples(),

@@ -59,7 +59,8 @@ void race_one_chain() {
     const double work = static_cast<double>(masses * steps);
     const auto start = std::make_shared<chain_point>(start_of_chain(masses));
     const auto f = std::make_shared<Eigen::VectorXd>(masses);
-    // Open runs that go on from turn to turn: a turn that made its vectors anew would time the system's fresh pages.
+    // Open runs that go on from turn to turn: a turn that made its vectors anew would time the system's fresh
+    // pages.
     const auto tiles = [start, steps](int threads) {
       const auto chain = std::make_shared<const model>(chain_model(start->q.size()).on_threads(threads));
       const auto opened = make_stepper(*chain, tabulated(verlet{}), chain_step).open(*start);
@@ -77,8 +78,8 @@ void race_one_chain() {
     const auto plain = std::make_shared<chain_point>(*start);
     runners.push_back({"textbook", work, [=] {
                          constexpr double k = 0.5 * chain_omega * chain_omega;
-                         textbook_chain<contraction::off>(numbers(plain->q), numbers(plain->p), numbers(*f), k,
-                                                          chain_step, steps);
+                         textbook_chain<contraction::off>(numbers(plain->q), numbers(plain->p), numbers(*f),
+                                                          k, chain_step, steps);
                          benchmark::DoNotOptimize(plain->q.data());
                        }});
     const auto move = [steps](std::span<double> q, std::span<double> p) {

@@ -40,7 +40,8 @@ struct plan {
   std::int64_t steps;
 };
 
-/// As many trajectories side by side as fill a block of lanes, one block after the other, unobserved until the end.
+/// As many trajectories side by side as fill a block of lanes, one block after the other, unobserved until
+/// the end.
 template <class Method, class System>
 void follow(const System& system, const auto& law, const plan& of) {
   constexpr int N = System::dimension;
@@ -87,7 +88,8 @@ void run(std::string_view name, const plan& of) {
 
 int main(int count, char** arguments) {
   try {
-    if (count != 6) throw std::invalid_argument("usage: nysalt_typed_loop SYSTEM METHOD STEP TRAJECTORIES STEPS");
+    if (count != 6)
+      throw std::invalid_argument("usage: nysalt_typed_loop SYSTEM METHOD STEP TRAJECTORIES STEPS");
     nysalt::bench::run(arguments[1], {arguments[2], std::stod(arguments[3]), std::stoll(arguments[4]),
                                       std::stoll(arguments[5])});
   } catch (const std::exception& problem) {

@@ -68,30 +68,30 @@ void gather_items(const communicator& ranks, std::vector<Item>& all, std::vector
 
 /// A value of each rank, at all of them.
 template <class T>
-  requires std::is_trivially_copyable_v<T> std::vector<T> in_order_of_ranks(const communicator& ranks,
-                                                                            const T& value) {
-    std::vector<T> all(static_cast<std::size_t>(ranks.size()));
-    std::vector<std::size_t> first_of;
-    for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r);
-    all[static_cast<std::size_t>(ranks.rank())] = value;
-    gather_items(ranks, all, first_of);
-    return all;
-  }
+  requires std::is_trivially_copyable_v<T>
+std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
+  std::vector<T> all(static_cast<std::size_t>(ranks.size()));
+  std::vector<std::size_t> first_of;
+  for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r);
+  all[static_cast<std::size_t>(ranks.rank())] = value;
+  gather_items(ranks, all, first_of);
+  return all;
+}
 
 /// The items of rank 0, then those of rank 1, and so on, at all of them.
 template <class T>
-  requires std::is_trivially_copyable_v<T> std::vector<T> one_after_the_other(const communicator& ranks,
-                                                                              const std::vector<T>& ours) {
-    std::vector<std::size_t> first_of{0};
-    for (const std::size_t count : in_order_of_ranks(ranks, ours.size())) {
-      first_of.push_back(first_of.back() + count);
-    }
-    std::vector<T> all(first_of.back());
-    const std::size_t first = first_of[static_cast<std::size_t>(ranks.rank())];
-    std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
-    gather_items(ranks, all, first_of);
-    return all;
+  requires std::is_trivially_copyable_v<T>
+std::vector<T> one_after_the_other(const communicator& ranks, const std::vector<T>& ours) {
+  std::vector<std::size_t> first_of{0};
+  for (const std::size_t count : in_order_of_ranks(ranks, ours.size())) {
+    first_of.push_back(first_of.back() + count);
   }
+  std::vector<T> all(first_of.back());
+  const std::size_t first = first_of[static_cast<std::size_t>(ranks.rank())];
+  std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
+  gather_items(ranks, all, first_of);
+  return all;
+}
 
 /// Item first_of_part(count, r, parts) is the first that part r has of `count`: parts are as equal as can be,
 /// and part 0 has one if any has.

@@ -25,10 +25,10 @@ concept Ensemble = requires(const E& ensemble, std::uint64_t seed, std::uint64_t
 /// An ensemble whose states are expensive may make those of `count` trajectories at a time, one in each lane
 /// of T, with the same bits: block<T>(seed, first, count).
 template <class E, class S, class T>
-concept MakesBlocks = Ensemble<E, S> &&
-    requires(const E& ensemble, std::uint64_t seed, std::int64_t first, int count) {
-  { ensemble.template block<T>(seed, first, count) } -> std::same_as<phase_point<T, S::dimension>>;
-};
+concept MakesBlocks =
+    Ensemble<E, S> && requires(const E& ensemble, std::uint64_t seed, std::int64_t first, int count) {
+      { ensemble.template block<T>(seed, first, count) } -> std::same_as<phase_point<T, S::dimension>>;
+    };
 
 namespace detail {
 /// "q2 is nan": the first entry that is not finite; empty if there is none.

@@ -57,20 +57,27 @@ using theta_dual = dual<double, F::parameters>;
 /// not; and source, the key in docs/bibliography.bib of where it comes from.
 template <class F>
 concept Family = std::copyable<F> && Word<typename F::word> &&
-    requires(const F& family, const parameters_of<F>& theta,
-             const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
-  { F::name } -> std::convertible_to<std::string_view>;
-  { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
-  { F::order } -> std::convertible_to<int>;
-  { F::symmetric } -> std::convertible_to<bool>;
-  { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
-  { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
-  { F::start() } -> std::same_as<parameters_of<F>>;
-  { family.coefficients(theta) } -> std::same_as<typename F::word::template coefficients<double>>;
-  { family.coefficients(lifted) } -> std::same_as<typename F::word::template coefficients<theta_dual<F>>>;
-} &&(TypeLevelWord<typename F::word> || requires(const F& family) {
-  { family.letters() } -> std::convertible_to<run_time_word>;
-});
+                 requires(const F& family, const parameters_of<F>& theta,
+                          const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
+                   { F::name } -> std::convertible_to<std::string_view>;
+                   { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
+                   { F::order } -> std::convertible_to<int>;
+                   { F::symmetric } -> std::convertible_to<bool>;
+                   { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
+                   {
+                     F::ranges()
+                   } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
+                   { F::start() } -> std::same_as<parameters_of<F>>;
+                   {
+                     family.coefficients(theta)
+                   } -> std::same_as<typename F::word::template coefficients<double>>;
+                   {
+                     family.coefficients(lifted)
+                   } -> std::same_as<typename F::word::template coefficients<theta_dual<F>>>;
+                 } &&
+                 (TypeLevelWord<typename F::word> || requires(const F& family) {
+                   { family.letters() } -> std::convertible_to<run_time_word>;
+                 });
 
 /// The word of a family or a method, as an object.
 template <class F>

@@ -31,15 +31,11 @@ struct flow_room : lifted_room<T, N> {
 
 /// The flow of the bath: its `stochastic` is true, and it draws noise.
 template <class L>
-concept StochasticFlow = requires {
-  requires L::stochastic;
-};
+concept StochasticFlow = requires { requires L::stochastic; };
 
 /// The flow of a part that is quadratic: it is prepared with the modes of the system.
 template <class L>
-concept QuadraticFlow = requires {
-  requires L::reads_modes;
-};
+concept QuadraticFlow = requires { requires L::reads_modes; };
 
 /// The splitting of H by the words with this letter; `any` of a letter that belongs to all of them.
 enum class splitting {
@@ -117,11 +113,9 @@ struct free_particle {
 template <class L>
 concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& room) {
   L::apply(free_particle{}, L::prepare(1.0, 1.0), x, room);
-}
-|| requires(flow_state<double, 1>& x, flow_room<double, 1>& room) {
+} || requires(flow_state<double, 1>& x, flow_room<double, 1>& room) {
   L::apply(free_particle{}, L::prepare(1.0, 1.0, 1.0), x, room);
-}
-|| requires(const double* c, flow_state<double, 1>& x, flow_room<double, 1>& room) {
+} || requires(const double* c, flow_state<double, 1>& x, flow_room<double, 1>& room) {
   L::apply(free_particle{}, L::prepare(c, 1.0), x, room);
 };
 }  // namespace detail
@@ -164,7 +158,6 @@ concept Flow = requires {
   { L::moves_q } -> std::convertible_to<bool>;
   { L::additive } -> std::convertible_to<bool>;
   { L::template serves<detail::free_particle, double> } -> std::convertible_to<bool>;
-}
-&&(StochasticFlow<L> || QuadraticFlow<L> || detail::AppliedFlow<L>);
+} && (StochasticFlow<L> || QuadraticFlow<L> || detail::AppliedFlow<L>);
 
 }  // namespace nysalt

@@ -198,10 +198,10 @@ void force_of(const S& system, const vector<T, S::dimension>& q, vector<T, S::di
 
 /// f'(q) v of a field can be had over T.
 template <class S, class T, field F>
-concept ForceDerivativeOver = ForceOver<S, dual<T, 1>, F> ||
-                              (F == field::whole && (HasForceDerivative<S, T> ||
-                                                     (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
-                              (ErasedSystem<S> && HasForce<S, T>);
+concept ForceDerivativeOver =
+    ForceOver<S, dual<T, 1>, F> ||
+    (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
+    (ErasedSystem<S> && HasForce<S, T>);
 
 /// Room for a force over dual numbers.
 template <class T, int N>

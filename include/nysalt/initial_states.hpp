@@ -23,11 +23,10 @@ class initial_states {
 
   /// Those of an ensemble(seed, n) with a description(), which is copied.
   template <class E>
-    requires(!std::same_as<E, initial_states>)
-  &&requires(const E& e) {
-    e(std::uint64_t{}, std::uint64_t{}).q;
-    { e.description() } -> std::convertible_to<std::string>;
-  }
+    requires(!std::same_as<E, initial_states>) && requires(const E& e) {
+      e(std::uint64_t{}, std::uint64_t{}).q;
+      { e.description() } -> std::convertible_to<std::string>;
+    }
   initial_states(const E& ensemble)  // NOLINT(google-explicit-constructor)
       : text_(ensemble.description()) {
     at_ = [ensemble](std::uint64_t seed, std::uint64_t n) -> state {

@@ -19,7 +19,8 @@ class site_columns {
       : values_(values), first_site_(first_site), stride_(stride) {}
   /// A view of the same values as constants.
   operator site_columns<const T>() const  // NOLINT(google-explicit-constructor)
-      requires(!std::is_const_v<T>) {
+    requires(!std::is_const_v<T>)
+  {
     return {values_, first_site_, stride_};
   }
 
@@ -47,8 +48,8 @@ concept HasForceInRange = requires(const S& s, const constant_columns& q, const 
 template <class S>
 concept HasKickInRange = requires(const S& s, const constant_columns& q, const columns& p, Eigen::Index i) {
   s.template kick_in_range<double>(q, p, 1.0, i, i);
-  requires std::is_base_of_v < typename written_in<decltype(&S::template force_in_range<double>)>::type,
-  typename written_in<decltype(&S::template kick_in_range<double, double>)>::type > ;
+  requires std::is_base_of_v<typename written_in<decltype(&S::template force_in_range<double>)>::type,
+                             typename written_in<decltype(&S::template kick_in_range<double, double>)>::type>;
 };
 template <class S>
 concept HasPotentialInRange = requires(const S& s, const constant_columns& q, Eigen::Index i) {
@@ -83,10 +84,10 @@ concept HasPotentialInRange = requires(const S& s, const constant_columns& q, Ei
 template <class S>
 concept LocalSystem =
     NystromSystem<S> && !BlackBoxForce<S> && detail::HasForceInRange<S> && requires(const S& s) {
-  { S::components } -> std::convertible_to<int>;
-  { s.sites() } -> std::convertible_to<Eigen::Index>;
-  { s.reach() } -> std::convertible_to<Eigen::Index>;
-  { s.is_periodic() } -> std::convertible_to<bool>;
-};
+      { S::components } -> std::convertible_to<int>;
+      { s.sites() } -> std::convertible_to<Eigen::Index>;
+      { s.reach() } -> std::convertible_to<Eigen::Index>;
+      { s.is_periodic() } -> std::convertible_to<bool>;
+    };
 
 }  // namespace nysalt

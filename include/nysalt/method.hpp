@@ -29,9 +29,9 @@ concept Method = Word<typename M::word> && requires(const M& method) {
   { method.order } -> std::convertible_to<int>;
   { method.symmetric } -> std::convertible_to<bool>;
   { method.requires_quadratic_kinetic } -> std::convertible_to<bool>;
-} &&(TypeLevelWord<typename M::word> || requires(const M& method) {
-  { method.letters() } -> std::convertible_to<run_time_word>;
-});
+} && (TypeLevelWord<typename M::word> || requires(const M& method) {
+                   { method.letters() } -> std::convertible_to<run_time_word>;
+                 });
 
 /// A family at a theta, usable at any step.
 template <Family F>

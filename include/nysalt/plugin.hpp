@@ -160,21 +160,20 @@ inline std::string plugin_stamp() {
 /// follow: parameter(...).at_least(2), .at_most(1000), .positive(). A parameter that says how many equal
 /// parts the system has is marked by .size(): what was learned at one size may then be tried at another.
 template <class S, class Number>
-  requires std::is_arithmetic_v<Number> detail::member_parameter<S> parameter(std::string name,
-                                                                              Number S::*member,
-                                                                              std::string meaning) {
-    using value = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
-    using limits = std::numeric_limits<Number>;
-    declared_parameter declared{
-        .name = std::move(name), .usual = static_cast<value>(S().*member), .meaning = std::move(meaning)};
-    if constexpr (sizeof(Number) < sizeof(value) || std::is_unsigned_v<Number>) {  // what the member can hold
-      declared.least = static_cast<double>(limits::lowest());
-      if constexpr (sizeof(Number) < sizeof(value)) declared.most = static_cast<double>(limits::max());
-    }
-    return {std::move(declared), [member](S& system, const parameter_value& given) {
-              system.*member = static_cast<Number>(std::get<value>(given));
-            }};
+  requires std::is_arithmetic_v<Number>
+detail::member_parameter<S> parameter(std::string name, Number S::*member, std::string meaning) {
+  using value = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
+  using limits = std::numeric_limits<Number>;
+  declared_parameter declared{
+      .name = std::move(name), .usual = static_cast<value>(S().*member), .meaning = std::move(meaning)};
+  if constexpr (sizeof(Number) < sizeof(value) || std::is_unsigned_v<Number>) {  // what the member can hold
+    declared.least = static_cast<double>(limits::lowest());
+    if constexpr (sizeof(Number) < sizeof(value)) declared.most = static_cast<double>(limits::max());
   }
+  return {std::move(declared), [member](S& system, const parameter_value& given) {
+            system.*member = static_cast<Number>(std::get<value>(given));
+          }};
+}
 
 /// The initial distribution: an ensemble, such as normal_around, from law(system), or from law(system,
 /// spread), where deviations are to be multiplied by the spread.

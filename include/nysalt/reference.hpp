@@ -22,11 +22,11 @@ namespace nysalt {
 /// one trajectory at a time.
 template <class R, class S>
 concept ReferenceFlow = SeparableSystem<S> &&
-    requires(const R& reference, const S& system, phase_point<double, S::dimension>& x) {
-  reference.advance(system, x, 1.0);
-  { reference.finer() } -> std::same_as<R>;
-  { reference.description() } -> std::convertible_to<std::string>;
-};
+                        requires(const R& reference, const S& system, phase_point<double, S::dimension>& x) {
+                          reference.advance(system, x, 1.0);
+                          { reference.finer() } -> std::same_as<R>;
+                          { reference.description() } -> std::convertible_to<std::string>;
+                        };
 
 /// Whose noise a path sees, and how far it is: after `step` times of equal length.
 struct path_place {
@@ -42,12 +42,12 @@ struct path_place {
 /// description()
 template <class R, class S>
 concept PathReference = HasBath<S> && SeparableSystem<S> &&
-    requires(const R& reference, const S& system, phase_point<double, S::dimension>& x,
-             std::span<vector<double, S::dimension>> xi) {
-  reference.advance(system, x, 1.0, path_place{}, xi);
-  { reference.finer() } -> std::same_as<R>;
-  { reference.description() } -> std::convertible_to<std::string>;
-};
+                        requires(const R& reference, const S& system, phase_point<double, S::dimension>& x,
+                                 std::span<vector<double, S::dimension>> xi) {
+                          reference.advance(system, x, 1.0, path_place{}, xi);
+                          { reference.finer() } -> std::same_as<R>;
+                          { reference.description() } -> std::convertible_to<std::string>;
+                        };
 
 /// The error of a path in small steps, over its difference from the same path in half the step: 4/3 of order
 /// two, which BAOAB has where friction is weak, and sqrt(4/3) = 1.15 where noise makes the errors of

@@ -278,8 +278,7 @@ consteval bool has_known_letters() {
   if constexpr (TypeLevelWord<W>) {
     return []<std::size_t... I>(std::index_sequence<I...>) {
       return (is_known_letter<typename W::template letter<I>> || ...);
-    }
-    (std::make_index_sequence<W::length>());
+    }(std::make_index_sequence<W::length>());
   } else {
     return true;
   }

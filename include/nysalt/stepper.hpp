@@ -73,8 +73,8 @@ class stepper {
     if (acts_) require_thermostat(word.letters());
   }
   /// The same for a word that is known by its type.
-  stepper(const S& system, const coefficients_type& coefficients, double step,
-          const Noise& noise = {}) requires TypeLevelWord<W>
+  stepper(const S& system, const coefficients_type& coefficients, double step, const Noise& noise = {})
+    requires TypeLevelWord<W>
       : stepper(system, W{}, coefficients, step, noise) {}
   stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
@@ -166,8 +166,8 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
-  /// The same of the kernel of a processed word, without P(-h), else that of synchronous(), in x. No evaluation, and no
-  /// allocation where x has the system's dimension.
+  /// The same of the kernel of a processed word, without P(-h), else that of synchronous(), in x. No
+  /// evaluation, and no allocation where x has the system's dimension.
   template <Scalar T>
   void of_kernel(const open_run<T, dimension>& run, flow_state<T, dimension>& x) const {
     x = run.state;

@@ -64,16 +64,14 @@ struct frequency_band {
 /// What can be stepped at all: it can be copied, and has `static constexpr int dimension`, positive, or
 /// Eigen::Dynamic and a size().
 template <class S>
-concept System = std::copyable<S> &&
-    (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
-       { s.size() } -> std::convertible_to<Eigen::Index>;
-     }));
+concept System =
+    std::copyable<S> && (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
+                           { s.size() } -> std::convertible_to<Eigen::Index>;
+                         }));
 
 /// What the system can do is known while running: see nysalt/model.hpp.
 template <class S>
-concept ErasedSystem = System<S> && requires {
-  requires S::is_erased;
-};
+concept ErasedSystem = System<S> && requires { requires S::is_erased; };
 
 /// V(q) can be evaluated over T.
 template <class S, class T>
@@ -82,9 +80,8 @@ concept HasPotential = requires(const S& s, const vector<T, S::dimension>& q) {
 };
 /// The system has a force(q, f) of its own over T, f = -grad V(q).
 template <class S, class T>
-concept HasForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
-  s.force(q, f);
-};
+concept HasForce =
+    requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) { s.force(q, f); };
 
 namespace detail {
 /// The class in which a member function is written.
@@ -135,16 +132,13 @@ consteval bool derivative_is_of_the_force() {
 }
 
 template <class S, class T>
-concept CanDifferentiateForce = requires(const S& s, const vector<T, S::dimension>& q,
-                                         const vector<T, S::dimension>& v, vector<T, S::dimension>& g) {
-  s.force_derivative(q, v, g);
-};
+concept CanDifferentiateForce =
+    requires(const S& s, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
+             vector<T, S::dimension>& g) { s.force_derivative(q, v, g); };
 
 template <class S, class T, class C>
 concept CanKick = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& p,
-                           const C& c) {
-  s.kick(q, p, c);
-};
+                           const C& c) { s.kick(q, p, c); };
 }  // namespace detail
 
 /// The system has a kick of its own over T, p += c force(q), that is written in the class of its force or
@@ -154,8 +148,8 @@ concept HasKick = detail::CanKick<S, T, C> && detail::KickOfTheForce<S, T, C>;
 /// The system has a directional derivative of its force over T, g = f'(q) v, that is written in the class of
 /// its force or further down, as a kick.
 template <class S, class T = double>
-concept HasForceDerivative = detail::CanDifferentiateForce<S, T> &&
-    detail::derivative_is_of_the_force<S, T>();
+concept HasForceDerivative =
+    detail::CanDifferentiateForce<S, T> && detail::derivative_is_of_the_force<S, T>();
 /// The system has the force of V without its quadratic part.
 template <class S, class T = double>
 concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
@@ -173,9 +167,8 @@ concept HasKineticEnergy = requires(const S& s, const vector<T, S::dimension>& p
 };
 /// The system has a velocity of its own, v = grad K(p) over T.
 template <class S, class T>
-concept HasVelocity = requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
-  s.velocity(p, v);
-};
+concept HasVelocity =
+    requires(const S& s, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) { s.velocity(p, v); };
 /// The system declares the modes of its quadratic part.
 template <class S>
 concept HasModes = requires(const S& s) {
@@ -222,8 +215,8 @@ concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !H
 /// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
 /// while running, says so itself.
 template <class S>
-concept HasQuadraticKinetic = System<S> &&((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
-                                           requires { requires S::may_have_quadratic_kinetic; });
+concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
+                                            requires { requires S::may_have_quadratic_kinetic; });
 
 /// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes give, and the rest by
 /// its force.

@@ -42,7 +42,9 @@ class refusal : public std::runtime_error {
 
 template <class T>
   requires(!std::is_floating_point_v<T>)
-const T& in_message(const T& value) { return value; }
+const T& in_message(const T& value) {
+  return value;
+}
 template <std::floating_point T>
 number_in_message in_message(T value) {
   return {value};

@@ -244,9 +244,8 @@ bool suits(const S&, const Method auto& method) {
   return !(has("G") && BlackBoxForce<S>);
 }
 template <class M, class Model>
-inline constexpr bool fits = (!M::requires_quadratic_kinetic ||
-                              NystromSystem<system_of<Model>>)&&(M::word::reads != field::soft ||
-                                                                 HasQuadraticPart<system_of<Model>>);
+inline constexpr bool fits = (!M::requires_quadratic_kinetic || NystromSystem<system_of<Model>>)&&(
+    M::word::reads != field::soft || HasQuadraticPart<system_of<Model>>);
 
 /// All methods as data, with members drawn from the families: a law about them is compiled once a system.
 /// That a method steps as its table does is a law of its own, in laws/data_laws.hpp.

@@ -84,9 +84,7 @@ struct bath_of_another_type : pendulum {
   double bath() const { return 0.1; }
 };
 template <class S>
-concept CanBeInBath = requires {
-  typename in_bath<S>;
-};
+concept CanBeInBath = requires { typename in_bath<S>; };
 static_assert(HasBath<bath_by_value> && HasBath<in_bath<pendulum>> && !HasBath<pendulum>);
 static_assert(!HasBath<bath_not_const> && !HasBath<bath_of_another_type> && !HasBath<bath>);
 static_assert(CanBeInBath<pendulum> && CanBeInBath<black_box> && CanBeInBath<linear_chain>);

@@ -40,11 +40,11 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
 /// K(-p) is not K(p) at some start of the first 16, the system is in a bath that acts (H is not its own
 /// then), kT is not positive and finite, there is not one step or trajectory, or a start does not fit.
 template <SeparableSystem S, Method M, Ensemble<S> E>
-  requires HasEnergy<S> acceptance_result acceptance(const S& system, const M& method, const E& ensemble,
-                                                     const trajectory_options& options,
-                                                     double temperature = 1.0) {
-    return detail::acceptance(system, detail::table_for(method, system, options.step), ensemble, options,
-                              temperature);
-  }
+  requires HasEnergy<S>
+acceptance_result acceptance(const S& system, const M& method, const E& ensemble,
+                             const trajectory_options& options, double temperature = 1.0) {
+  return detail::acceptance(system, detail::table_for(method, system, options.step), ensemble, options,
+                            temperature);
+}
 
 }  // namespace nysalt

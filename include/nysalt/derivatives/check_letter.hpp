@@ -110,8 +110,7 @@ void require_sound_letters(const S& system, const std::vector<phase_point<double
   };
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (require_one(std::type_identity<typename W::template letter<I>>()), ...);
-  }
-  (std::make_index_sequence<W::length>());
+  }(std::make_index_sequence<W::length>());
 }
 
 }  // namespace nysalt

@@ -22,8 +22,9 @@ namespace nysalt {
 namespace detail {
 /// grad K can be differentiated.
 template <class S>
-concept HasDifferentiableVelocity = NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
-    (HasKineticEnergy<S, double>&& HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
+concept HasDifferentiableVelocity =
+    NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
+    (HasKineticEnergy<S, double> && HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
 
 /// Whether it can.
 template <System S>
@@ -91,26 +92,26 @@ Eigen::MatrixXd kinetic_factor(const S& system, const vector<double, S::dimensio
 /// std::invalid_argument if a derivative is not finite. Cost: as many directional derivatives as there are
 /// degrees of freedom, and the eigenvalues of a matrix of that size.
 template <SeparableSystem S>
-  requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
-      const S& system, force_jacobian<field::whole, S>& jacobian,
-      const phase_point<double, S::dimension>& state) {
-    const Eigen::MatrixXd factor = detail::kinetic_factor(system, state.p);
-    if (factor.size() == 0) return {};
-    const Eigen::MatrixXd stiffness =
-        factor.transpose() * detail::potential_hessian(jacobian, state.q) * factor;
-    if (!stiffness.allFinite()) {
-      throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
-    }
-    return detail::frequencies_of(stiffness);
+  requires detail::HasDifferentiableVelocity<S>
+std::vector<double> frequencies_at(const S& system, force_jacobian<field::whole, S>& jacobian,
+                                   const phase_point<double, S::dimension>& state) {
+  const Eigen::MatrixXd factor = detail::kinetic_factor(system, state.p);
+  if (factor.size() == 0) return {};
+  const Eigen::MatrixXd stiffness =
+      factor.transpose() * detail::potential_hessian(jacobian, state.q) * factor;
+  if (!stiffness.allFinite()) {
+    throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
   }
+  return detail::frequencies_of(stiffness);
+}
 
 /// The same at a single state.
 template <SeparableSystem S>
-  requires detail::HasDifferentiableVelocity<S> std::vector<double> frequencies_at(
-      const S& system, const phase_point<double, S::dimension>& state) {
-    force_jacobian<field::whole, S> jacobian(system, std::span(&state, 1));
-    return frequencies_at(system, jacobian, state);
-  }
+  requires detail::HasDifferentiableVelocity<S>
+std::vector<double> frequencies_at(const S& system, const phase_point<double, S::dimension>& state) {
+  force_jacobian<field::whole, S> jacobian(system, std::span(&state, 1));
+  return frequencies_at(system, jacobian, state);
+}
 
 /// Frequencies along some states.
 struct frequencies_along {

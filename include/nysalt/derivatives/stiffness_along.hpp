@@ -38,45 +38,45 @@ struct stiffness_range {
 /// Cost: some 8 to 40 directional derivatives a state, less below 8 dimensions. Throws std::invalid_argument
 /// if there are no states, or one where the force has no finite derivative.
 template <field F = field::whole, NystromSystem S>
-  requires ForceDerivativeOver<S, double, F> stiffness_range
-  stiffness_along(const S& system, const std::ranges::range auto& states) {
-    const Eigen::Index n = size(system);
-    Eigen::VectorXd root = Eigen::VectorXd::Ones(n);  // M^{-1/2}
-    if constexpr (HasInverseMass<S>) {
-      for (Eigen::Index i = 0; i < n; ++i) root[i] = std::sqrt(system.inverse_mass(i));
-    }
-    // Every start has a part of chance, the same for all, so that no end can hide from it; and of the ends of
-    // the state before, which are near.
-    std::mt19937_64 bits{1};
-    Eigen::VectorXd chance(n);
-    for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
-    chance.normalize();
-    Eigen::VectorXd start = chance;
-
-    stiffness_range found;
-    force_jacobian<F, S> jacobian(system, states);
-    auto v = make_vector<double>(system);
-    for (const auto& state : states) {
-      jacobian.move_to(state.q);
-      const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-        v = root.cwiseProduct(x);
-        return -root.cwiseProduct(jacobian.times(v));
-      };
-      const auto ends = ends_of_spectrum(multiply, start);
-      if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
-        throw std::invalid_argument(sentence(
-            "stiffness_along: the force has no finite derivative at state {}; leave it out", found.states));
-      }
-      found.lowest = std::min(found.lowest, ends.lowest);
-      found.highest = std::max(found.highest, ends.highest);
-      found.highest_of_state.push_back(ends.highest);
-      found.evaluations += ends.products;
-      ++found.states;
-      start = chance + ends.lowest_direction + ends.highest_direction;
-    }
-    if (found.states == 0)
-      throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
-    return found;
+  requires ForceDerivativeOver<S, double, F>
+stiffness_range stiffness_along(const S& system, const std::ranges::range auto& states) {
+  const Eigen::Index n = size(system);
+  Eigen::VectorXd root = Eigen::VectorXd::Ones(n);  // M^{-1/2}
+  if constexpr (HasInverseMass<S>) {
+    for (Eigen::Index i = 0; i < n; ++i) root[i] = std::sqrt(system.inverse_mass(i));
   }
+  // Every start has a part of chance, the same for all, so that no end can hide from it; and of the ends of
+  // the state before, which are near.
+  std::mt19937_64 bits{1};
+  Eigen::VectorXd chance(n);
+  for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+  chance.normalize();
+  Eigen::VectorXd start = chance;
+
+  stiffness_range found;
+  force_jacobian<F, S> jacobian(system, states);
+  auto v = make_vector<double>(system);
+  for (const auto& state : states) {
+    jacobian.move_to(state.q);
+    const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      v = root.cwiseProduct(x);
+      return -root.cwiseProduct(jacobian.times(v));
+    };
+    const auto ends = ends_of_spectrum(multiply, start);
+    if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
+      throw std::invalid_argument(sentence(
+          "stiffness_along: the force has no finite derivative at state {}; leave it out", found.states));
+    }
+    found.lowest = std::min(found.lowest, ends.lowest);
+    found.highest = std::max(found.highest, ends.highest);
+    found.highest_of_state.push_back(ends.highest);
+    found.evaluations += ends.products;
+    ++found.states;
+    start = chance + ends.lowest_direction + ends.highest_direction;
+  }
+  if (found.states == 0)
+    throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
+  return found;
+}
 
 }  // namespace nysalt

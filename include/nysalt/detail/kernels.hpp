@@ -32,7 +32,7 @@ using lanes_with_slopes = dual<lanes, directions_at_a_time>;
 /// The scalars over which kernels are compiled.
 template <class T>
 concept Served = std::same_as<T, double> || std::same_as<T, lanes> || std::same_as<T, slopes> ||
-    std::same_as<T, lanes_with_slopes>;
+                 std::same_as<T, lanes_with_slopes>;
 
 /// The scalar of coefficients of steps over T: derivatives by theta are in both.
 template <class T>

@@ -58,8 +58,7 @@ template <TypeLevelWord W>
 consteval bool are_known_letters() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
     return (detail::is_known_letter<typename W::template letter<I>> && ...);
-  }
-  (std::make_index_sequence<W::length>());
+  }(std::make_index_sequence<W::length>());
 }
 
 namespace detail {
@@ -89,8 +88,7 @@ own_letters bound_letters(const S& system) {
   };
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (add(std::type_identity<typename W::template letter<I>>()), ...);
-  }
-  (std::make_index_sequence<W::length>());
+  }(std::make_index_sequence<W::length>());
   return result;
 }
 

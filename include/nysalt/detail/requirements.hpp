@@ -13,46 +13,26 @@ namespace detail {
 
 // There is a member of that name, const or not, with any result.
 template <class S, class V = vector<double, S::dimension>>
-concept MentionsInverseMass = requires {
-  &S::inverse_mass;
-}
-|| requires(S& s) { s.inverse_mass(Eigen::Index{0}); };
+concept MentionsInverseMass =
+    requires { &S::inverse_mass; } || requires(S& s) { s.inverse_mass(Eigen::Index{0}); };
 template <class S, class V = vector<double, S::dimension>>
-concept MentionsKineticEnergy = requires {
-  &S::kinetic_energy;
-}
-|| requires(S& s, const V& p) { s.kinetic_energy(p); };
+concept MentionsKineticEnergy =
+    requires { &S::kinetic_energy; } || requires(S& s, const V& p) { s.kinetic_energy(p); };
 template <class S, class V = vector<double, S::dimension>>
-concept MentionsVelocity = requires {
-  &S::velocity;
-}
-|| requires(S& s, const V& p, V& v) { s.velocity(p, v); };
+concept MentionsVelocity =
+    requires { &S::velocity; } || requires(S& s, const V& p, V& v) { s.velocity(p, v); };
 template <class S, class V = vector<double, S::dimension>>
-concept MentionsForceDerivative = requires {
-  &S::force_derivative;
-}
-|| requires(S& s, const V& q, V& g) { s.force_derivative(q, q, g); };
+concept MentionsForceDerivative =
+    requires { &S::force_derivative; } || requires(S& s, const V& q, V& g) { s.force_derivative(q, q, g); };
 template <class S, class V = vector<double, S::dimension>>
-concept MentionsKick = requires {
-  &S::kick;
-}
-|| requires(S& s, const V& q, V& p) { s.kick(q, p, 1.0); };
+concept MentionsKick = requires { &S::kick; } || requires(S& s, const V& q, V& p) { s.kick(q, p, 1.0); };
 template <class S>
-concept MentionsModes = requires {
-  &S::modes;
-}
-|| requires(S& s) { s.modes(); };
+concept MentionsModes = requires { &S::modes; } || requires(S& s) { s.modes(); };
 template <class S>
-concept MentionsFrequencyBands = requires {
-  &S::frequency_bands;
-}
-|| requires(S& s) { s.frequency_bands(); };
+concept MentionsFrequencyBands = requires { &S::frequency_bands; } || requires(S& s) { s.frequency_bands(); };
 
 template <class S>
-concept MentionsBath = requires {
-  &S::bath;
-}
-|| requires(S& s) { s.bath(); };
+concept MentionsBath = requires { &S::bath; } || requires(S& s) { s.bath(); };
 
 }  // namespace detail
 

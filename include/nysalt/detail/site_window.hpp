@@ -25,8 +25,8 @@ enum class side { left, right };
 /// a loop over all sites, so that the bits depend neither on tiles nor on threads.
 class site_window {
  public:
-  /// Sites first .. first + count - 1, both multiples of sites_of_row, for sweeps of at most `kicks_at_once` kicks. Refers
-  /// to the functions.
+  /// Sites first .. first + count - 1, both multiples of sites_of_row, for sweeps of at most `kicks_at_once`
+  /// kicks. Refers to the functions.
   site_window(const site_kernels& system, Eigen::Index first, Eigen::Index count, int threads,
               std::int64_t kicks_at_once = any_number_of_kicks);
   ~site_window();
@@ -65,8 +65,8 @@ class site_window {
 };
 
 /// How many of the threads step a trajectory in tiles. 0, so that it is better stepped without tiles, of a
-/// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much or that makes few kicks
-/// between two observations.
+/// system of few coordinates, and for one thread of a system that reaches so far that tiles overlap by much
+/// or that makes few kicks between two observations.
 int threads_in_tiles(const site_layout& layout, int threads, std::int64_t kicks = any_number_of_kicks);
 
 /// Sites whose energies are summed in order, before the sums are added in a tree: a multiple of sites_of_row.

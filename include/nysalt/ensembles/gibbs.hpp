@@ -61,7 +61,7 @@ class gibbs {
   /// an option is out of range, or if there is neither a step nor frequency_bands(); std::runtime_error if
   /// chains diverge, do not become stationary, or a check fails.
   template <HasBath S, Ensemble<S> E>
-    requires(NystromSystem<S>&& S::dimension == N)
+    requires(NystromSystem<S> && S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
       : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
 

@@ -39,8 +39,8 @@ struct gradient_kick_of {
 
   template <System S, Scalar T>
   static constexpr bool serves =
-      Field == field::soft ? HasQuadraticPart<S>&& ForceDerivativeOver<S, T, Field>
-                           : HasQuadraticKinetic<S>&& ForceDerivativeOver<S, T, Field>;
+      Field == field::soft ? HasQuadraticPart<S> && ForceDerivativeOver<S, T, Field>
+                           : HasQuadraticKinetic<S> && ForceDerivativeOver<S, T, Field>;
   template <System S, Scalar T>
   static constexpr void require_served() {
     if constexpr (Field == field::soft) {

@@ -127,9 +127,7 @@ void move_on_orbit(double mu, const C& time, std::array<T, 3>& q, std::array<T, 
 /// functions a planet. Source: [wisdom_holman_1991; danby_1988].
 struct kepler_flow : exact_flow<'K'> {
   template <System S, Scalar T>
-  static constexpr bool serves = requires(const S& s) {
-    s.template part<0>().masses().attraction(0);
-  };
+  static constexpr bool serves = requires(const S& s) { s.template part<0>().masses().attraction(0); };
 
   template <System S, class State, CoefficientOf<typename State::scalar_type> C>
   static void apply(const S& system, const C& t, State& x, auto&) {

@@ -21,8 +21,8 @@ struct kick_of {
   static constexpr const char* needs = Field == field::soft ? detail::needs_quadratic_part : "";
 
   template <System S, Scalar T>
-  static constexpr bool serves = Field == field::whole ||
-                                 (HasQuadraticPart<S> && ForceOver<S, T, field::soft>);
+  static constexpr bool serves =
+      Field == field::whole || (HasQuadraticPart<S> && ForceOver<S, T, field::soft>);
   template <System S, Scalar T>
   static constexpr void require_served() {
     detail::require_quadratic_part<serves<S, T>>();

@@ -32,7 +32,8 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
   static constexpr std::size_t slots = sizeof...(Part);
   static constexpr bool moves_q = false;
   static constexpr int displaced_forces = static_cast<int>(sizeof...(Part));
-  static constexpr std::array<char, sizeof...(Part)> digits{static_cast<char>('0' + Part)...};  ///< numbers of the parts
+  static constexpr std::array<char, sizeof...(Part)> digits{
+      static_cast<char>('0' + Part)...};  ///< numbers of the parts
   /// The part whose time each coefficient is, a digit for each.
   static constexpr std::string_view times{digits.data(), digits.size()};
 
@@ -61,8 +62,9 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
       force<T>(part, x.q, room.x);
       for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += room.x[i] * by;
     };
-    [&]<std::size_t... K>(std::index_sequence<K...>) { (kick(system.template part<Part>(), c[K]), ...); }
-    (std::make_index_sequence<slots>());
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+      (kick(system.template part<Part>(), c[K]), ...);
+    }(std::make_index_sequence<slots>());
   }
 };
 
@@ -80,8 +82,7 @@ constexpr int evaluations_of_part(std::size_t part) {
   };
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (add.template operator()<typename W::template letter<I + W::first_in_loop>>(), ...);
-  }
-  (std::make_index_sequence<W::length - W::first_in_loop>());
+  }(std::make_index_sequence<W::length - W::first_in_loop>());
   return all;
 }
 

@@ -161,7 +161,8 @@ class after_steps {
             sum = zero;
           }
           const std::size_t left = starts_.first_of[trajectory + 1] - stretch;
-          const int end = static_cast<int>(std::min<std::size_t>(lanes_in<R>, static_cast<std::size_t>(k) + left));
+          const int end =
+              static_cast<int>(std::min<std::size_t>(lanes_in<R>, static_cast<std::size_t>(k) + left));
           add_lanes(added, k, end, sum);
           stretch += static_cast<std::size_t>(end - k);
           k = end;

@@ -65,7 +65,8 @@ class metric {
   using sums = std::vector<std::vector<term>>;  // one a mode; empty for qp
 
   template <class T>
-  [[gnu::always_inline]] T difference(const auto& a, const auto& target, const sums& modes, Eigen::Index i, double weight) const {
+  [[gnu::always_inline]] T difference(const auto& a, const auto& target, const sums& modes, Eigen::Index i,
+                                      double weight) const {
     if (modes.empty()) return (a[i] - target[i]) * weight;
     const auto& terms = modes[static_cast<std::size_t>(i)];
     T sum = (a[terms.front().coordinate] - target[terms.front().coordinate]) * terms.front().factor;

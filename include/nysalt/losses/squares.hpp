@@ -56,7 +56,8 @@ struct column_of_residuals {
   std::size_t rows;
 };
 
-/// The products of a column with `Count` columns side by side, from `others` on. Their sums stay in registers.
+/// The products of a column with `Count` columns side by side, from `others` on. Their sums stay in
+/// registers.
 template <std::size_t Count, class R>
 R* products_of_columns(const column_of_residuals<R>& one, const column_of_residuals<R>& others, R* products) {
   std::array<R, Count> sums;

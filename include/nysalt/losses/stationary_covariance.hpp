@@ -64,7 +64,7 @@ class stationary_covariance {
   /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
   /// step is not positive and finite.
   template <System S>
-    requires(HasBath<S>&& HasModes<S>)
+    requires(HasBath<S> && HasModes<S>)
   stationary_covariance(const S& system, const run_time_word& word, double step)
       : word_(word), step_(step), bath_(system.bath()) {
     require_law();

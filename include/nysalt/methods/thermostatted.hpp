@@ -39,12 +39,13 @@ class thermostatted_method {
 
 /// The method in a bath. A tuned one does not compile: take its anywhere().
 template <placement P, Method M>
-  requires TypeLevelWord<typename M::word> thermostatted_method<P, M> thermostat(const M& method) {
-    static_assert(
-        !requires { method.require_validity(std::string(), 1.0); },
-        "nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()");
-    return thermostatted_method<P, M>(method);
-  }
+  requires TypeLevelWord<typename M::word>
+thermostatted_method<P, M> thermostat(const M& method) {
+  static_assert(
+      !requires { method.require_validity(std::string(), 1.0); },
+      "nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()");
+  return thermostatted_method<P, M>(method);
+}
 
 /// The same as data. Throws std::invalid_argument if the method has letters O already, or no central letter.
 inline tabulated thermostat(const tabulated& method, placement where) {

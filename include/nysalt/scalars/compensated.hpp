@@ -28,9 +28,11 @@ struct compensated {
   T carry{};  ///< what rounding took from it: goes into the next sum
 
   compensated() = default;
-  compensated(double x) : value(x), carry(0.0) {}                                       ///< nothing carried
-  compensated(const T& x) requires(!std::same_as<T, double>) : value(x), carry(0.0) {}  ///< nothing carried
-  explicit operator T() const { return value; }                                         ///< without the carry
+  compensated(double x) : value(x), carry(0.0) {}  ///< nothing carried
+  compensated(const T& x)
+    requires(!std::same_as<T, double>)
+      : value(x), carry(0.0) {}                  ///< nothing carried
+  explicit operator T() const { return value; }  ///< without the carry
 
   compensated& operator+=(const compensated& b) {
     const T summand = b.value + carry;

@@ -25,7 +25,11 @@ struct dual {
   dual() = default;
   /// Its derivatives are 0.
   dual(double constant) : value(constant) { derivative.fill(T(0.0)); }
-  dual(const T& constant) requires(!std::same_as<T, double>) : value(constant) { derivative.fill(T(0.0)); }
+  dual(const T& constant)
+    requires(!std::same_as<T, double>)
+      : value(constant) {
+    derivative.fill(T(0.0));
+  }
 
   /// The k-th independent variable at x: its derivative is e_k.
   static dual variable(const T& x, int k) {

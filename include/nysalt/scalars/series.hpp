@@ -22,7 +22,9 @@ struct series {
   series(double constant) { coefficient[0] = constant; }  ///< of degree 0
 
   /// The variable x itself.
-  static series variable() requires(Degree >= 1) {
+  static series variable()
+    requires(Degree >= 1)
+  {
     series result;
     result.coefficient[1] = 1.0;
     return result;

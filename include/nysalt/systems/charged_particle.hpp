@@ -37,7 +37,9 @@ class charged_particle {
   /// The electric potential; there is no other part.
   template <std::size_t I>
     requires(I == 0)
-  const Potential& part() const { return electric_; }
+  const Potential& part() const {
+    return electric_;
+  }
   double cyclotron_frequency() const { return frequency_; }  ///< of its turns around the field
   /// v = p - A(q).
   template <class State>

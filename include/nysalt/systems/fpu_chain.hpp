@@ -22,7 +22,9 @@ class fpu_chain {
   static constexpr int dimension = Pairs == Eigen::Dynamic ? Eigen::Dynamic : 2 * Pairs;
 
   /// Stiff springs of frequency omega. Throws std::invalid_argument unless omega is positive and finite.
-  explicit fpu_chain(double omega) requires(Pairs != Eigen::Dynamic) : fpu_chain(Pairs, omega) {}
+  explicit fpu_chain(double omega)
+    requires(Pairs != Eigen::Dynamic)
+      : fpu_chain(Pairs, omega) {}
 
   /// `pairs` stiff springs of frequency omega. Throws std::invalid_argument unless pairs >= 1 (and fits
   /// Pairs), omega positive and finite.

@@ -35,7 +35,9 @@ class in_bath : public S {
   const S& alone() const { return *this; }  ///< without the bath
 
   /// Those of the system in this bath.
-  std::vector<frequency_band> frequency_bands() const requires HasFrequencyBands<S> {
+  std::vector<frequency_band> frequency_bands() const
+    requires HasFrequencyBands<S>
+  {
     return detail::frequency_bands_in(alone(), bath_);
   }
 

@@ -27,7 +27,9 @@ class lennard_jones {
   static_assert(Space == Eigen::Dynamic || Space == 2 || Space == 3, "nysalt: lennard_jones in 2D or 3D");
   static constexpr int dimension = is_fixed ? Space * Atoms : Eigen::Dynamic;
 
-  lennard_jones() requires(is_fixed) : lennard_jones(Space, Atoms) {}
+  lennard_jones()
+    requires(is_fixed)
+      : lennard_jones(Space, Atoms) {}
 
   /// Throws std::invalid_argument unless space is 2 or 3 and atoms >= 2 (and both fit the type).
   lennard_jones(Eigen::Index space, Eigen::Index atoms) : space_(space), atoms_(atoms) {

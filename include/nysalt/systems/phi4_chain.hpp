@@ -22,7 +22,9 @@ class phi4_chain {
  public:
   static constexpr int dimension = Masses;
 
-  phi4_chain() requires(Masses != Eigen::Dynamic) : phi4_chain(Masses) {}
+  phi4_chain()
+    requires(Masses != Eigen::Dynamic)
+      : phi4_chain(Masses) {}
 
   /// Throws std::invalid_argument unless masses >= 1 (and fits Masses).
   explicit phi4_chain(Eigen::Index masses) : masses_(masses) {

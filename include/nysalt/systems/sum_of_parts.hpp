@@ -49,7 +49,8 @@ class sum_of_parts {
 
   template <class T>
   T potential(const vector<T, dimension>& q) const
-      requires(HasPotential<First, T> && (HasPotential<Rest, T> && ...)) {
+    requires(HasPotential<First, T> && (HasPotential<Rest, T> && ...))
+  {
     return std::apply([&](const auto&... one) { return (one.potential(q) + ...); }, parts_);
   }
   template <class T>
@@ -61,11 +62,14 @@ class sum_of_parts {
         nysalt::force<T>(one, q, of_part);
         for (Eigen::Index i = 0; i < f.size(); ++i) f[i] += of_part[i];
       };
-      [&]<std::size_t... I>(std::index_sequence<I...>) { (add(part<I + 1>()), ...); }
-      (std::make_index_sequence<parts - 1>());
+      [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (add(part<I + 1>()), ...);
+      }(std::make_index_sequence<parts - 1>());
     }
   }
-  double inverse_mass(Eigen::Index i) const requires HasInverseMass<First> {
+  double inverse_mass(Eigen::Index i) const
+    requires HasInverseMass<First>
+  {
     return part<0>().inverse_mass(i);
   }
   std::string description() const {

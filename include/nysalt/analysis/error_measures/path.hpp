@@ -38,10 +38,10 @@ error_measure path_measure(const over_scalars<of_state>& observable, Eigen::Inde
 /// other, or for all lanes at a time if it is marked by over_lanes. There is no such error where o_ref is 0
 /// on all trajectories at all times.
 template <System S, class Observable>
-  requires IsObservable<Observable, double, S::dimension> error_measure path_measure(const S& system,
-                                                                                     Observable observable) {
-    const detail::observable_of_any_dimension<S::dimension, Observable> of_any{std::move(observable)};
-    return detail::path_measure(of_any, size(system));
-  }
+  requires IsObservable<Observable, double, S::dimension>
+error_measure path_measure(const S& system, Observable observable) {
+  const detail::observable_of_any_dimension<S::dimension, Observable> of_any{std::move(observable)};
+  return detail::path_measure(of_any, size(system));
+}
 
 }  // namespace nysalt
