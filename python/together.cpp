@@ -104,9 +104,11 @@ void integrate_together(const std::shared_ptr<const own_functions>& functions, c
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
   const auto stepper = make_stepper(system, method, plan.step, noise_of_each{counter_noise(plan.seed), n});
   auto run = stepper.open(start, 0);
+  flow_state<double, Eigen::Dynamic> checked;
   while (run.step < plan.steps) {
     stepper.advance(run, std::min(steps_between_checks, plan.steps - run.step));
-    energies.mark(stepper.of_kernel(run), lost);
+    stepper.of_kernel(run, checked);
+    energies.mark(checked, lost);
     for (std::int64_t m = 0; m < plan.count; ++m) {
       if (!lost[static_cast<std::size_t>(m)]) continue;
       // From here on it moves as at the start: numbers that are not finite are for no function.
