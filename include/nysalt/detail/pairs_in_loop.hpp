@@ -19,11 +19,11 @@ enum class pair_begins { with_drift, with_kick };
 /// state is a local copy whose address is not taken, so that one of few coordinates stays in registers. The
 /// loop over pairs must not be unrolled: g++ would keep the coefficients in registers and spill the state,
 /// and take half as long again for six pairs.
-template <pair_begins Begins, System S, class T>
-[[gnu::always_inline]] inline void take_pairs(const S& system, flow_state<T, S::dimension>& state, auto& room,
+template <pair_begins Begins, class T, System S>
+[[gnu::always_inline]] inline void take_pairs(const S& system, auto& state, auto& room,
                                               const std::array<double, 2>* pairs, std::size_t count,
                                               std::int64_t steps) {
-  flow_state<T, S::dimension> x = std::move(state);
+  flow_state<T, S::dimension> x{{std::move(state.q), std::move(state.p)}, std::move(state.f)};
   asm("" : "+r"(count));  // a number that is known at compile time is unrolled in spite of the pragma
   for (std::int64_t n = 0; n < steps; ++n) {
 #pragma GCC unroll 1
@@ -39,7 +39,9 @@ template <pair_begins Begins, System S, class T>
       }
     }
   }
-  state = std::move(x);
+  state.q = std::move(x.q);
+  state.p = std::move(x.p);
+  state.f = std::move(x.f);
 }
 
 }  // namespace nysalt::detail

@@ -46,22 +46,6 @@ struct state_in_place {
   Eigen::Index size() const { return q.size(); }
 };
 
-/// A state that a loop works on: of a fixed dimension a copy, of a dynamic one the vectors themselves.
-template <int N, class T>
-flow_state<T, N> taken_from(state_in_place<T, N>& x) {
-  if constexpr (N == Eigen::Dynamic) {
-    return {{std::move(x.q), std::move(x.p)}, std::move(x.f)};
-  } else {
-    return {{x.q, x.p}, x.f};
-  }
-}
-template <int N, class T>
-void given_back(flow_state<T, N>& x, state_in_place<T, N>& to) {
-  to.q = std::move(x.q);
-  to.p = std::move(x.p);
-  to.f = std::move(x.f);
-}
-
 template <field F, class S, class State, class C>
 [[gnu::noinline]] void apply_gradient_kick(const S& system, const step_program_letter<C>& letter, State& x,
                                            auto& room) {
@@ -179,14 +163,12 @@ template <class T>
 
 /// Steps of a program of drifts and kicks in turn.
 template <class S, class T>
-[[gnu::flatten, gnu::noinline]] void take_steps_in_pairs(const S& system,
-                                                         state_in_place<T, S::dimension>& given, auto& room,
-                                                         const step_program<double>& letters,
+[[gnu::flatten, gnu::noinline]] void take_steps_in_pairs(const S& system, state_in_place<T, S::dimension>& x,
+                                                         auto& room, const step_program<double>& letters,
                                                          std::int64_t steps, const watch<T>& watched) {
-  flow_state<T, S::dimension> x = taken_from<S::dimension>(given);  // local: it cannot alias the system
   const auto take = [&]<pair_begins Begins>(std::int64_t count, std::size_t pairs)
       __attribute__((always_inline)) {
-    take_pairs<Begins>(system, x, room, letters.pairs.data(), pairs, count);
+    take_pairs<Begins, T>(system, x, room, letters.pairs.data(), pairs, count);
   };
   using enum pair_begins;
   const std::size_t all = letters.pairs.size();
@@ -197,7 +179,7 @@ template <class S, class T>
   } else if (letters.keeps_last_force) {
     const auto keep_last_force = [&](std::int64_t count) {
       take.template operator()<with_drift>(count - 1, all);
-      take.template operator()<with_drift>(1, all - 1);
+      if (all > 1) take.template operator()<with_drift>(1, all - 1);
       const auto& [first, second] = letters.pairs.back();
       drift::apply(system, first, x, room);
       force_of<field::whole, T>(system, x.q, x.f);
@@ -208,7 +190,6 @@ template <class S, class T>
     watch_steps(
         steps, watched, [&](std::int64_t count) { take.template operator()<with_drift>(count, all); }, look);
   }
-  given_back<S::dimension>(x, given);
 }
 
 /// `steps` steps, observed or not: by take_steps_in_pairs() where the program allows it.
