@@ -28,7 +28,8 @@ def test_words_of_them_are_stepped():
     x, y = turned(q, p)
     y = y + 0.5 * np.array([-2 * x[0] * x[1], x[1]**2 - x[0]**2])
     x, y = turned(x, y)
-    assert np.allclose(end_q, x, rtol=0, atol=1e-16) and np.allclose(end_p, y, rtol=0, atol=1e-16)
+    # NumPy's cosine may be another one: some ten roundings of numbers below 1/2.
+    assert np.allclose(end_q, x, rtol=0, atol=1e-15) and np.allclose(end_p, y, rtol=0, atol=1e-15)
     other_q, _ = nysalt.integrate(well, "word:ctc", 0.5, q, p, 1)
     assert not np.allclose(other_q, x, rtol=0, atol=1e-4)
 
@@ -53,7 +54,7 @@ def test_what_is_learned_keeps_them_by_name(tmp_path):
 def test_parts_are_kicked_by_name():
     chain = nysalt.system(str(PLUGINS / "bonds_and_charges.hpp"))
     assert chain.letters == ["0", "1", "k"]
-    errors = nysalt.compare(chain, ["word:kA0A0A0Ak", "verlet"], [0.06], metric="state", trajectories=8, horizon=3)
+    errors = nysalt.compare(chain, ["word:kA0A0A0Ak", "verlet"], [0.03], metric="state", trajectories=8, horizon=3)
     respa, verlet = (row["error"] for row in errors["rows"])
     assert respa < 0.5 * verlet  # of order 2 with four times as short steps of the bonds
 
