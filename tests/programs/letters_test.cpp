@@ -358,7 +358,7 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   }
   refused(folder, "stability --method s.json", {"s.json", "give --system"});
   for (const std::string method : {"s.json", "table.json", "word:tct"}) {
-    refused(folder, "export --to c --method " + method, {method, "letter t"});
+    refused(folder, "export --to c " + method, {method, "letter t"});
   }
   // A source with the same letters is another system.
   write(folder, "mine.hpp", turning + "// edited\n");
