@@ -12,7 +12,7 @@ nysalt compare --system "$here/plugins/cubic_well.hpp" --methods word:tctctct,sc
 grep usable learned.txt
 # [parts]
 nysalt compare --system "$here/plugins/bonds_and_charges.hpp" --methods word:kA0A0A0Ak,learned:word:kA0A0A0Ak \
-  --steps 0.1 --metric state --horizon 2.4 --learn-horizon 2.4 --learn-trajectories 16 >parts.txt
+  --steps 0.06 --metric state --horizon 2.4 --learn-horizon 2.4 --learn-trajectories 16 >parts.txt
 # [/parts]
 
 # Expected output:
