@@ -15,11 +15,17 @@ namespace {
 constexpr double same = 1e-6;
 
 /// One letter: c, and of a gradient kick the coefficient of its gradient part, of a displaced kick that of
-/// its displacement.
+/// its displacement. Of a letter of one's own all coefficients are times, and c and the gradient are 0.
 struct letter {
   char name;
   double c;
   double gradient;
+  std::vector<double> times{};
+  bool additive = true;
+
+  bool has_times(double zero) const {
+    return std::ranges::any_of(times, [=](double x) { return std::abs(x) > zero; });
+  }
 };
 
 bool is_kick(char name) { return name == 'B' || name == 'G'; }
@@ -27,6 +33,7 @@ bool is_soft_kick(char name) { return name == 'S' || name == 'H'; }
 
 /// All that kicks of one force do is added up, as q does not move between them.
 bool act_as_one(const letter& a, const letter& b) {
+  if (!a.times.empty() || !b.times.empty()) return a.name == b.name && a.additive;
   if (a.name == 'D' && b.name == 'D') return a.gradient == b.gradient;
   return a.name == b.name || (is_kick(a.name) && is_kick(b.name)) ||
          (is_soft_kick(a.name) && is_soft_kick(b.name));
@@ -39,12 +46,13 @@ std::vector<letter> merged(const std::vector<letter>& all, double zero) {
     if (!result.empty() && act_as_one(result.back(), one)) {
       one.c += result.back().c;
       if (one.name != 'D') one.gradient += result.back().gradient;
+      for (std::size_t k = 0; k < one.times.size(); ++k) one.times[k] += result.back().times[k];
       result.pop_back();
     }
     const bool has_gradient = one.name != 'D' && std::abs(one.gradient) > zero;
     if (is_kick(one.name)) one.name = has_gradient ? 'G' : 'B';
     if (is_soft_kick(one.name)) one.name = has_gradient ? 'H' : 'S';
-    if (std::abs(one.c) > zero || has_gradient) result.push_back(one);
+    if (std::abs(one.c) > zero || has_gradient || one.has_times(zero)) result.push_back(one);
   }
   return result;
 }
@@ -54,6 +62,12 @@ std::vector<letter> letters_of(const run_time_word& word, const std::vector<doub
   for (std::size_t i = 0; i < word.length; ++i) {
     const char name = word.letters()[i];
     const std::size_t slot = word.first_slot(i);
+    if (const auto* own = word.own_letter(name)) {
+      const auto first = coefficients.begin() + static_cast<std::ptrdiff_t>(slot);
+      const auto count = static_cast<std::ptrdiff_t>(word.slots_of(i));
+      result.push_back({name, 0.0, 0.0, {first, first + count}, own->facts.additive});
+      continue;
+    }
     letter one{name, coefficients[slot], word.slots_of(i) > 1 ? coefficients[slot + 1] : 0.0};
     if (name == 'D' && one.gradient == 0.0) one.name = 'B';
     result.push_back(one);
@@ -61,13 +75,14 @@ std::vector<letter> letters_of(const run_time_word& word, const std::vector<doub
   return result;
 }
 
-/// n steps of h/n: gradient parts go with h^3, displacements with h^2.
+/// n steps of h/n: times go with h, gradient parts with h^3, displacements with h^2.
 std::vector<letter> repeated(const std::vector<letter>& one_step, int n) {
   std::vector<letter> result;
   for (int k = 0; k < n; ++k) {
     for (letter one : one_step) {
       one.c /= n;
       one.gradient /= std::pow(n, one.name == 'D' ? 2.0 : 3.0);
+      for (double& time : one.times) time /= n;
       result.push_back(one);
     }
   }
@@ -76,7 +91,9 @@ std::vector<letter> repeated(const std::vector<letter>& one_step, int n) {
 
 bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
   return std::ranges::equal(a, b, [](const letter& x, const letter& y) {
-    return x.name == y.name && std::abs(x.c - y.c) < same && std::abs(x.gradient - y.gradient) < same;
+    const auto are_near = [](double u, double v) { return std::abs(u - v) < same; };
+    return x.name == y.name && are_near(x.c, y.c) && are_near(x.gradient, y.gradient) &&
+           std::ranges::equal(x.times, y.times, are_near);
   });
 }
 

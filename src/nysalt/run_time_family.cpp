@@ -251,14 +251,18 @@ void put_equal_steps(const run_time_word& word, const std::string& times, char p
 
 run_time_family symmetric_word(std::string name, const run_time_word& word, const std::string& times) {
   const std::string& letters = word.letters();
-  const auto refuse = [&](const char* why) {
-    throw std::invalid_argument(sentence("{}: the word {} {}", name, letters, why));
+  const auto refuse = [&](const char* condition, const std::string& got, const char* remedy) {
+    throw std::invalid_argument(sentence("{}: the word must {}, got {}; {}", name, condition, got, remedy));
   };
-  if (word.is_processed()) refuse("has a processor: leave it away");
+  if (word.is_processed()) refuse("have no processor", letters, "leave out what follows |");
   if (!std::equal(letters.begin(), letters.end(), letters.rbegin()))
-    refuse("must read the same from both ends");
-  if (std::ranges::adjacent_find(letters) != letters.end()) refuse("has two equal neighbours: join them");
-  if (times.size() != word.slots) refuse("must have a part of H for each coefficient");
+    refuse("read the same from both ends", letters, "mirror its letters");
+  if (std::ranges::adjacent_find(letters) != letters.end())
+    refuse("not have two equal neighbours", letters, "join them");
+  if (times.size() != word.slots) {
+    refuse("have a part of H for each coefficient",
+           sentence("{} for the {} of {}", times.size(), word.slots, letters), "name a part for each");
+  }
   std::vector<mirrored_slots> all = mirrored_slots_of(word, times);
   std::vector<double> equal_steps(word.slots);
   std::vector<double> start;

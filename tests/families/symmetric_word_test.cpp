@@ -145,8 +145,8 @@ BOOST_AUTO_TEST_CASE(other_words_are_refused) {
                letters);
   };
   refused("A0A1", "A0A1", "must read the same from both ends");
-  refused("A00A", "A00A", "has two equal neighbours");
+  refused("A00A", "A00A", "must not have two equal neighbours");
   refused("A0A", "A0", "must have a part of H for each coefficient");
   refused("kAk", "kAk", "must have a part of H for each coefficient");
-  refused("ABA|BABA", "ABABABA", "has a processor");
+  refused("ABA|BABA", "ABABABA", "must have no processor");
 }

@@ -10,6 +10,8 @@
 
 #include "../../src/comparison/catalogue.hpp"
 #include "../../src/comparison/known_word.hpp"
+#include "nysalt/flows/kick_of_parts.hpp"
+#include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt;
 using namespace nysalt::program;
@@ -27,6 +29,23 @@ tabulated method_named(const std::string& name) {
 
 tabulated table_of(const std::string& letters, std::vector<double> coefficients) {
   return {"mine", run_time_word(letters), std::move(coefficients), {2, true, false}};
+}
+
+/// q^2/2 in each of three parts.
+struct spring {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return q[0] * q[0] * 0.5;
+  }
+};
+
+/// kA...k with three times in each k, as a table.
+tabulated of_three_parts(const std::string& letters, std::vector<double> coefficients) {
+  static const sum_of_parts<spring, spring, spring> system{spring(), spring(), spring()};
+  using kicks = kick_of_parts<0, 1, 2>;
+  const auto word = run_time_word(nysalt::word<kicks, drift, kicks>{}, system).with_letters(letters);
+  return {"mine", word, std::move(coefficients), {2, true, false}};
 }
 
 std::string known(const tabulated& method, const std::vector<tabulated>& among) {
@@ -115,4 +134,25 @@ BOOST_AUTO_TEST_CASE(letters_that_do_nothing_and_letters_cut_in_two_change_nothi
   BOOST_TEST(known(table_of("GAB", {0.5, 0.0, 1.0, 0.5}), verlet) == "verlet");
   BOOST_TEST(known(table_of("GAB", {0.5, 0.01, 1.0, 0.5}), verlet) == "nothing");
   BOOST_TEST(known(table_of("ABA", {0.5, 1.0, 0.5}), verlet) == "nothing");
+}
+
+// All coefficients of a letter of one's own are times, and count.
+BOOST_AUTO_TEST_CASE(each_time_of_a_letter_of_ones_own_counts) {
+  const auto once = of_three_parts("kAk", {0.5, 0.5, 0.5, 1.0, 0.5, 0.5, 0.5});
+  BOOST_TEST(known(once, {once}) == "mine");
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> other{0.5, 0.5, 0.5, 1.0, 0.5, 0.5, 0.5};
+    other[k] += 0.1;
+    other[k + 4] -= 0.1;
+    BOOST_TEST(known(of_three_parts("kAk", other), {once}) == "nothing", "part " << k);
+  }
+  const auto twice = [](double x, double y, double z) {
+    return of_three_parts("kAkAk", {x, y, z, 0.5, 1 - 2 * x, 1 - 2 * y, 1 - 2 * z, 0.5, x, y, z});
+  };
+  BOOST_TEST(known(twice(0.25, 0.25, 0.25), {once}) == "mine, 2 steps in one");
+  BOOST_TEST(known(twice(0.25, 0.25, 0.3), {once}) == "nothing");
+  BOOST_TEST(known(of_three_parts("kkAk", {0.2, 0.2, 0.2, 0.3, 0.3, 0.3, 1.0, 0.5, 0.5, 0.5}), {once}) ==
+             "mine");
+  BOOST_TEST(known(of_three_parts("kAkAk", {0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5}),
+                   {once}) == "mine");
 }

@@ -70,6 +70,7 @@ struct turning_case {
   using system = lettered::turning;
   using word = turns;
   static constexpr const char* times = "tctct";
+  static constexpr const char* guard = "trial runs only: ";
   static constexpr double step = 0.7;
   static const std::string& source() { return turning; }
 };
@@ -77,6 +78,7 @@ struct walls_case {
   using system = lettered::walls;
   using word = kicks;
   static constexpr const char* times = "8w8w8";
+  static constexpr const char* guard = "trial runs only: ";
   static constexpr double step = 0.4;
   static const std::string& source() { return walls; }
 };
@@ -84,6 +86,7 @@ struct charges_case {
   using system = lettered::charges;
   using word = nested;
   static constexpr const char* times = "01A0A0A01";
+  static constexpr const char* guard = "linearised motion of kA0A0A0Ak along ";
   static constexpr double step = 0.05;
   static const std::string& source() { return charges; }
 };
@@ -222,7 +225,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(what_is_learned_is_kept_by_name_to_the_bit, Case, 
   BOOST_TEST_REQUIRE(learned.code != 2, learned.err);
   const json found = json_of(learned);
   BOOST_TEST(found["family"] == name);
-  BOOST_TEST(found["guard"] == "trial runs alone, as the word has letters of its own");
+  BOOST_TEST(found["guard"].get<std::string>().starts_with(Case::guard), found["guard"]);
   BOOST_TEST(found["loss"].get<double>() > 0.0);
   const json kept = json::parse(contents(folder / "scheme.json"));
   BOOST_TEST(kept["parameters"] == found["parameters"]);
