@@ -59,12 +59,10 @@ void require_letters(std::string_view name, std::string_view letters, const deta
     if (std::string_view("ABRS").find(letter) != std::string_view::npos) continue;
     if (std::ranges::any_of(known, [&](const auto& one) { return one.letter->facts.letter == letter; }))
       continue;
-    if (std::string_view("OGHD|").find(letter) != std::string_view::npos) {
-      refuse("{}: {} has no place in a word by its letters: take A, B, R, S and those of the system", name,
-             letter);
-    }
-    refuse("{}: there is no letter {}: known are A, B, R, S, and those that a system declares: here {}", name,
-           letter, known.empty() ? "none" : names_of(known));
+    const bool is_of_tables = std::string_view("OGHD|").find(letter) != std::string_view::npos;
+    refuse("{}: each letter must be A, B, R, S or one that the system declares, here {}, got {}; {}", name,
+           known.empty() ? "none" : names_of(known), letter,
+           is_of_tables ? "write a table to use it" : "take one of those");
   }
 }
 

@@ -2,6 +2,7 @@
 #include "method_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -15,6 +16,7 @@
 #include "inputs.hpp"
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/methods/thermostatted.hpp"
@@ -101,24 +103,71 @@ std::size_t trajectories_in(const document_reader& read) {
   return static_cast<std::size_t>(std::ranges::min(all));
 }
 
+/// A member that holds a whole number from 0 to a largest one.
+int whole_in(const document_reader& read, const char* name, int most) {
+  const double value = read.number(name);
+  if (!(value >= 0.0 && value <= most) || value != std::floor(value)) {
+    refuse("{}: \"{}\" must be a whole number from 0 to {}, got {}; learn the scheme again", read.file(),
+           name, most, value);
+  }
+  return static_cast<int>(value);
+}
+
+/// The name of a letter of one's own: not one that the library has, and each once.
+char letter_in(const document_reader& read, const detail::named_letters& before) {
+  const std::string name = read.text("letter");
+  const bool is_free =
+      name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])) != 0 &&
+      !detail::with_letter(name[0], known_letters{}, [](auto) {}) &&
+      std::ranges::none_of(before, [&](const auto& one) { return one.letter->facts.letter == name[0]; });
+  if (!is_free) {
+    refuse(
+        "{}: each \"letter\" of \"own_letters\" must be another letter or digit, and none of the library, "
+        "got {}; learn the scheme again",
+        read.file(), json(name).dump(-1, ' ', true, json::error_handler_t::replace));
+  }
+  return name[0];
+}
+
+/// Of which parts its coefficients are the times, a character for each.
+std::string times_in(const document_reader& read) {
+  constexpr std::size_t most = 64;
+  std::string times = read.text("times");
+  const bool are_names = std::ranges::all_of(times, [](unsigned char c) { return std::isgraph(c) != 0; });
+  if (times.empty() || times.size() > most || !are_names) {
+    refuse(
+        "{}: \"times\" must have a character for each coefficient of the letter, 1 to {}, got {}; learn the "
+        "scheme again",
+        read.file(), most, times.size());
+  }
+  return times;
+}
+
 /// Those of its system that a scheme states.
 detail::named_letters own_letters_in(const json& document, const document_reader& read,
                                      const std::string& system) {
   detail::named_letters result;
   if (!document.contains("own_letters")) return result;
-  for (const auto& stated : read.member("own_letters")) {
-    if (!stated.is_object()) refuse("{}: \"own_letters\" must hold objects", read.file());
+  const json& all = read.member("own_letters");
+  if (!all.is_array()) {
+    refuse("{}: \"own_letters\" must be a list of objects, got {}; learn the scheme again", read.file(),
+           all.type_name());
+  }
+  for (const auto& stated : all) {
+    if (!stated.is_object()) {
+      refuse("{}: \"own_letters\" must be a list of objects, got one with a {}; learn the scheme again",
+             read.file(), stated.type_name());
+    }
     const document_reader one(stated, read.file());
-    const std::string name = one.text("letter");
-    const std::string times = one.text("times");
-    if (name.size() != 1 || times.empty())
-      refuse("{}: a letter of \"own_letters\" must have a name of one character", read.file());
+    const char name = letter_in(one, result);
+    const std::string times = times_in(one);
+    constexpr int most_forces = 64;
     result.push_back({std::make_shared<const detail::stated_letter>(
-                          detail::letter_facts{.letter = name[0],
+                          detail::letter_facts{.letter = name,
                                                .slots = times.size(),
                                                .reads = field::none,
                                                .force_derivatives = 0,
-                                               .displaced_forces = static_cast<int>(one.number("forces")),
+                                               .displaced_forces = whole_in(one, "forces", most_forces),
                                                .moves_q = one.flag("moves_q"),
                                                .additive = one.flag("additive"),
                                                .symplectic = one.flag("symplectic"),

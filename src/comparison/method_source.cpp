@@ -154,7 +154,7 @@ tabulated from_scheme(const method_source& source, const prepared_problem& syste
   const tabulated method = with_letters_of(system, source.learned->at(step));
   if (source.learned->is_learned_at(step) || force) return method;
   const std::string objection =
-      system.guard(has_rotation(method.letters())).objection(method.letters(), method.coefficients(), step);
+      system.guard(method.letters()).objection(method.letters(), method.coefficients(), step);
   if (!objection.empty()) {
     refuse("{}: between its learned steps, at {}: {}; learn it there, or take --force", source.typed, step,
            objection);

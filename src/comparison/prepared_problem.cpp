@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -168,15 +170,33 @@ Eigen::VectorXd rate_of(const model& system, const run_time_word& letter, std::s
   return (column_of(ahead) - column_of(behind)) / (2.0 * h);
 }
 
-/// By how much the letters of a word move states otherwise than H does, relative to how H moves them; the
-/// larger of the defects of q and p. A part of H acts once, however many letters have its time.
-double defect_of_sum(const model& system, const run_time_word& word, const std::string& times,
-                     const std::vector<state_in_double>& states, double step) {
+/// Rates of q, or of p: the largest by which letters differ from H, the largest of H, and by how much
+/// rounding may make two of them differ.
+struct compared_rates {
+  double off = 0.0;
+  double of_h = 0.0;
+  double rounding = 0.0;
+
+  void take(const Eigen::VectorXd& sum, const Eigen::VectorXd& whole, double bound) {
+    const Eigen::VectorXd apart = (sum - whole).cwiseAbs();
+    off = apart.allFinite() ? std::max(off, apart.maxCoeff()) : std::numeric_limits<double>::infinity();
+    of_h = std::max(of_h, whole.cwiseAbs().maxCoeff());
+    rounding = std::max(rounding, bound);
+  }
+  /// Differences err by 1e-10 to 1e-7, a part that is missing by its share of H. Rates that are not
+  /// finite are off.
+  bool agree() const { return off <= 1e-5 * of_h + rounding; }
+};
+
+/// How the letters of a word move q and p, and how H does. A part of H acts once, however many letters have
+/// its time.
+std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_word& word,
+                                           const std::string& times,
+                                           const std::vector<state_in_double>& states, double step) {
   const double h =
       1e-5 * step;  // the cube root of a rounding, at which both errors of a difference are small
   const Eigen::Index n = size(system);
-  Eigen::Vector2d defect = Eigen::Vector2d::Zero();
-  Eigen::Vector2d scale = Eigen::Vector2d::Zero();
+  std::array<compared_rates, 2> result;
   for (const auto& x : states) {
     const Eigen::VectorXd whole =
         rate_of(system, run_time_word("A"), 0, x, h) + rate_of(system, run_time_word("B"), 0, x, h);
@@ -191,12 +211,13 @@ double defect_of_sum(const model& system, const run_time_word& word, const std::
         sum += rate_of(system, letter, k, x, h);
       }
     }
-    const Eigen::VectorXd off = (sum - whole).cwiseAbs();
-    defect = defect.cwiseMax(Eigen::Vector2d(off.head(n).maxCoeff(), off.tail(n).maxCoeff()));
-    const Eigen::VectorXd size_of = whole.cwiseAbs();
-    scale = scale.cwiseMax(Eigen::Vector2d(size_of.head(n).maxCoeff(), size_of.tail(n).maxCoeff()));
+    // Two ends, each rounded by eps |x| after a few operations, over 2 h; of each letter, and of A and B.
+    const double each =
+        4.0 * std::numeric_limits<double>::epsilon() / h * static_cast<double>(known.size() + 2);
+    result[0].take(sum.head(n), whole.head(n), each * x.q.cwiseAbs().maxCoeff());
+    result[1].take(sum.tail(n), whole.tail(n), each * x.p.cwiseAbs().maxCoeff());
   }
-  return std::max(defect[0] / scale[0], defect[1] / scale[1]);
+  return result;
 }
 
 }  // namespace
@@ -205,7 +226,8 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
                                              double step) const {
   constexpr Eigen::Index most = 2000;  // coordinates: the Jacobian of a letter has 4 times their square
   if (!word.has_own_letters() || size(made_.system) > most) return;
-  if (!sound_.insert(fmt::format("{} {}", word.letters(), step)).second) return;
+  const std::string tried = fmt::format("{} {}", word.letters(), step);
+  if (sound_.contains(tried)) return;
   const model alone = made_.system.alone();
   // Some moved by a part of a step: starts may be at rest, or at the minimum of V.
   const double moved_by = made_.frequency > 0.0 ? std::min(step, 0.1 / made_.frequency) : step;
@@ -223,16 +245,16 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   std::string letters = word.letters();
   std::erase(letters, bath_letter);
   const run_time_word conservative = word.with_letters(letters);
-  const double defect =
-      defect_of_sum(alone, conservative, times_of_slots(conservative, letters_), states, step);
-  constexpr double enough =
-      1e-5;  // differences err by 1e-10 to 1e-7, a part that is missing by its share of H
-  if (defect <= enough) return;
-  refuse(
-      "{}: the letters of the word {} must add up to H of {}: over equal times they move it otherwise, by "
-      "{:.2g} "
-      "of its rate; take a letter for each part of H",
-      name, conservative.letters(), description(), defect);
+  const auto rates = rates_of_sum(alone, conservative, times_of_slots(conservative, letters_), states, step);
+  for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
+    if (rate.agree()) continue;
+    refuse(
+        "{}: the letters of the word {} must add up to H of {}, got a rate of {} that is off by {:.2g}, "
+        "where "
+        "H moves it by {:.2g} in unit time; take a letter for each part of H",
+        name, conservative.letters(), description(), which, rate.off, rate.of_h);
+  }
+  sound_.insert(tried);
 }
 
 double prepared_problem::frequency_of_law() const { return made_.frequency; }
@@ -281,9 +303,19 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
   return bands;
 }
 
-stability_guard prepared_problem::guard(bool rotations) const {
+stability_guard prepared_problem::guard(const run_time_word& word) const {
   const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
-  return stability_guard(made_.system, states, rotations);
+  return {made_.system, states, word};
+}
+
+std::optional<stability_guard> prepared_problem::guard_of_parts(const run_time_word& word) const {
+  if (!word.has_own_letters() || size(made_.system) > most_for_all_frequencies) return std::nullopt;
+  try {
+    stability_guard result = guard(word);
+    if (result.parts() != nullptr) return result;
+  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
+  }
+  return std::nullopt;
 }
 
 trial_result prepared_problem::trial(const tabulated& method, const trajectories_plan& plan) const {
@@ -292,7 +324,10 @@ trial_result prepared_problem::trial(const tabulated& method, const trajectories
               : typical_and_energetic_starts(made_.system, made_.starts, plan.seed, 0, plan.count);
   if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
   return trial_run(made_.system, method, plan.step, repeated_in_bath(made_.system, states),
-                   {.steps = plan.steps, .seed = plan.seed, .threads = plan.threads});
+                   {.steps = plan.steps,
+                    .seed = plan.seed,
+                    .threads = plan.threads,
+                    .watches_growth = guard_of_parts(method.letters()).has_value()});
 }
 
 const size_trial& prepared_problem::try_at_size(const tabulated& method, double step) const {

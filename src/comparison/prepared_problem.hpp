@@ -101,10 +101,14 @@ class prepared_problem {
   /// fastest motion from some starts, where they lie far apart; else none. Cost: 4 10^5 evaluations at the
   /// first call.
   const std::vector<frequency_band>& bands_along_motion() const;
-  /// Of its bands, or of the frequencies along some states of the initial distribution.
-  stability_guard guard(bool rotations) const;
+  /// For a word, of its bands, or of the frequencies along some states of the initial distribution, and of
+  /// kicks of parts of V as a fit has it.
+  stability_guard guard(const run_time_word& word) const;
+  /// The guard of a word with kicks of parts whose linearised motion can be computed; nothing of others, and
+  /// of words without letters of one's own. Cost: that of guard().
+  std::optional<stability_guard> guard_of_parts(const run_time_word& word) const;
   /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
-  /// ones.
+  /// ones. Of a word with kicks of parts it watches the growth of energy errors too.
   trial_result trial(const tabulated& method, const trajectories_plan& plan) const;
   /// Tries a method that was learned at another size, see nysalt::try_at_size(). Cost: of a method that was
   /// tried before none.
@@ -115,7 +119,8 @@ class prepared_problem {
   const detail::named_letters& letters() const { return letters_; }
   /// Tries the letters of one's own in a word by check_letter(), over the step from four states, and whether
   /// its letters add up to H there. Throws refusal, which begins with the name of the method, for the first
-  /// that is not what it states. Cost: of letters that were tried before none.
+  /// that is not what it states. Nothing is tried above 2000 coordinates. Cost: of letters that passed before
+  /// none.
   void require_sound_letters(const std::string& name, const run_time_word& word, double step) const;
   /// Throws refusal for what cannot be learned, before any work is done.
   void require_learnable(const std::string& family, std::optional<placement> where,

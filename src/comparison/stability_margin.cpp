@@ -234,7 +234,7 @@ std::string not_stable(const std::string& name, const prepared_problem& system, 
 /// Steps are tried downwards.
 std::string magnified(const std::string& name, const tabulated& method, const prepared_problem& system,
                       double step) {
-  const auto guard = system.guard(true);
+  const auto guard = system.guard(method.letters());
   const auto objection = guard.objection(method.letters(), method.coefficients(), step);
   if (objection.empty()) return {};
   std::string text = fmt::format("{} at step {:g}: {}", name, step, objection);
@@ -252,7 +252,13 @@ std::string magnified(const std::string& name, const tabulated& method, const pr
 
 std::optional<std::string> instability(const std::string& name, const tabulated& method,
                                        const prepared_problem& system, double step) {
-  if (method.letters().has_own_letters()) return std::nullopt;  // a trial run says more
+  if (method.letters().has_own_letters()) {
+    const auto guard = system.guard_of_parts(method.letters());
+    if (!guard) return std::nullopt;  // a trial run says more
+    const std::string objection = guard->objection(method.letters(), method.coefficients(), step);
+    if (objection.empty()) return std::nullopt;
+    return fmt::format("{} at step {:g}: {}; take another step", name, step, objection);
+  }
   if (has_rotation(method.letters())) {
     const std::string text = magnified(name, method, system, step);
     return text.empty() ? std::nullopt : std::optional(text);

@@ -83,8 +83,11 @@ void require_sound(const system_declaration& declared, const std::string& path) 
 void require_named(const std::string& letters, const std::string& path) {
   for (const char letter : letters) {
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0)
-      refuse("{}: a letter is called '{}': take a letter or a digit", path, letter);
-    if (std::ranges::count(letters, letter) > 1) refuse("{}: two letters are called '{}'", path, letter);
+      refuse("{}: the name of a letter must be a letter or a digit, got '{}'; take another", path, letter);
+    if (std::ranges::count(letters, letter) > 1) {
+      refuse("{}: letters must have different names, got '{}' twice; name one of the two otherwise", path,
+             letter);
+    }
   }
 }
 

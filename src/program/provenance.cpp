@@ -2,6 +2,7 @@
 #include "provenance.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -9,8 +10,10 @@
 #include "bundled_systems.hpp"
 #include "comparison/catalogue.hpp"
 #include "comparison/json.hpp"
+#include "comparison/method_file_format.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/refusal.hpp"
+#include "output.hpp"
 #include "recorded_options.hpp"
 #include "report/manifest.hpp"
 #include "settings.hpp"
@@ -108,11 +111,39 @@ json parsed(const fs::path& file) {
   return json::parse(stream, nullptr, false);
 }
 
+/// Whether a method is a file of coefficients of the user, perhaps with a placement behind it. Its letters
+/// may be those of a system, and are not read.
+bool is_table(const std::string& typed) {
+  constexpr std::uintmax_t most = 1 << 20;  // bytes: tables are far shorter
+  if (const auto names = method_names(); std::ranges::count(names, typed) > 0) return false;
+  return std::ranges::any_of(std::vector{typed, typed.substr(0, typed.rfind('@'))}, [](const fs::path& file) {
+    std::error_code ignored;
+    if (!is_file(file) || fs::file_size(file, ignored) > most) return false;
+    const json document = parsed(file);
+    return document.is_object() && document.contains("format") && document["format"] == table_format;
+  });
+}
+
+/// Adds the entries of a whole manifest. What one of them rests on may not be known, as that of a scheme that
+/// was deleted: a warning says so. Throws refusal if it is known of none.
+void add_entries(const json& entries, const fs::path& manifest, std::vector<cited_setup>& to) {
+  std::vector<std::string> problems;
+  for (const auto& [name, entry] : entries.items()) {
+    try {
+      add_entry(entry, manifest.parent_path() / name, manifest, to);
+    } catch (const refusal& problem) {
+      problems.emplace_back(problem.what());
+    }
+  }
+  if (!problems.empty() && problems.size() == entries.size()) refuse("{}", problems.front());
+  for (const auto& problem : problems) warn(problem + "; it is left out");
+}
+
 }  // namespace
 
 void add_method(const std::string& typed, std::vector<cited_setup>& to) {
   constexpr std::string_view to_learn = "learned:";
-  if (is_word(typed)) return;  // nothing is published of it
+  if (is_word(typed) || is_table(typed)) return;  // nothing is published of it
   if (typed.starts_with(to_learn) && is_word(std::string_view(typed).substr(to_learn.size()))) {
     to.front().learned.push_back(typed.substr(to_learn.size()));
     return;
@@ -124,9 +155,9 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
     to.front().learned.push_back(*source.family);
   } else if (source.adaptive != nullptr) {
     to.front().methods.push_back(source.adaptive->name);
-  } else if (const auto names = method_names(); std::ranges::count(names, source.fixed->name()) > 0) {
+  } else {
     to.front().methods.push_back(source.fixed->name());
-  }  // else a table of the user, which cites nothing
+  }
 }
 
 void add_file(const std::string& file, std::vector<cited_setup>& to) {
@@ -138,9 +169,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   const fs::path manifest = manifest_of(path);
   const json entries = is_file(manifest) ? entries_in(manifest) : json();
   if (path.filename() == manifest.filename() && entries.is_object()) {
-    for (const auto& [name, entry] : entries.items()) {
-      add_entry(entry, path.parent_path() / name, manifest, to);
-    }
+    add_entries(entries, manifest, to);
     return;
   }
   if (file.ends_with(earlier_ending)) path.replace_extension().replace_extension();

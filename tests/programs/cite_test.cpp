@@ -132,6 +132,30 @@ BOOST_AUTO_TEST_CASE(files_know_what_they_were_made_with) {
   BOOST_TEST((cited(folder, "verlet") == of_scheme));  // a file, and one that needs no manifest
   BOOST_TEST((cited(folder, "--methods verlet") == with({"verlet_1967"})));
   must_be_told(folder, "out.csv", "manifest.json, out.csv: ");  // as its scheme is gone
+  // Of the whole folder the rest is cited, and what is left out is said.
+  const auto rest = run(folder, "cite --json manifest.json");
+  BOOST_TEST(rest.err.find("manifest.json, out.csv: ") != std::string::npos, rest.err);
+  BOOST_TEST(rest.err.find("left out") != std::string::npos, rest.err);
+  BOOST_TEST(keys(rest).contains("aoki_kusnezov_2002"));
+}
+
+BOOST_AUTO_TEST_CASE(entries_of_other_commands_hide_no_others) {
+  const scratch folder("cite_others");
+  const auto entry = [](const std::string& options) {
+    return json{{"command", "nysalt"}, {"options", options}, {"versions", json::object()}};
+  };
+  BOOST_TEST_REQUIRE(
+      run(folder, "run --system phi4 --method pefrl --step 0.03 --horizon 0.3 --output new.csv").code == 0);
+  json manifest = json::parse(contents(folder / "manifest.json"));
+  manifest["files"]["draws.csv"] = entry("sample.system=phi4");
+  std::ofstream(folder / "manifest.json") << manifest;
+  const auto done = run(folder, "cite --json manifest.json");
+  BOOST_TEST((keys(done) == with(random_numbers, {"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002"})));
+  BOOST_TEST(done.err.find("draws.csv") != std::string::npos, done.err);
+  must_be_told(folder, "draws.csv", "draws.csv: it was made by 'sample'");
+  manifest["files"].erase("new.csv");
+  std::ofstream(folder / "manifest.json") << manifest;
+  must_be_told(folder, "manifest.json", "draws.csv: it was made by 'sample'");  // nothing is left
 }
 
 // FILE.manifest.json, of one file.

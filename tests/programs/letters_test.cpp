@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "../support/document.hpp"
+#include "../support/forged.hpp"
 #include "../support/killed.hpp"
 #include "../support/systems_with_letters.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -317,7 +319,28 @@ BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
     refused(folder, "build mine.hpp", {"does not compile", said});
   }
   write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
-  refused(folder, "build mine.hpp", {"mine.hpp: two letters are called 't'"});
+  refused(folder, "build mine.hpp", {"mine.hpp: letters must have different names, got 't' twice"});
+}
+
+// Slow kicks half a period of a fast mode apart, h omega = pi: a step between resonances passes.
+BOOST_AUTO_TEST_CASE(resonances_of_slow_kicks_are_found_by_each_command) {
+  const scratch folder("letters_resonance");
+  write(folder, "mine.hpp", charges);
+  const std::string method = " --system ./mine.hpp --method word:1A0A0A0A0A0A0A0A1 ";
+  // The highest mode of four masses with bonds of omega = 20 has 2 sin(3 pi/8) 20 = 36.96.
+  const double resonant = 3.14159265358979 / 36.955181;
+  const auto said = [&](double step) {
+    return document(fmt::format("stability{}--step {:.12g}", method, step), folder);
+  };
+  const auto between = said(0.75 * resonant);
+  BOOST_TEST(between["linearly_stable"] == true, between.dump());
+  const auto bad = said(resonant);
+  BOOST_TEST(bad["linearly_stable"] == false, bad.dump());
+  BOOST_TEST(bad["stable"] == false);
+  const auto ran = run(folder, fmt::format("run{}--step {:.12g} --horizon 1", method, resonant));
+  BOOST_TEST(ran.err.find("warning: word:1A0A0A0A0A0A0A0A1 at step") != std::string::npos, ran.err);
+  const auto fine = run(folder, fmt::format("run{}--step {:.12g} --horizon 1", method, 0.75 * resonant));
+  BOOST_TEST(fine.err.empty(), fine.err);
 }
 
 BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
@@ -327,9 +350,9 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   const std::string here = " --system ./mine.hpp --step 0.5 --horizon 1";
   for (const auto& [word, said] : std::vector<std::pair<std::string, std::string>>{
            {"word:tzt",
-            "there is no letter z: known are A, B, R, S, and those that a system declares: here the "
-            "letters t, c"},
-           {"word:tOt", "O has no place"},
+            "each letter must be A, B, R, S or one that the system declares, here the letters t, c, got z; "
+            "take one of those"},
+           {"word:tOt", "got O; write a table"},
            {"word:tctt", "must read the same from both ends"},
            {"word:tcct", "two equal neighbours"},
            {"word:", "at least one letter"},
@@ -337,8 +360,7 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
     refused(folder, "run --method " + word + here, {word, said});
   }
   refused(folder, "learn --family word:tct --system ./mine.hpp --step 0.5", {"no coefficient to learn"});
-  refused(folder, "run --system henon_heiles --method word:tct --step 0.5 --horizon 1",
-          {"there is no letter t", "here none"});
+  refused(folder, "run --system henon_heiles --method word:tct --step 0.5 --horizon 1", {"here none, got t"});
   write(folder, "table.json", table("tzt", {0.5, 1.0, 0.5}));
   refused(folder, "run --method table.json" + here, {"table.json", "the letter z"});
   write(folder, "table.json", table("tct", {0.5, 1.0, 0.4}));
@@ -360,9 +382,43 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
             {"s.json", "the letter t of henon_heiles(), and henon_heiles() has no letters of its own"});
   }
   refused(folder, "stability --method s.json", {"s.json", "give --system"});
+  // What a letter states is read with care; no change is none.
+  const std::string text = contents(folder / "s.json");
+  const auto letter = [](const char* member, const json& value) {
+    return [=](json& s) { s["own_letters"][0][member] = value; };
+  };
+  for (const auto& [change, said] : std::vector<std::pair<std::function<void(json&)>, std::string>>{
+           {letter("forces", 1e300), "\"forces\" must be a whole number from 0 to 64, got 1e+300"},
+           {letter("forces", -1), "got -1"},
+           {letter("forces", 0.5), "got 0.5"},
+           {letter("forces", 65), "got 65"},
+           {letter("letter", "A"), "none of the library, got \"A\""},
+           {letter("letter", "|"), "got \"|\""},
+           {letter("letter", "c"), "another letter or digit"},
+           {letter("letter", "tt"), "got \"tt\""},
+           {letter("letter", ""), "got \"\""},
+           {letter("letter", "\n"), "got \"\\n\""},
+           {letter("times", ""), "1 to 64, got 0"},
+           {letter("times", std::string(65, 't')), "1 to 64, got 65"},
+           {letter("times", "\x1b"), "\"times\""},
+           {[](json& s) { s["own_letters"][1] = "c"; }, "must be a list of objects, got one with a string"},
+           {[](json& s) { s["own_letters"] = 7; }, "must be a list of objects, got number"}}) {
+    write(folder, "bad.json", forged(text, change));
+    refused(folder, "run --method bad.json" + here, {"bad.json", said});
+  }
+  write(folder, "same.json", forged(text, [](json&) {}));
+  BOOST_TEST(run(folder, "run --method same.json" + here).code == 0);
   for (const std::string method : {"s.json", "table.json", "word:tct"}) {
     refused(folder, "export --to c " + method, {method, "letter t"});
   }
+  // What they rest on is cited without a system: a table of the user rests on nothing.
+  BOOST_TEST(document("cite table.json", folder) == document("cite", folder));
+  BOOST_TEST_REQUIRE(
+      run(folder, "run --method table.json --step 0.5 --horizon 1 --system ./mine.hpp --output out.csv")
+          .code == 0);
+  BOOST_TEST(document("cite out.csv", folder)["references"].size() > 0U);
+  write(folder, "odd.json", R"({"format": "nysalt"})");
+  refused(folder, "cite --methods odd.json", {"neither a scheme nor a table"});
   // A source with the same letters is another system.
   write(folder, "mine.hpp", turning + "// edited\n");
   refused(folder, "run --method s.json" + here, {"s.json", "another source"});

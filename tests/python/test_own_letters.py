@@ -59,8 +59,20 @@ def test_parts_are_kicked_by_name():
     assert respa < 0.5 * verlet  # of order 2 with four times as short steps of the bonds
 
 
+def test_letters_that_are_not_sound_are_refused_each_time(tmp_path):
+    source = (PLUGINS / "cubic_well.hpp").read_text()
+    weak = source.replace("x.p[i] += room.x[i] * t;", "x.p[i] += room.x[i] * t * 0.9;")
+    assert weak != source
+    (tmp_path / "weak.hpp").write_text(weak)
+    well = nysalt.system(str(tmp_path / "weak.hpp"))
+    for _ in range(2):
+        with pytest.raises(ValueError, match="must add up to H"):
+            nysalt.run(well, "word:tct", step=0.5, horizon=5)
+    nysalt.run(well, "verlet", step=0.1, horizon=1)
+
+
 @pytest.mark.parametrize("method, why", [
-    ("word:txt", "there is no letter x"),
+    ("word:txt", "each letter must be .* got x"),
     ("word:tctt", "must read the same from both ends"),
     ("word:AtA", "must add up to H"),
 ])

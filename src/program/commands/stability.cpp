@@ -89,7 +89,8 @@ answer about(const subject& target, const stability_chart& chart) {
   if (word.has_own_letters()) {
     for (const char* name : {"limit", "limit_per_evaluation"}) result.document[name] = nullptr;
     for (const char* name : {"windows", "touching"}) result.document[name] = json::array();
-    result.text += "it has letters of one's own, whose action on oscillators is not known\n";
+    result.text +=
+        "it has letters of one's own: it has no windows of z = h omega, and is tried on its system\n";
     return result;
   }
   const bool rotates = has_rotation(word);
@@ -210,7 +211,7 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
 }
 
 void add_rotation(answer& result, const tabulated& method, const prepared_problem& system, double step) {
-  const auto guard = system.guard(true);
+  const auto guard = system.guard(method.letters());
   const bool stable = guard.admits(method.letters(), method.coefficients(), step);
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
   json& document = result.document;
@@ -238,6 +239,24 @@ void add_rotation(answer& result, const tabulated& method, const prepared_proble
     result.text += fmt::format("  nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
                                nearest->multiple, nearest->mode, nearest->step);
   }
+}
+
+/// What the linearised motion of a word with kicks of parts says; whether it is known. Of other words nothing
+/// is against them but a trial.
+bool add_parts(answer& result, const tabulated& method, const prepared_problem& system, double step) {
+  result.document["stable"] = true;
+  const auto guard = system.guard_of_parts(method.letters());
+  if (!guard) {
+    result.text += "its linearised motion is not known: a trial run alone decides\n";
+    return false;
+  }
+  const std::string objection = guard->objection(method.letters(), method.coefficients(), step);
+  result.document["stable"] = objection.empty();
+  result.text +=
+      fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
+                  objection.empty() ? "linearly stable on what was examined" : "NOT stable, " + objection,
+                  guard->description());
+  return true;
 }
 
 void write_curve(const stability_command& command, const subject& target, const stability_chart& chart,
@@ -293,9 +312,9 @@ int stability(const stability_command& command, const common_settings& common) {
     shown.clear();
     const std::uint64_t seed = seed_for(role::test, common.seed);
     if (has_own_letters) {
-      result.document["stable"] = true;  // nothing is against it but a trial
+      const bool is_known = add_parts(result, target.method, *system, *command.step);
       add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
-      result.document["linearly_stable"] = nullptr;
+      if (!is_known) result.document["linearly_stable"] = nullptr;
     } else if (rotates) {
       add_rotation(result, target.method, *system, *command.step);
       add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+// Letters of one's own of a problem: unsound ones are refused each time, and sound ones at any offset and
+// step.
+#include <boost/test/unit_test.hpp>
+
+#include <string>
+
+#include "../../src/comparison/catalogue.hpp"
+#include "../../src/comparison/prepared_problem.hpp"
+#include "../../src/comparison/refusal.hpp"
+#include "../support/systems_with_letters.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/plugin.hpp"
+
+using namespace nysalt;
+using namespace nysalt::program;
+
+namespace {
+
+struct own_drift : exact_flow<'d'> {
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.q[i] += x.p[i] * t;
+  }
+};
+struct own_kick : exact_flow<'f'> {
+  static constexpr bool moves_q = false;
+  static constexpr int displaced_forces = 1;
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto& room) {
+    force<typename State::scalar_type>(system, x.q, room.x);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += room.x[i] * t;
+  }
+};
+struct slow_drift : own_drift {
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto& room) {
+    own_drift::apply(system, C(t * 0.9), x, room);
+  }
+};
+
+/// A spring about a place that may be far away, or none.
+struct distant_spring {
+  static constexpr int dimension = 1;
+  double place = 0.0;
+  double stiffness = 1.0;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    const T r = q[0] - place;
+    return r * r * (0.5 * stiffness);
+  }
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = (q[0] - place) * -stiffness;
+  }
+};
+
+template <class Drift>
+prepared_problem problem_of(const distant_spring& system) {
+  const auto declared = declare_system<distant_spring>(
+      "distant_spring", "a spring", parameter("place", &distant_spring::place, "of rest"),
+      parameter("stiffness", &distant_spring::stiffness, "of the spring"), letters<Drift, own_kick>(),
+      starts([](const distant_spring& s) {
+        return normal_around<1>({vector<double, 1>(s.place), vector<double, 1>(0.0)}, 0.1, 0.1);
+      }));
+  parameter_values values;
+  values.add("place", system.place);
+  values.add("stiffness", system.stiffness);
+  return {declared.make(values, bath::of_sigma(0.0, 0.0), 1.0), {}, {bath::of_sigma(0.0, 0.0), start::law}};
+}
+
+/// What is said against the word dfd; nothing if it is taken.
+std::string objection(const prepared_problem& problem, double step) {
+  try {
+    problem.require_sound_letters("mine", method_of_word("word:dfd", problem.letters()).letters(), step);
+  } catch (const refusal& problem_of_letters) {
+    return problem_of_letters.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_word_that_was_refused_is_refused_again) {
+  const auto unsound = problem_of<slow_drift>({});
+  const std::string first = objection(unsound, 0.1);
+  BOOST_TEST(first.find("must add up to H") != std::string::npos, first);
+  BOOST_TEST(objection(unsound, 0.1) == first);
+  const auto sound = problem_of<own_drift>({});
+  for (int n = 0; n < 2; ++n) BOOST_TEST(objection(sound, 0.1) == "");
+}
+
+// Rounding of q over a difference of times 1e-5 h is larger than a share of its rate there.
+BOOST_AUTO_TEST_CASE(sound_letters_are_taken_far_from_0_and_at_short_steps) {
+  for (const double place : {0.0, 1e3, 1e6}) {
+    for (const double step : {1e-6, 1e-3, 0.1}) {
+      BOOST_TEST_CONTEXT("at " << place << ", step " << step)
+      BOOST_TEST(objection(problem_of<own_drift>({place, 1.0}), step) == "");
+    }
+  }
+  // Where rounding leaves something to see, a part that is a tenth short is still seen.
+  for (const double place : {0.0, 1e3}) {
+    BOOST_TEST(objection(problem_of<slow_drift>({place, 1.0}), 0.1).find("must add up to H") !=
+               std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(free_motion_has_letters_too) {
+  BOOST_TEST(objection(problem_of<own_drift>({0.0, 0.0}), 0.1) == "");
+  const std::string why = objection(problem_of<slow_drift>({0.0, 0.0}), 0.1);
+  BOOST_TEST(why.find("must add up to H") != std::string::npos, why);
+  BOOST_TEST(why.find("nan") == std::string::npos, why);
+}
