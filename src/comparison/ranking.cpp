@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "nysalt/analysis/pareto_front.hpp"
@@ -81,14 +82,26 @@ double error_of(const comparison& all, std::size_t m, const row& line) {
   return all.metrics()[m].is_acceptance() ? 1.0 - value : value;
 }
 
-rival rival_of(const comparison& all, std::size_t m, const row& line) {
-  rival result{.method = line.method,
-               .step = line.nominal,
-               .cost = line.evaluations_per_time,
-               .error = error_of(all, m, line),
-               .standard_error = ranked_value(all, m, line).standard_error};
+ranked_method ranked_method_of(const comparison& all, std::size_t m, const row& line) {
+  ranked_method result{.method = line.method,
+                       .step = line.nominal,
+                       .cost = line.evaluations_per_time,
+                       .error = error_of(all, m, line),
+                       .standard_error = ranked_value(all, m, line).standard_error};
   if (!is_by_median(all, m)) result.groups = line.measurements[m].groups;
   return result;
+}
+
+/// A run of a few steps may cost one evaluation more than another of the same step.
+void merge_costs_of_steps(std::vector<ranked_method>& ranked, double tolerance, double evaluation) {
+  std::map<double, std::vector<std::size_t>> by_step;
+  for (std::size_t i = 0; i < ranked.size(); ++i) by_step[ranked[i].step].push_back(i);
+  for (const auto& [step, rows] : by_step) {
+    std::vector<double> costs;
+    for (const std::size_t i : rows) costs.push_back(ranked[i].cost);
+    const auto merged = without_start_up(costs, tolerance, evaluation);
+    for (std::size_t k = 0; k < rows.size(); ++k) ranked[rows[k]].cost = merged[k];
+  }
 }
 
 }  // namespace
@@ -167,7 +180,7 @@ std::vector<at_equal_cost> side_by_side(const comparison& all, std::size_t m) {
 }
 
 estimate gain(const comparison& all, std::size_t m, const at_equal_cost& pair) {
-  return error_ratio(rival_of(all, m, *pair.best), rival_of(all, m, *pair.learned));
+  return error_ratio(ranked_method_of(all, m, *pair.best), ranked_method_of(all, m, *pair.learned));
 }
 
 double evaluations_of(const row& line) { return line.evaluations_per_time; }
@@ -189,19 +202,17 @@ std::vector<const row*> pareto_front(const comparison& all, std::size_t m, doubl
 
 std::vector<best_at_cost> best_by(const comparison& all, std::size_t m, double (*cost)(const row&)) {
   const bool is_by_step = all.options().equal_cost && cost == evaluations_of;
-  std::vector<rival> ranked;
+  std::vector<ranked_method> ranked;
   for (const row& line : all.rows()) {
-    rival one = rival_of(all, m, line);
+    ranked_method one = ranked_method_of(all, m, line);
     one.error = is_ranked(all, m, line) ? std::max(one.error, baseline_of(all, m, line).floor.value_or(0.0))
                                         : std::numeric_limits<double>::quiet_NaN();
     one.cost = cost(line);
-    for (const row& other : all.rows()) {  // a run of a few steps may cost one evaluation more
-      if (is_by_step && other.nominal == line.nominal) one.cost = std::max(one.cost, cost(other));
-    }
     ranked.push_back(one);
   }
   constexpr double of_counts = 1.01;  // the evaluation of the start
   constexpr double of_times = 1.05;   // by which times of rounds differ
+  if (is_by_step) merge_costs_of_steps(ranked, of_counts, 1.0 / all.horizon());
   return best_at_costs(ranked, cost == evaluations_of ? of_counts : of_times);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -12,7 +13,7 @@
 
 namespace nysalt::program {
 
-estimate error_ratio(const rival& a, const rival& b) {
+estimate error_ratio(const ranked_method& a, const ranked_method& b) {
   if (!(a.error > 0.0) || !(b.error > 0.0)) return {};
   const double ratio = a.error / b.error;
   if (a.groups.empty() || a.groups.size() != b.groups.size()) {
@@ -26,7 +27,7 @@ estimate error_ratio(const rival& a, const rival& b) {
   return {ratio, ratio * paired_difference(in_a, in_b).standard_error};
 }
 
-bool errs_more(const rival& a, const rival& b) {
+bool errs_more(const ranked_method& a, const ranked_method& b) {
   if (!(a.error > b.error)) return false;
   constexpr double separated = 2.0;  // standard errors
   if (b.error == 0.0) return std::isnan(a.standard_error) || a.error > separated * a.standard_error;
@@ -37,35 +38,35 @@ bool errs_more(const rival& a, const rival& b) {
 
 namespace {
 
-bool has_error(const rival& one) { return std::isfinite(one.error) && one.error >= 0.0; }
+bool has_error(const ranked_method& one) { return std::isfinite(one.error) && one.error >= 0.0; }
 
-std::size_t methods_up_to(const std::vector<rival>& all, double cost) {
+std::size_t methods_up_to(const std::vector<ranked_method>& all, double cost) {
   std::set<std::string> methods;
-  for (const rival& one : all) {
+  for (const ranked_method& one : all) {
     if (one.cost <= cost) methods.insert(one.method);
   }
   return methods.size();
 }
 
-/// The ranked rivals that cost no more, each method where it errs least; the least error first.
-std::vector<rival> affordable(const std::vector<rival>& all, double cost) {
-  std::map<std::string, rival> by_method;
-  for (const rival& one : all) {
+/// The ranked methods that cost no more, each method where it errs least; the least error first.
+std::vector<ranked_method> affordable(const std::vector<ranked_method>& all, double cost) {
+  std::map<std::string, ranked_method> by_method;
+  for (const ranked_method& one : all) {
     if (one.cost > cost || !has_error(one)) continue;
     const auto [at, is_new] = by_method.emplace(one.method, one);
     if (!is_new && one.error < at->second.error) at->second = one;
   }
-  std::vector<rival> result;
+  std::vector<ranked_method> result;
   for (const auto& [method, one] : by_method) result.push_back(one);
-  std::ranges::stable_sort(result, {}, &rival::error);
+  std::ranges::stable_sort(result, {}, &ranked_method::error);
   return result;
 }
 
-best_at_cost best_of(const std::vector<rival>& sorted, double cost) {
+best_at_cost best_of(const std::vector<ranked_method>& sorted, double cost) {
   best_at_cost result{.cost = cost, .best = {}, .next = {}};
   if (sorted.empty()) return result;
   result.best.push_back(sorted.front());
-  for (const rival& one : std::span(sorted).subspan(1)) {
+  for (const ranked_method& one : std::span(sorted).subspan(1)) {
     if (!errs_more(one, sorted.front())) {
       result.best.push_back(one);
     } else if (!result.next) {
@@ -74,15 +75,15 @@ best_at_cost best_of(const std::vector<rival>& sorted, double cost) {
   }
   if (sorted.size() > 1) {
     result.has_error_bars =
-        std::ranges::none_of(sorted, [](const rival& one) { return std::isnan(one.standard_error); });
+        std::ranges::none_of(sorted, [](const ranked_method& one) { return std::isnan(one.standard_error); });
   }
   return result;
 }
 
 /// The costs of all, those that are nearly the same as the largest of these.
-std::vector<double> distinct_costs(const std::vector<rival>& all, double tolerance) {
+std::vector<double> distinct_costs(const std::vector<ranked_method>& all, double tolerance) {
   std::vector<double> costs;
-  for (const rival& one : all) costs.push_back(one.cost);
+  for (const ranked_method& one : all) costs.push_back(one.cost);
   std::ranges::sort(costs);
   std::vector<double> result;
   double first = 0.0;
@@ -99,10 +100,10 @@ std::vector<double> distinct_costs(const std::vector<rival>& all, double toleran
 
 }  // namespace
 
-std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double tolerance) {
-  std::vector<rival> sound;
+std::vector<best_at_cost> best_at_costs(const std::vector<ranked_method>& all, double tolerance) {
+  std::vector<ranked_method> sound;
   std::ranges::copy_if(all, std::back_inserter(sound),
-                       [](const rival& one) { return std::isfinite(one.cost) && one.cost > 0.0; });
+                       [](const ranked_method& one) { return std::isfinite(one.cost) && one.cost > 0.0; });
   std::vector<best_at_cost> found;
   bool is_compared = false;
   for (const double cost : distinct_costs(sound, tolerance)) {
@@ -114,6 +115,18 @@ std::vector<best_at_cost> best_at_costs(const std::vector<rival>& all, double to
   return found;
 }
 
+std::vector<double> without_start_up(const std::vector<double>& costs, double tolerance, double evaluation) {
+  std::vector<double> result;
+  for (const double own : costs) {
+    double largest = own;
+    for (const double other : costs) {
+      if (other <= tolerance * own + evaluation) largest = std::max(largest, other);
+    }
+    result.push_back(largest);
+  }
+  return result;
+}
+
 std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most) {
   if (found.size() <= most) return found;
   std::vector<best_at_cost> chosen;
@@ -123,7 +136,7 @@ std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::s
   return chosen;
 }
 
-std::string named(const std::vector<rival>& methods) {
+std::string named(const std::vector<ranked_method>& methods) {
   constexpr std::size_t enough = 3;
   const std::size_t shown = methods.size() > enough ? enough - 1 : methods.size();
   std::string text;
@@ -148,12 +161,12 @@ namespace {
 struct range_of_costs {
   double from;
   double to;
-  std::vector<rival> best;
+  std::vector<ranked_method> best;
 };
 
-std::set<std::string> names_of(const std::vector<rival>& methods) {
+std::set<std::string> names_of(const std::vector<ranked_method>& methods) {
   std::set<std::string> names;
-  for (const rival& one : methods) names.insert(one.method);
+  for (const ranked_method& one : methods) names.insert(one.method);
   return names;
 }
 
@@ -207,7 +220,7 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
   const auto ranges = ranges_of(found);
   std::set<std::string> ranked;
   for (const auto& one : found) {
-    for (const rival& method : one.best) ranked.insert(method.method);
+    for (const ranked_method& method : one.best) ranked.insert(method.method);
     if (one.next) ranked.insert(one.next->method);
   }
   const bool is_alone = ranked.size() == 1;
@@ -240,6 +253,27 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
   if (!has_error_bars && !is_alone) text += " Some errors have no error bar, and differences may be chance.";
   return text;
+}
+
+namespace {
+
+/// The methods at the head, from the least cost to the largest; neighbours of the same methods once.
+std::vector<std::set<std::string>> sequence_of_leaders(const std::vector<best_at_cost>& found) {
+  std::vector<std::set<std::string>> result;
+  for (const auto& range : ranges_of(found)) result.push_back(names_of(range.best));
+  return result;
+}
+
+}  // namespace
+
+std::string verdict_of_both(const std::vector<best_at_cost>& by_evaluations,
+                            std::vector<best_at_cost> by_seconds, const std::string& error) {
+  std::string text = verdict_of(by_evaluations, "force evaluations per unit time", error);
+  if (sequence_of_leaders(by_evaluations) == sequence_of_leaders(by_seconds)) return text;
+  for (auto& one : by_seconds) one.cost *= 1e9;
+  std::string of_seconds = verdict_of(by_seconds, "ns per unit time", error);
+  of_seconds.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(of_seconds.front())));
+  return text + " In seconds: " + of_seconds;
 }
 
 }  // namespace nysalt::program

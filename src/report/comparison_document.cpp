@@ -91,11 +91,11 @@ json crossing_json(const threshold_crossing& crossing) {
 json best_json(const comparison& all, std::size_t m) {
   json result = json::array();
   for (const best_at_cost& one : best_by(all, m, evaluations_of)) {
-    const auto named_at = [](const rival& method) {
+    const auto named_at = [](const ranked_method& method) {
       return json{{"method", method.method}, {"step", method.step}};
     };
     json best = json::array();
-    for (const rival& method : one.best) best.push_back(named_at(method));
+    for (const ranked_method& method : one.best) best.push_back(named_at(method));
     json at{{"evaluations_per_time", one.cost},
             {"best", best},
             {"next", nullptr},

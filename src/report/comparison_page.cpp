@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "build_info.hpp"
@@ -41,15 +40,10 @@ std::string with_capital(std::string title) {
   return title;
 }
 
-std::string listed_plainly(const std::vector<rival>& methods) {
+std::string listed_plainly(const std::vector<ranked_method>& methods) {
   std::string text = named(methods);
   std::erase(text, '`');
   return text;
-}
-
-std::vector<best_at_cost> in_nanoseconds(std::vector<best_at_cost> costs) {
-  for (auto& one : costs) one.cost *= 1e9;
-  return costs;
 }
 
 std::string listed_front(const std::vector<const row*>& front) {
@@ -119,26 +113,6 @@ table level_table(const comparison& all, std::size_t m, double level) {
   return result;
 }
 
-/// By evaluations, and by seconds where these have others at the head.
-std::string verdict_on(const comparison& all, std::size_t m, const std::vector<best_at_cost>& found) {
-  std::string text = verdict_by_evaluations(all, m);
-  const auto in_seconds = best_by(all, m, seconds_of);
-  const auto leaders = [](const std::vector<best_at_cost>& costs) {
-    std::set<std::string> names;
-    for (const auto& one : costs) {
-      for (const rival& best : one.best) names.insert(best.method);
-    }
-    return names;
-  };
-  if (leaders(found) != leaders(in_seconds)) {
-    std::string of_seconds =
-        verdict_of(in_nanoseconds(in_seconds), "ns per unit time", errors_compared(all, m));
-    of_seconds.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(of_seconds.front())));
-    text += " In seconds: " + of_seconds;
-  }
-  return text;
-}
-
 /// Methods without any ranked row, and why.
 std::string left_out(const comparison& all, std::size_t m) {
   std::string text;
@@ -161,11 +135,12 @@ void add_verdict(page& report, const comparison& all) {
   table best(names, is_one ? 2 : 3);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     const auto found = best_by(all, m, evaluations_of);
-    const std::string sentence = verdict_on(all, m, found) + left_out(all, m);
+    const std::string sentence =
+        verdict_of_both(found, best_by(all, m, seconds_of), errors_compared(all, m)) + left_out(all, m);
     report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
     for (const best_at_cost& one : some_of(found, is_one ? 4 : 3)) {
       if (one.best.empty()) continue;  // the sentence says so
-      const rival& first = one.best.front();
+      const ranked_method& first = one.best.front();
       std::vector<std::string> cells{
           fmt::format("{:.4g}", one.cost),
           listed_plainly(one.best) + (one.best.size() > 1 ? " (not separated)" : ""),
@@ -354,6 +329,7 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
   const auto pictures = folder / folder_of_pictures;
   std::filesystem::create_directories(pictures);
   for (const figure& picture : report.figures()) {
+    if (!all.common().command.empty()) remove_earlier_pictures(picture, folder);
     if (auto warning = write_pictures(picture, pictures, all.common()); !warning.empty()) {
       warnings.push_back(std::move(warning));
     }

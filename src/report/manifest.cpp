@@ -6,6 +6,7 @@
 
 #include <ceres/version.h>
 #include <Eigen/Core>
+#include <array>
 #include <boost/version.hpp>
 #include <ctime>
 #include <fstream>
@@ -30,6 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* name_of_manifest = "manifest.json";
 constexpr const char* format_of_manifest = "nysalt manifest";
 constexpr int version_of_manifest = 1;
+constexpr std::array kinds_of_pictures{".svg", ".png", ".gp", ".dat"};
 
 json parsed(const fs::path& file) {
   std::ifstream stream(file);
@@ -59,15 +61,23 @@ std::unique_ptr<atomic_file> locked(const fs::path& manifest, std::chrono::milli
   }
 }
 
+/// Whether an earlier version recorded how it made the file.
+bool has_earlier_manifest(const fs::path& file) {
+  const fs::path earlier = earlier_manifest_of(file);
+  if (!is_there(earlier)) return false;
+  const json found = parsed(earlier);
+  return found.is_object() && found.contains("options") && found.contains("versions") &&
+         found.value("file", json()) == file.filename().string();
+}
+
+void remove_unless_input(const fs::path& file) {
+  std::error_code ignored;
+  if (!is_input(file)) fs::remove(file, ignored);
+}
+
 /// What an earlier version recorded of the file that was there before would contradict the new entry.
 void remove_earlier(const fs::path& file) {
-  const fs::path earlier = earlier_manifest_of(file);
-  if (!is_there(earlier)) return;
-  const json found = parsed(earlier);
-  const bool is_of_file = found.is_object() && found.contains("options") && found.contains("versions") &&
-                          found.value("file", json()) == file.filename().string();
-  std::error_code ignored;
-  if (is_of_file && !is_input(earlier)) fs::remove(earlier, ignored);
+  if (has_earlier_manifest(file)) remove_unless_input(earlier_manifest_of(file));
 }
 
 json entry_for(const common_settings& common) {
@@ -114,7 +124,7 @@ json entries_in(const fs::path& manifest) {
 
 void require_manifest(const fs::path& file) {
   const fs::path manifest = manifest_of(file);
-  if (file.filename() == name_of_manifest) {
+  if (nysalt::detail::behind_links(file).filename() == name_of_manifest) {
     refuse("cannot write {}: the folder's record of how its files were made has that name; take another",
            file.string());
   }
@@ -173,13 +183,22 @@ void write_result(const fs::path& file, std::string_view text, const common_sett
   record_results({file}, common);
 }
 
+void remove_earlier_pictures(const figure& picture, const fs::path& folder) {
+  for (const char* kind : kinds_of_pictures) {
+    const fs::path file = folder / (picture.name + kind);
+    if (!has_earlier_manifest(file)) continue;
+    remove_unless_input(file);
+    remove_unless_input(earlier_manifest_of(file));
+  }
+}
+
 std::string write_pictures(const figure& picture, const fs::path& folder, const common_settings& common) {
   if (!draw(picture, folder)) {
     return fmt::format("gnuplot could not draw {}: is it installed? The script and the data are there",
                        picture.name);
   }
   std::vector<fs::path> files;
-  for (const char* kind : {".svg", ".png", ".gp", ".dat"}) files.push_back(folder / (picture.name + kind));
+  for (const char* kind : kinds_of_pictures) files.push_back(folder / (picture.name + kind));
   record_results(files, common);
   return {};
 }

@@ -24,7 +24,7 @@ std::filesystem::path earlier_manifest_of(std::filesystem::path file);
 json entries_in(const std::filesystem::path& manifest);
 
 /// Throws refusal if entries cannot be added in the folder of a file: its manifest.json is an input, a
-/// folder, or not of nysalt, or the file itself has that name.
+/// folder, or not of nysalt, or the file itself has that name, or is a link to one that has.
 void require_manifest(const std::filesystem::path& file);
 
 /// Of the program and the libraries in it, by name.
@@ -41,6 +41,10 @@ void write_unrecorded(const std::filesystem::path& file, std::string_view text);
 
 /// A whole file and its entry in the manifest.
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common);
+
+/// Removes pictures of the figure that an earlier version made, in the folder of the report, with their
+/// manifests.
+void remove_earlier_pictures(const figure& picture, const std::filesystem::path& folder);
 
 /// The pictures of a figure below a folder, with their entries. Returns one sentence if gnuplot cannot draw.
 std::string write_pictures(const figure& picture, const std::filesystem::path& folder,

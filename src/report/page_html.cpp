@@ -18,9 +18,13 @@ namespace nysalt {
 
 namespace {
 
-/// Nothing may be fetched, from wherever.
-constexpr std::string_view page_policy =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+/// Nothing may be fetched, from wherever, and no script runs but that of the page.
+std::string page_policy() {
+  return fmt::format(
+      "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{}'; base-uri 'none'; "
+      "form-action 'none'",
+      page_script_sha256);
+}
 
 /// Quiet, of the system's own font; pictures shrink and wide tables scroll in themselves. On paper no picture
 /// and no row breaks, a table that goes on has its head again, and there are no controls.
@@ -168,7 +172,7 @@ std::string page_html(const std::string& title, const std::vector<page_block>& b
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-      page_policy, html_plain(title), page_style, html_sentence(title));
+      page_policy(), html_plain(title), page_style, html_sentence(title));
   html_of_block write{pictures};
   for (const auto& block : blocks) {
     const bool begins_sections = std::holds_alternative<heading_block>(block) && write.headings == 0;

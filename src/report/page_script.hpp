@@ -71,4 +71,7 @@ addEventListener('keydown', event => { if (event.key === 'Escape') value.hidden 
 addEventListener('scroll', () => { value.hidden = true; }, true);
 )js";
 
+/// A test computes it anew.
+inline constexpr std::string_view page_script_sha256 = "y9dJ5yIh67hrkEfL+64Gz5RuUC9pyeBMPusZVp+sIZM=";
+
 }  // namespace nysalt

@@ -136,12 +136,12 @@ void reproduction_report::write(const std::filesystem::path& folder) const {
     report.heading(part.title);
     for (const auto& one : part.exhibits) describe(report, one);
   }
-  const auto pictures = folder / "paper";
+  const auto pictures = folder / folder_of_pictures;
   make_folder(pictures);
   for (const auto& picture : report.figures()) {
     if (const auto warning = write_pictures(picture, pictures, common_); !warning.empty()) warn(warning);
   }
-  write_result(folder / "paper.md", report.markdown("paper"), common_);
+  write_result(folder / "paper.md", report.markdown(folder_of_pictures), common_);
   write_result(folder / "paper.html", report.html(pictures), common_);
   json all = document();
   all["made"] = {{"date", today()}, {"machine", machine()}, {"compiler", compiler}, {"version", version}};

@@ -12,6 +12,9 @@
 
 namespace nysalt::program::paper {
 
+/// In the folder of a report.
+constexpr const char* folder_of_pictures = "paper";
+
 struct finished_part {
   std::string name;
   std::string title;

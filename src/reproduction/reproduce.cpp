@@ -61,8 +61,11 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
   if (!all_ranks().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) {
-    require_folder(command.output);
-    require_manifest(std::filesystem::path(command.output) / "paper.json");
+    const std::filesystem::path folder(command.output);
+    for (const auto& of_results : {folder, folder / folder_of_pictures}) {
+      require_folder(of_results);
+      require_manifest(of_results / "paper.json");
+    }
   }
   progress shown;
   const setting setup(common, command.quick);

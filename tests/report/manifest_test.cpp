@@ -14,6 +14,7 @@
 #include "../../src/report/manifest.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/write_failure.hpp"
 
 using namespace nysalt;
@@ -125,6 +126,36 @@ BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
   BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "manifest.json"); }, {"manifest.json"}));
   std::filesystem::create_directories(folder / "c" / "manifest.json");
   BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "c" / "a.csv"); }, {"folder"}));
+}
+
+// What is written to a link goes to where the link leads.
+BOOST_AUTO_TEST_CASE(a_link_to_a_manifest_is_refused) {
+  const scratch folder("manifest_link");
+  write_result(folder / "a.csv", "1\n", made_by("first"));
+  std::filesystem::create_symlink("manifest.json", folder / "link");
+  std::filesystem::create_symlink("link", folder / "link_to_link");
+  std::filesystem::create_symlink("a.csv", folder / "to_a");
+  for (const char* name : {"link", "link_to_link"}) {
+    BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / name); }, {"cannot write", name}));
+  }
+  require_manifest(folder / "to_a");
+}
+
+BOOST_AUTO_TEST_CASE(earlier_pictures_that_were_made_here_go) {
+  const scratch folder("manifest_pictures");
+  const auto earlier = [](const std::string& file) {
+    return json{{"file", file}, {"command", "old"}, {"options", ""}, {"versions", {}}}.dump();
+  };
+  for (const char* name : {"p.svg", "p.gp", "q.svg"}) {
+    write_file(folder / name, "x");
+    write_file(folder / (std::string(name) + ".manifest.json"), earlier(name));
+  }
+  write_file(folder / "p.png", "not ours");
+  write_file(folder / "p.dat", "an input");
+  write_file(folder / "p.dat.manifest.json", earlier("p.dat"));
+  note_input(folder / "p.dat");
+  remove_earlier_pictures({"p", {}}, folder.path());
+  BOOST_TEST((folder.files() == std::set<std::string>{"p.dat", "p.png", "q.svg", "q.svg.manifest.json"}));
 }
 
 BOOST_AUTO_TEST_CASE(an_earlier_manifest_of_the_same_file_goes_and_others_stay) {

@@ -2,6 +2,7 @@
 // A page says what it was told, in Markdown and in HTML, and needs nothing but itself.
 #include <boost/test/unit_test.hpp>
 
+#include <cstdlib>
 #include <regex>
 #include <set>
 #include <string>
@@ -142,6 +143,29 @@ BOOST_AUTO_TEST_CASE(pictures_have_ids_of_their_own_and_nothing_dangles) {
   BOOST_TEST(has(html, "<text> #dot</text>"));  // what is seen stays
 }
 
+// gnuplot writes up to 2000 points as one tag; libstdc++'s std::regex takes stack for each character of a
+// match.
+BOOST_AUTO_TEST_CASE(a_curve_of_many_points_is_one_long_tag) {
+  for (const int points : {2, 5000, 500'000}) {
+    std::string path = "<path stroke='black' d='M";
+    for (int i = 0; i < points; ++i) path += std::to_string(i) + ".25," + std::to_string(i % 480) + ".5 L";
+    path += "'/>";
+    const std::string drawn = "<svg><g id=\"gnuplot_plot_1\" ><title>Gnuplot</title>\n" + path +
+                              "</g>\n<g fill=\"none\">\n</g>\n<circle id='dot'/></svg>";
+    BOOST_TEST(
+        (finished_svg(drawn, named("p")) == "<svg><g >" + path + "</g>\n\n<circle id='p-dot'/></svg>"));
+  }
+}
+
+// Broken pictures are no pictures, but nothing else breaks.
+BOOST_AUTO_TEST_CASE(tags_without_end_are_kept) {
+  for (const char* text : {"", "<", ">", "<svg", "<title>", "<title>a", "<title></title>", "</g>", "<g ></g",
+                           "<g onmousemove=\"showHypertext(evt,'x.1')\">"}) {
+    const std::string expected = std::string(text) == "<title></title>" ? "" : text;
+    BOOST_TEST(finished_svg(text, named("p")) == expected);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(no_address_of_anything_outside_is_in_a_page) {
   const scratch folder("page");
   page report("t");
@@ -159,6 +183,30 @@ BOOST_AUTO_TEST_CASE(no_address_of_anything_outside_is_in_a_page) {
   BOOST_TEST((ids.size() == std::set<std::string>(ids.begin(), ids.end()).size()));
   BOOST_TEST(has(html, "Content-Security-Policy\" content=\"default-src 'none';"));
   BOOST_TEST(!has(html, "src="));
+}
+
+// Without its hash in the policy a browser does not run the script.
+BOOST_AUTO_TEST_CASE(the_policy_allows_the_script_of_the_page_and_no_other) {
+  const scratch folder("policy");
+  const auto html = example().html(folder.path());
+  const auto allowed = matches(html, "script-src ('[^;\"]*);");
+  BOOST_TEST_REQUIRE(allowed.size() == 1U);
+  const std::size_t from = html.find("<script>") + 8;
+  const auto hash_of = [&](const std::string& script) {
+    write_file(folder / "script", script);
+    const std::string command =
+        "cd '" + folder.path().string() +
+        "' && python3 -c \"import base64, hashlib; data = open('script', 'rb').read(); "
+        "print(base64.b64encode(hashlib.sha256(data).digest()).decode(), end='')\" >hash";
+    BOOST_TEST_REQUIRE(std::system(command.c_str()) == 0);
+    return "'sha256-" + contents(folder / "hash") + "'";
+  };
+  const std::string script = html.substr(from, html.find("</script>") - from);
+  BOOST_TEST(*allowed.begin() == hash_of(script));
+  BOOST_TEST(*allowed.begin() != hash_of(script + " "));
+  for (const char* rule : {"default-src 'none';", "base-uri 'none'", "form-action 'none'"}) {
+    BOOST_TEST(has(html, rule), "missing: " << rule);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_missing_picture_is_a_sentence) {

@@ -22,8 +22,8 @@ const std::string unit = "evaluations";
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 /// A method of an order: error = scale * (cost/100)^-order at costs 50, 100, ..., with relative error bars.
-std::vector<rival> method(const std::string& name, double scale, double order, double bar = 0.02) {
-  std::vector<rival> result;
+std::vector<ranked_method> method(const std::string& name, double scale, double order, double bar = 0.02) {
+  std::vector<ranked_method> result;
   for (const double cost : {50.0, 100.0, 200.0, 400.0}) {
     const double error = scale * std::pow(cost / 100.0, -order);
     result.push_back(
@@ -32,15 +32,15 @@ std::vector<rival> method(const std::string& name, double scale, double order, d
   return result;
 }
 
-std::vector<rival> together(std::initializer_list<std::vector<rival>> all) {
-  std::vector<rival> result;
+std::vector<ranked_method> together(std::initializer_list<std::vector<ranked_method>> all) {
+  std::vector<ranked_method> result;
   for (const auto& one : all) result.insert(result.end(), one.begin(), one.end());
   return result;
 }
 
 std::vector<std::string> names(const best_at_cost& one) {
   std::vector<std::string> result;
-  for (const rival& best : one.best) result.push_back(best.method);
+  for (const ranked_method& best : one.best) result.push_back(best.method);
   std::ranges::sort(result);
   return result;
 }
@@ -85,6 +85,53 @@ BOOST_AUTO_TEST_CASE(curves_that_cross_have_a_winner_on_either_side) {
   }
 }
 
+// The same methods lead, but at other costs.
+BOOST_AUTO_TEST_CASE(who_leads_in_seconds_is_said_where_the_order_differs) {
+  const auto both = [](double cost_of_a, double cost_of_b, double unit_of_cost) {
+    std::vector<ranked_method> all;
+    for (const double cost : {10.0, 20.0, 40.0, 80.0}) {
+      all.push_back({"a", 0.1, cost * unit_of_cost, std::pow(cost, -2.0) / cost_of_a, 1e-9});
+      all.push_back({"b", 0.1, cost * unit_of_cost, std::pow(cost, -4.0) * cost_of_b, 1e-9});
+    }
+    return best_at_costs(all, 1.01);
+  };
+  const auto a_first = both(1.0, 900.0, 1.0);  // b = 900 cost^-4 is less than a = cost^-2 from 30 on
+  std::vector<ranked_method> reversed;
+  for (const double cost : {10.0, 20.0, 40.0, 80.0}) {
+    reversed.push_back({"b", 0.1, cost * 1e-9, std::pow(cost, -2.0), 1e-9});
+    reversed.push_back({"a", 0.1, cost * 1e-9, 900.0 * std::pow(cost, -4.0), 1e-9});
+  }
+  const std::string by_evaluations =
+      "Who is best depends on the cost: `a` from 10 to 20, `b` from 40 to 80 force evaluations per unit "
+      "time.";
+  BOOST_TEST(verdict_of_both(a_first, best_at_costs(reversed, 1.05)) ==
+             by_evaluations +
+                 " In seconds: who is best depends on the cost: `b` from 10 to 20, `a` from 40 to 80 ns per "
+                 "unit time.");
+  // The same order at other costs is the same verdict.
+  BOOST_TEST(verdict_of_both(a_first, both(1.0, 300.0, 1e-9)) == by_evaluations);
+}
+
+BOOST_AUTO_TEST_CASE(a_start_up_is_one_evaluation_and_no_more) {
+  using costs = std::vector<double>;
+  // Runs of 10 steps over the time 10: the first takes one evaluation more; the third is of another kind.
+  BOOST_TEST(without_start_up({4.1, 4.0, 7.0}, 1.01, 0.1) == (costs{4.1, 4.1, 7.0}),
+             boost::test_tools::per_element());
+  BOOST_TEST(without_start_up({4.0, 4.3}, 1.01, 0.1) == (costs{4.0, 4.3}), boost::test_tools::per_element());
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(1.0, 3.0);
+  for (int draw = 0; draw < 100; ++draw) {
+    costs given(6);
+    for (double& cost : given) cost = any(random);
+    const costs found = without_start_up(given, 1.01, 0.1);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      BOOST_TEST(found[i] >= given[i]);
+      BOOST_TEST(found[i] <= 1.01 * given[i] + 0.1);
+      BOOST_TEST((std::ranges::count(given, found[i]) == 1));  // a cost that a row has
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_error_bars_do_not_separate_is_named_together) {
   // The logarithm of 1.1 is .095: more than two standard errors of .02 sqrt(2) each, less than of .05
   // sqrt(2).
@@ -115,7 +162,7 @@ BOOST_AUTO_TEST_CASE(two_that_are_equal_and_better_than_the_rest_are_the_best) {
 
 // The sentence is of all costs, also of those that a small table leaves out.
 BOOST_AUTO_TEST_CASE(a_winner_at_one_cost_between_others_is_not_overlooked) {
-  std::vector<rival> all;
+  std::vector<ranked_method> all;
   for (int i = 1; i <= 9; ++i) {
     const double error = 1.0 / i;
     all.push_back({"a", 0.1, 10.0 * i, error, 0.01 * error});
@@ -125,7 +172,7 @@ BOOST_AUTO_TEST_CASE(a_winner_at_one_cost_between_others_is_not_overlooked) {
   const std::string text = verdict_of(best_at_costs(all, 1.01), unit);
   BOOST_TEST(text ==
              "Who is best depends on the cost: `a` from 10 to 40, `b` at 50, `a` from 60 to 90 evaluations.");
-  std::vector<rival> changing;
+  std::vector<ranked_method> changing;
   for (int i = 1; i <= 9; ++i) {
     for (const bool of_a : {true, false}) {
       const double error = (of_a == (i % 2 == 0) ? 1.0 : 0.5) * std::pow(0.1, i);
@@ -144,7 +191,7 @@ double share_called_better(double bar_of, bool in_groups) {
   std::normal_distribution<double> normal(1.0, 0.2);
   int called = 0;
   for (int draw = 0; draw < draws; ++draw) {
-    std::vector<rival> both;
+    std::vector<ranked_method> both;
     const double shared = normal(random);  // what makes all trajectories of both err more
     for (const char* name : {"a", "b"}) {
       std::vector<double> errors(groups);
@@ -171,8 +218,8 @@ BOOST_AUTO_TEST_CASE(chance_makes_one_of_two_equal_methods_better_as_seldom_as_t
 }
 
 BOOST_AUTO_TEST_CASE(what_trajectories_share_does_not_hide_a_difference) {
-  rival a{.method = "a", .step = 0.1, .cost = 1.0, .error = 1.0, .standard_error = 0.2};
-  rival b{.method = "b", .step = 0.1, .cost = 1.0, .error = 1.1, .standard_error = 0.22};
+  ranked_method a{.method = "a", .step = 0.1, .cost = 1.0, .error = 1.0, .standard_error = 0.2};
+  ranked_method b{.method = "b", .step = 0.1, .cost = 1.0, .error = 1.1, .standard_error = 0.22};
   BOOST_TEST(!errs_more(b, a));
   for (int i = 0; i < 20; ++i) {
     a.groups.push_back(1.0 + 0.9 * std::sin(i));
@@ -233,8 +280,8 @@ BOOST_AUTO_TEST_CASE(errors_without_bars_are_said_to_have_none) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_zero_are_compared_too) {
-  const rival exact{.method = "a", .step = 0.1, .cost = 1.0, .error = 0.0, .standard_error = 0.0};
-  rival other{.method = "b", .step = 0.1, .cost = 1.0, .error = 1e-3, .standard_error = 1e-4};
+  const ranked_method exact{.method = "a", .step = 0.1, .cost = 1.0, .error = 0.0, .standard_error = 0.0};
+  ranked_method other{.method = "b", .step = 0.1, .cost = 1.0, .error = 1e-3, .standard_error = 1e-4};
   BOOST_TEST(errs_more(other, exact));
   BOOST_TEST(!errs_more(exact, exact));
   other.standard_error = 1e-3;
@@ -243,7 +290,7 @@ BOOST_AUTO_TEST_CASE(errors_of_zero_are_compared_too) {
 
 BOOST_AUTO_TEST_CASE(costs_are_those_of_the_data) {
   // At 10 only one method can be afforded: that says nothing of the other.
-  std::vector<rival> all{{"cheap", 0.1, 10.0, 1.0, 0.01}};
+  std::vector<ranked_method> all{{"cheap", 0.1, 10.0, 1.0, 0.01}};
   for (int i = 1; i <= 10; ++i) {
     all.push_back({"cheap", 0.1 / i, 20.0 * i, 1.0 / i, 0.01});
     all.push_back({"good", 0.1 / i, 20.1 * i, 0.5 / i, 0.001});
@@ -265,9 +312,9 @@ BOOST_AUTO_TEST_CASE(costs_are_those_of_the_data) {
 
 BOOST_AUTO_TEST_CASE(a_method_is_taken_at_the_step_where_it_errs_least) {
   // Of the smallest step rounding errs more.
-  const std::vector<rival> all{{"a", 0.1, 10.0, 1.0, 0.01},    {"a", 0.05, 20.0, 0.1, 0.001},
-                               {"a", 0.025, 40.0, 0.5, 0.005}, {"b", 0.1, 10.0, 2.0, 0.01},
-                               {"b", 0.05, 20.0, 0.3, 0.001},  {"b", 0.025, 40.0, 0.2, 0.001}};
+  const std::vector<ranked_method> all{{"a", 0.1, 10.0, 1.0, 0.01},    {"a", 0.05, 20.0, 0.1, 0.001},
+                                       {"a", 0.025, 40.0, 0.5, 0.005}, {"b", 0.1, 10.0, 2.0, 0.01},
+                                       {"b", 0.05, 20.0, 0.3, 0.001},  {"b", 0.025, 40.0, 0.2, 0.001}};
   const auto found = best_at_costs(all, 1.01);
   BOOST_TEST(found.back().best.front().method == "a");
   BOOST_TEST(found.back().best.front().step == 0.05);
@@ -277,7 +324,7 @@ BOOST_AUTO_TEST_CASE(the_unit_of_errors_and_costs_decides_nothing) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-3.0, 3.0);
   for (int draw = 0; draw < 100; ++draw) {
-    std::vector<rival> all;
+    std::vector<ranked_method> all;
     for (const char* name : {"a", "b", "c"}) {
       const auto more = method(name, std::exp(any(random)), 3.0 + any(random), 0.3);
       all.insert(all.end(), more.begin(), more.end());
