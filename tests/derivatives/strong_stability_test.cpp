@@ -90,6 +90,14 @@ BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
                                             {"even number of rows", "got 3 rows"}));
 }
 
+// A step so small that no mode turns leaves a matrix without rows.
+BOOST_AUTO_TEST_CASE(a_step_without_modes_has_no_eigenvalues) {
+  const auto spectrum = spectrum_of(Eigen::MatrixXd(0, 0));
+  BOOST_TEST(spectrum.growth == 0.0);
+  BOOST_TEST(spectrum.krein_distance == std::numbers::pi);
+  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).krein_distance < std::numbers::pi);
+}
+
 BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
   constexpr std::int64_t steps = 4096;
   int large = 0;

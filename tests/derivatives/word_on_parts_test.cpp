@@ -154,6 +154,18 @@ BOOST_AUTO_TEST_CASE(the_guard_refuses_a_tongue_and_what_grows_beside_it_and_adm
   BOOST_TEST(objection_at(-8.0).empty(), objection_at(-8.0));
 }
 
+// All modes turn by less than a hundredth of a radian and are left out: M has no rows.
+BOOST_AUTO_TEST_CASE(the_guard_admits_a_step_in_which_no_mode_turns) {
+  const auto system = pair_coupled_by(0.5);
+  const run_time_word word(respa::word{}, system);
+  const stability_guard guard(system, of_two, word, steps);
+  for (const double h : {1e-4, 1e-8, 0.0}) {
+    BOOST_TEST(guard.parts()->step(coefficients_of_respa(), h, guard.parts()->states()).rows() == 0);
+    BOOST_TEST(guard.objection(word, coefficients_of_respa(), h).empty());
+  }
+  BOOST_TEST(!guard.objection(word, coefficients_of_respa(), step_at(0.5, 0.0)).empty());
+}
+
 // Angles that differ by a whole turn meet too, but with like signatures.
 BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
   const auto system = pair_coupled_by(0.5);

@@ -23,7 +23,8 @@ struct symplectic_spectrum {
   double second = 0.0;  ///< phase of the other
 };
 
-/// The spectrum of a symplectic matrix. Infinite growth of one that is not finite. Throws
+/// The spectrum of a symplectic matrix. Infinite growth of one that is not finite; of no rows that of no
+/// eigenvalues, a growth of 0 and a distance of pi. Throws
 /// std::invalid_argument unless it is square with an even number of rows. Cost: its eigenvectors.
 symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step);
 

@@ -55,6 +55,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
                  step.rows(), step.cols()));
   }
   symplectic_spectrum result;
+  if (step.rows() == 0) return result;
   if (!step.allFinite()) {
     result.growth = std::numeric_limits<double>::infinity();
     result.krein_distance = 0.0;
