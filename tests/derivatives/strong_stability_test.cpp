@@ -82,6 +82,11 @@ BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
   const auto spectrum = spectrum_of(stretched);
   BOOST_TEST(std::abs(spectrum.growth - std::log(2.0)) <= 4.0 * eps);
   BOOST_TEST(spectrum.krein_distance == 0.0);
+  BOOST_TEST(!spectrum.is_on_circle());
+  const auto turned = spectrum_of(-stretched);  // the phase is that of the multiplier
+  BOOST_TEST(std::abs(std::abs(turned.first) - std::numbers::pi) <= 4.0 * eps);
+  BOOST_TEST(turned.second == turned.first);
+  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
   Eigen::Matrix2d shear;  // both eigenvalues 1, with one vector
   shear << 1.0, 1.0, 0.0, 1.0;
   BOOST_TEST(spectrum_of(shear).krein_distance <= 1e-6);
