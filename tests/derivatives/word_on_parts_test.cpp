@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
   // Nearer than a guard that ignores signatures would admit.
   constexpr double met = 1e-5;
   static_assert(met < 2.0 / steps && met < word_on_parts::least_turn);
-  // h (omega_1 - omega_2) = 2 pi at 1.396, moved by less than 5 % by the phases of Verlet.
+  // h (omega_1 - omega_2) = 2 pi at 1.396, moved by less than 6 % by the phases of Verlet.
   const double difference = step_where_cosines_meet(parts, 1.30, 1.42);
   BOOST_TEST(closest_phases(at(difference)) <= met);
   BOOST_TEST(spectrum_of(at(difference)).is_on_circle());
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
   constexpr std::int64_t few = 10;
   const auto c = coefficients_of_respa();
   int slower = 0;
-  for (const double slow : {0.1, 0.3, 0.8}) {
+  for (const double slow : {0.1, 0.3, 0.7}) {
     for (const double other : {0.12, 0.5, 10.0}) {
       const Eigen::Vector2d squares(slow * slow, other * other);
       const two_springs system(springs<2>{squares.asDiagonal()},
