@@ -67,7 +67,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
   double of_farthest = 0.0;
   for (const complex& value : values) {
     const double growth = std::abs(std::log(std::abs(value)));
-    if (growth <= result.growth) continue;
+    if (!(growth > result.growth)) continue;
     result.growth = growth;
     of_farthest = std::arg(value);
   }
