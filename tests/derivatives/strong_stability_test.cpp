@@ -82,12 +82,25 @@ BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
   const auto spectrum = spectrum_of(stretched);
   BOOST_TEST(std::abs(spectrum.growth - std::log(2.0)) <= 4.0 * eps);
   BOOST_TEST(spectrum.krein_distance == 0.0);
+  BOOST_TEST(!spectrum.is_on_circle());
+  const auto turned = spectrum_of(-stretched);  // the phase is that of the multiplier
+  BOOST_TEST(std::abs(std::abs(turned.first) - std::numbers::pi) <= 4.0 * eps);
+  BOOST_TEST(turned.second == turned.first);
+  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
   Eigen::Matrix2d shear;  // both eigenvalues 1, with one vector
   shear << 1.0, 1.0, 0.0, 1.0;
   BOOST_TEST(spectrum_of(shear).krein_distance <= 1e-6);
   BOOST_TEST(!(spectrum_of(turned_by(1.0, 2.0)).krein_distance <= 1e-6));
   BOOST_TEST(refuses<std::invalid_argument>([] { spectrum_of(Eigen::MatrixXd::Identity(3, 3)); },
                                             {"even number of rows", "got 3 rows"}));
+}
+
+// A step so small that no mode turns leaves a matrix without rows.
+BOOST_AUTO_TEST_CASE(a_step_without_modes_has_no_eigenvalues) {
+  const auto spectrum = spectrum_of(Eigen::MatrixXd(0, 0));
+  BOOST_TEST(spectrum.growth == 0.0);
+  BOOST_TEST(spectrum.krein_distance == std::numbers::pi);
+  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).krein_distance < std::numbers::pi);
 }
 
 BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {

@@ -5,10 +5,14 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <stdexcept>
 
 #include "../support/dense.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/derivatives/strong_stability.hpp"
@@ -154,22 +158,114 @@ BOOST_AUTO_TEST_CASE(the_guard_refuses_a_tongue_and_what_grows_beside_it_and_adm
   BOOST_TEST(objection_at(-8.0).empty(), objection_at(-8.0));
 }
 
-// Angles that differ by a whole turn meet too, but with like signatures.
-BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
+// All modes turn by less than a hundredth of a radian and are left out: M has no rows.
+BOOST_AUTO_TEST_CASE(the_guard_admits_a_step_in_which_no_mode_turns) {
   const auto system = pair_coupled_by(0.5);
-  double low = 1.4;
-  double high = 1.7;
+  const run_time_word word(respa::word{}, system);
+  const stability_guard guard(system, of_two, word, steps);
+  for (const double h : {1e-4, 1e-8, 0.0}) {
+    BOOST_TEST(guard.parts()->step(coefficients_of_respa(), h, guard.parts()->states()).rows() == 0);
+    BOOST_TEST(guard.objection(word, coefficients_of_respa(), h).empty());
+  }
+  BOOST_TEST(!guard.objection(word, coefficients_of_respa(), step_at(0.5, 0.0)).empty());
+}
+
+namespace {
+/// Two frequencies whose sum and difference are whole turns at steps where neither is half a turn alone.
+two_springs pair_of_other_ratio(double coupling) {
+  const Eigen::Vector2d squares(10.0 * 10.0, 5.5 * 5.5);
+  return two_springs(springs<2>{squares.asDiagonal()},
+                     springs<2>{coupling * Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}}});
+}
+
+/// The step in a range at which the two modes, each a block of M but for the coupling, turn by angles of the
+/// same cosine.
+double step_where_cosines_meet(const word_on_parts& parts, double low, double high) {
+  const auto apart = [&](double h) {
+    const Eigen::MatrixXd m = parts.step(coefficients_of_respa(), h, parts.states());
+    return m(0, 0) + m(2, 2) - m(1, 1) - m(3, 3);
+  };
+  const bool rises = apart(low) < 0.0;
+  BOOST_REQUIRE(rises != (apart(high) < 0.0));
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    const double apart = turn_of(first_omega, middle).angle - turn_of(second_omega, middle).angle;
-    (apart < 2.0 * std::numbers::pi ? low : high) = middle;
+    ((apart(middle) < 0.0) == rises ? low : high) = middle;
   }
+  return low;
+}
+
+/// The least difference in phase of any two eigenvalues, whatever their signatures.
+double closest_phases(const Eigen::MatrixXd& m) {
+  const Eigen::VectorXcd values = eigenvalues(m);
+  double closest = std::numbers::pi;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j)
+      closest = std::min(closest, std::abs(std::arg(values[i] / values[j])));
+  }
+  return closest;
+}
+}  // namespace
+
+// Angles that differ by a whole turn meet too, but with like signatures: a coupling of any small size parts
+// them along the circle. Where angles sum up to a whole turn the same coupling moves them off it.
+BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
+  const auto system = pair_of_other_ratio(1e-5);
   const run_time_word word(respa::word{}, system);
   const stability_guard guard(system, of_two, word, steps);
   const auto c = coefficients_of_respa();
-  const auto spectrum = spectrum_of(guard.parts()->step(c, low, guard.parts()->states()));
-  BOOST_TEST(spectrum.growth <= 1e-9);
-  BOOST_TEST(guard.objection(word, c, low).empty(), guard.objection(word, c, low));
+  const auto& parts = *guard.parts();
+  const auto at = [&](double h) { return parts.step(c, h, parts.states()); };
+  // Nearer than a guard that ignores signatures would admit.
+  constexpr double met = 1e-5;
+  static_assert(met < 2.0 / steps && met < word_on_parts::least_turn);
+  // h (omega_1 - omega_2) = 2 pi at 1.396, moved by less than 6 % by the phases of Verlet.
+  const double difference = step_where_cosines_meet(parts, 1.30, 1.42);
+  BOOST_TEST(closest_phases(at(difference)) <= met);
+  BOOST_TEST(spectrum_of(at(difference)).is_on_circle());
+  BOOST_TEST(spectrum_of(at(difference)).krein_distance > 0.1);
+  BOOST_TEST(guard.objection(word, c, difference).empty(), guard.objection(word, c, difference));
+  // h (omega_1 + omega_2) = 2 pi at .405: phases as near, of opposite signature.
+  const double sum = step_where_cosines_meet(parts, 0.39, 0.42);
+  BOOST_TEST(closest_phases(at(sum)) <= met);
+  BOOST_TEST(guard.objection(word, c, sum).find("not strongly stable") != std::string::npos,
+             guard.objection(word, c, sum));
+}
+
+// A plan of ten steps: eigenvalues of opposite signature that perturbations may bring together in ten steps
+// may be .2 apart, but so are those of a slow mode and its conjugate, and those of two slow modes.
+BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
+  constexpr std::int64_t few = 10;
+  const auto c = coefficients_of_respa();
+  int slower = 0;
+  for (const double slow : {0.1, 0.3, 0.7}) {
+    for (const double other : {0.12, 0.5, 10.0}) {
+      const Eigen::Vector2d squares(slow * slow, other * other);
+      const two_springs system(springs<2>{squares.asDiagonal()},
+                               springs<2>{0.1 * slow * slow * Eigen::Matrix2d{{1.0, 0.1}, {0.1, 1.0}}});
+      const run_time_word word(respa::word{}, system);
+      const stability_guard guard(system, of_two, word, few);
+      constexpr double h = 0.12;
+      const auto spectrum = spectrum_of(guard.parts()->step(c, h, guard.parts()->states()));
+      slower += spectrum.krein_distance < 2.0 / few ? 1 : 0;
+      BOOST_TEST(guard.objection(word, c, h).empty(), guard.objection(word, c, h));
+    }
+  }
+  BOOST_TEST(slower == 9);
+  // Half a period of the first mode between kicks: a pair at -1. Its growth in ten steps is small.
+  const auto system = pair_of_other_ratio(0.1);
+  const run_time_word word(respa::word{}, system);
+  const stability_guard guard(system, of_two, word, few);
+  int refused = 0;
+  for (int k = 0; k <= 400; ++k) {
+    const double h = 0.30 + 0.02 * k / 400;  // pi/10, less the phase of Verlet
+    const auto spectrum = spectrum_of(guard.parts()->step(c, h, guard.parts()->states()));
+    const std::string objection = guard.objection(word, c, h);
+    if (spectrum.is_on_circle()) continue;
+    ++refused;
+    BOOST_TEST(objection.find("at the phase") != std::string::npos, objection);
+    BOOST_TEST(std::abs(std::abs(spectrum.first) - std::numbers::pi) <= 1e-6);
+  }
+  BOOST_TEST(refused > 0);
 }
 
 // Neither diverges, nor does its energy drift after the first tenth: the trial run compares with early steps.
@@ -217,6 +313,61 @@ BOOST_AUTO_TEST_CASE(the_guard_knows_the_resonances_of_r_respa_before_any_run) {
   }
 }
 
+// Whatever the growth in the mean and over the states is, a refusal of either counts.
+BOOST_AUTO_TEST_CASE(of_two_growths_a_refused_one_is_the_worse) {
+  std::mt19937_64 bits(1);
+  std::uniform_real_distribution<double> power(-3.0, 2.0);
+  int smaller = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const auto drawn = [&] {
+      const double a = std::pow(10.0, power(bits));
+      const double b = std::pow(10.0, power(bits));
+      return growth_of_energy{.early = std::min(a, b), .late = std::max(a, b)};
+    };
+    const auto one = drawn();
+    const auto other = drawn();
+    const auto& worse = one.is_worse_than(other) ? one : other;
+    BOOST_TEST(worse.is_refused() == (one.is_refused() || other.is_refused()));
+    if (one.is_refused() == other.is_refused()) BOOST_TEST(worse.late == std::max(one.late, other.late));
+    smaller += worse.late < std::max(one.late, other.late) ? 1 : 0;
+  }
+  BOOST_TEST(smaller > 20);  // refused, and the smaller
+}
+
+namespace {
+template <int N>
+struct quartic_wells {
+  static constexpr int dimension = N;
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    T sum(0.0);
+    for (int i = 0; i < N; ++i) sum += q[i] * q[i] * q[i] * q[i] * 0.25;
+    return sum;
+  }
+  std::string description() const { return "quartic_wells"; }
+};
+
+/// Eight states of which one is elsewhere, so far that its Hessian, 3 q^2, is not near the mean of all.
+template <int N>
+bool has_mean_of(double elsewhere) {
+  using wells = sum_of_parts<quartic_wells<N>, springs<N>>;
+  const wells system(quartic_wells<N>{}, springs<N>{0.01 * Eigen::Matrix<double, N, N>::Identity()});
+  phase_points states;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::VectorXd q = Eigen::VectorXd::Constant(N, k == 5 ? elsewhere : 1.0);
+    states.push_back(phase_point<double, Eigen::Dynamic>{q, Eigen::VectorXd::Ones(N)});
+  }
+  return word_on_parts(system, states, run_time_word(respa::word{}, system)).has_mean();
+}
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coordinates) {
+  BOOST_TEST(has_mean_of<2>(1.1));
+  BOOST_TEST(!has_mean_of<2>(10.0));
+  BOOST_TEST(has_mean_of<44>(1.1));
+  BOOST_TEST(!has_mean_of<44>(10.0));
+}
+
 namespace {
 /// A letter that is neither a drift nor a kick: half a turn of q_0 and p_0.
 struct turn : exact_flow<'t'> {
@@ -239,6 +390,12 @@ BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   BOOST_TEST(guard.description().find("was not analysed, as the letter t is neither") != std::string::npos,
              guard.description());
   BOOST_TEST(guard.objection(word, {0.5, 1.0, 0.5}, 0.1).empty());
+  // A word with kicks of parts is examined by the guard that was made for it.
+  const run_time_word examined(respa::word{}, system);
+  const stability_guard of_respa(system, of_two, examined, steps);
+  BOOST_TEST(refuses<std::invalid_argument>([&] { (void)of_respa.objection(word, {0.5, 1.0, 0.5}, 0.1); },
+                                            {"for which the guard was made", "make a guard for this word"}));
+  BOOST_TEST(of_respa.objection(examined, coefficients_of_respa(), 0.1).empty());
   // An ordinary word is examined as ever.
   const run_time_word ordinary("BAB");
   const stability_guard of_bands(system, of_two, ordinary, steps);

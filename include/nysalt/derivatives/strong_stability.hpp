@@ -16,14 +16,23 @@ namespace nysalt {
 /// XIII].
 struct symplectic_spectrum {
   double growth = 0.0;  ///< logarithm of the spectral radius
+  /// Rounding splits a double eigenvalue that has one vector by the square root of its own size: what grows by
+  /// less counts as on the circle.
+  static constexpr double rounding = 1e-6;
   /// Smallest difference in phase, in radian, of two eigenvalues of opposite signature; 0 where two coincide,
   /// or where one is off the circle.
   double krein_distance = std::numbers::pi;
-  double first = 0.0;   ///< phase of the one of positive signature, in (-pi, pi]
+  /// Phase of the one of positive signature, in (-pi, pi]; where one is off the circle, of that which is
+  /// farthest off.
+  double first = 0.0;
   double second = 0.0;  ///< phase of the other
+
+  /// Whether no eigenvalue is off the circle.
+  bool is_on_circle() const { return growth <= rounding; }
 };
 
-/// The spectrum of a symplectic matrix. Infinite growth of one that is not finite. Throws
+/// The spectrum of a symplectic matrix. Infinite growth of one that is not finite; of no rows that of no
+/// eigenvalues, a growth of 0 and a distance of pi. Throws
 /// std::invalid_argument unless it is square with an even number of rows. Cost: its eigenvectors.
 symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step);
 

@@ -23,7 +23,8 @@ struct growth_of_energy {
   /// Largest (|M^n|^2 - 1) of up to early_steps steps: the energy error of oscillations, relative to their
   /// energy.
   double early = 0.0;
-  double late = 0.0;  ///< the same of all steps
+  double late = 0.0;      ///< the same of all steps
+  std::size_t state = 0;  ///< number of the state where late is largest
 
   static constexpr std::int64_t early_steps = 64;  ///< some periods of fast motion, one of slow
   /// Of the energy: what is less is not seen in what runs measure.
@@ -35,6 +36,11 @@ struct growth_of_energy {
 
   /// Whether late is too much, or has grown since early.
   bool is_refused() const { return late > too_much || (late > smallest && late > factor * early); }
+
+  /// Whether this is refused and the other is not, or, if both are or neither is, is the larger.
+  bool is_worse_than(const growth_of_energy& other) const {
+    return is_refused() != other.is_refused() ? is_refused() : late > other.late;
+  }
 };
 
 /// A word of drifts and kicks, each kick with a force of its own, on the linearised motion about some states.
@@ -45,12 +51,17 @@ struct growth_of_energy {
 /// two kinds: q += c h K''p', or p -= c h V_i''q; words with others are not known.
 class word_on_parts {
  public:
-  /// Of at most most_for_all_frequencies degrees of freedom, along some of the states, evenly spread, as many
-  /// as take some milliseconds together. Cost: a Jacobian of each letter at each of these states.
+  /// Modes that turn by less in a step, in radian, are too slow to meet a fast one, and are left out of M.
+  static constexpr double least_turn = 0.01;
+
+  /// Of at most most_for_all_frequencies degrees of freedom. The mean is that of up to 8 of the states, evenly
+  /// spread; M is examined at as many of them as take some milliseconds together, and at half as many if
+  /// has_mean(). Cost: a Jacobian of each letter at each of these states.
   word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
 
   bool is_known() const { return why_not_.empty(); }       ///< M can be computed
   const std::string& why_not() const { return why_not_; }  ///< M cannot be computed; else empty
+  const std::string& word() const { return word_; }        ///< its letters
   std::size_t states() const { return at_.size(); }        ///< number of states that are examined
   /// Whether Hessians are near enough to their mean for that to be one of a motion: they differ from it by
   /// less than half of its largest eigenvalue.
@@ -60,8 +71,8 @@ class word_on_parts {
   /// coefficient for each slot.
   Eigen::MatrixXd step(const std::vector<double>& coefficients, double step, std::size_t state) const;
 
-  /// Growth in the mean, if has_mean(), else the mean over states of the growth at each. Cost: some
-  /// log2(steps) products of matrices for each state.
+  /// Growth in the mean, if has_mean() and that is refused; else that or the mean over states of the growth at
+  /// each, of the two the worse. Cost: some log2(steps) products of matrices for each state.
   growth_of_energy growth(const std::vector<double>& coefficients, double step, std::int64_t steps) const;
 
   /// How far a step moves the position of rest, in the norm of the energy, relative to the motion along the
@@ -90,6 +101,7 @@ class word_on_parts {
   void apply(const linearised& at, const std::vector<double>& coefficients, double step,
              Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const;
 
+  std::string word_;
   std::vector<letter> letters_;
   std::size_t slots_ = 0;
   std::vector<linearised> at_;

@@ -61,7 +61,8 @@ class stability_guard {
 
   /// One sentence, or nothing if the word may be used. Cost: some 5 us for 9 evaluations; with rotations some
   /// 20 us a mode, and 1 us a pair of modes and state.
-  /// Throws std::invalid_argument unless there is a coefficient for each slot.
+  /// Throws std::invalid_argument unless there is a coefficient for each slot, and of a word with kicks of
+  /// parts if the guard was made for another such word.
   std::string objection(const run_time_word& word, const std::vector<double>& coefficients, double step,
                         met which = met::ever) const;
 

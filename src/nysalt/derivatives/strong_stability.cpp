@@ -55,6 +55,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
                  step.rows(), step.cols()));
   }
   symplectic_spectrum result;
+  if (step.rows() == 0) return result;
   if (!step.allFinite()) {
     result.growth = std::numeric_limits<double>::infinity();
     result.krein_distance = 0.0;
@@ -63,15 +64,20 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(step);
   const Eigen::VectorXcd values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  double of_farthest = 0.0;
   for (const complex& value : values) {
-    result.growth = std::max(result.growth, std::abs(std::log(std::abs(value))));
+    const double growth = std::abs(std::log(std::abs(value)));
+    if (!(growth > result.growth)) continue;
+    result.growth = growth;
+    of_farthest = std::arg(value);
   }
-  // Rounding splits a double eigenvalue that has one vector by the square root of its own size.
-  constexpr double same = 1e-6;
-  if (result.growth > same) {
+  if (!result.is_on_circle()) {
     result.krein_distance = 0.0;
+    result.first = of_farthest;
+    result.second = of_farthest;
     return result;
   }
+  constexpr double same = symplectic_spectrum::rounding;
   std::vector<signed_phase> all;
   std::vector<bool> is_done(static_cast<std::size_t>(values.size()), false);
   for (Eigen::Index i = 0; i < values.size(); ++i) {

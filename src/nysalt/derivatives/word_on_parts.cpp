@@ -66,11 +66,11 @@ bool is_identity(const Eigen::MatrixXd& a) {
   return is_near(a, Eigen::MatrixXd::Identity(a.rows(), a.cols()));
 }
 
-/// Products of matrices of all states that take some milliseconds together.
+/// Number of states whose products of matrices take some milliseconds together.
 std::size_t most_states(Eigen::Index n) {
   constexpr double operations = 1e6;
   const auto size = static_cast<double>(2 * n);
-  return static_cast<std::size_t>(std::clamp(operations / (size * size * size), 1.0, 8.0));
+  return static_cast<std::size_t>(std::max(operations / (size * size * size), 1.0));
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ bool is_of_oscillators(const run_time_word& word) {
 }
 
 word_on_parts::word_on_parts(const model& system, const phase_points& states, const run_time_word& word)
-    : slots_(word.slots) {
+    : word_(word.letters()), slots_(word.slots) {
   if (states.size() == 0) {
     why_not_ = "there are no states";
   } else if (word.is_processed()) {
@@ -121,7 +121,8 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
   }
 
   const std::size_t count = states.size();
-  const std::size_t some = std::min(count, most_states(n));
+  constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
+  const std::size_t some = std::min(count, enough);
   force_jacobian<field::whole, model> jacobian(system, states);
   std::vector<std::vector<Eigen::MatrixXd>> parts_of_state;
   std::vector<Eigen::MatrixXd> whole_of_state;
@@ -175,7 +176,6 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
     momenta += velocity.squaredNorm();
     parts_of_state.push_back(std::move(parts));
     forces_of_state.push_back(std::move(forces));
-    at_.push_back(diagonal(whole_of_state.back(), parts_of_state.back(), {}, {}));
   }
   for (auto& one : letters_) {
     if (!one.acts) continue;
@@ -208,6 +208,12 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
   mean_ = diagonal(whole, parts, forces, mean_of(force_of_state));
   has_mean_ = farthest < 0.5 * mean_.squares[n - 1];
   amplitude_ = std::sqrt(2.0 * momenta / static_cast<double>(some));
+  const std::size_t half = (some + 1) / 2;  // near the mean fewer are enough
+  const std::size_t examined = std::min(has_mean_ ? half : some, most_states(n));
+  for (std::size_t k = 0; k < examined; ++k) {
+    const std::size_t state = k * some / examined;
+    at_.push_back(diagonal(whole_of_state[state], parts_of_state[state], {}, {}));
+  }
 }
 
 word_on_parts::linearised word_on_parts::diagonal(const Eigen::MatrixXd& whole,
@@ -253,12 +259,10 @@ void word_on_parts::apply(const linearised& at, const std::vector<double>& coeff
 }
 
 namespace {
-/// Number of modes that turn by a hundredth of a radian in a step: others are too slow to meet a fast one.
 Eigen::Index modes_that_turn(const Eigen::VectorXd& squares, double step) {
-  constexpr double least = 0.01;
   Eigen::Index count = 0;
   for (const double square : squares)
-    count += square > 0.0 && std::abs(step) * std::sqrt(square) > least ? 1 : 0;
+    count += square > 0.0 && std::abs(step) * std::sqrt(square) > word_on_parts::least_turn ? 1 : 0;
   return count;
 }
 }  // namespace
@@ -281,19 +285,35 @@ growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, 
   const auto excess = [](double norm) { return norm * norm - 1.0; };
   const auto at = [&](std::size_t state) {
     const Eigen::MatrixXd m = step(coefficients, by, state);
-    if (m.size() == 0) return growth_of_energy{};
-    return growth_of_energy{excess(largest_power(m, std::min(steps, growth_of_energy::early_steps))),
-                            excess(largest_power(m, steps))};
+    growth_of_energy result{.early = 0.0, .late = 0.0, .state = state};
+    if (m.size() == 0) return result;
+    result.late = excess(largest_power(m, steps));
+    // What is little as a whole has not grown.
+    result.early = result.late <= growth_of_energy::smallest
+                       ? result.late
+                       : excess(largest_power(m, std::min(steps, growth_of_energy::early_steps)));
+    return result;
   };
   growth_of_energy over_states;
-  for (std::size_t k = 0; k < states(); ++k) {
-    const auto one = at(k);
-    over_states.early += one.early / static_cast<double>(states());
-    over_states.late += one.late / static_cast<double>(states());
+  double largest = -1.0;
+  const auto average = [&] {
+    for (std::size_t k = 0; k < states(); ++k) {
+      const auto one = at(k);
+      over_states.early += one.early / static_cast<double>(states());
+      over_states.late += one.late / static_cast<double>(states());
+      if (one.late <= largest) continue;
+      largest = one.late;
+      over_states.state = k;
+    }
+  };
+  if (!has_mean_) {
+    average();
+    return over_states;
   }
-  if (!has_mean_) return over_states;
-  const auto of_mean = at(states());
-  return of_mean.late > over_states.late || of_mean.is_refused() ? of_mean : over_states;
+  const growth_of_energy of_mean = at(states());
+  if (of_mean.is_refused()) return of_mean;
+  average();
+  return over_states.is_worse_than(of_mean) ? over_states : of_mean;
 }
 
 double word_on_parts::displacement(const std::vector<double>& coefficients, double step) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/magnification.hpp"
@@ -12,6 +13,7 @@
 #include "nysalt/derivatives/strong_stability.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 
 namespace nysalt {
@@ -68,34 +70,51 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
-  if (!is_of_oscillators(word)) return parts_ ? grown_on_parts(coefficients, step) : std::string();
+  if (!is_of_oscillators(word)) {
+    if (!parts_) return {};
+    if (word.letters() != parts_->word()) {
+      throw std::invalid_argument(
+          sentence("stability_guard: word must be {}, for which the guard was made, got {}; make a guard for "
+                   "this word",
+                   parts_->word(), word.letters()));
+    }
+    return grown_on_parts(coefficients, step);
+  }
   if (!word.rotates()) return unstable(word, coefficients, step, which);
   const std::string of_one = magnified(word, coefficients, step);
   return of_one.empty() ? resonant(word, coefficients, step) : of_one;
 }
 
+namespace {
+/// What a spectrum shows, as the end of a sentence.
+std::string shown_by(const symplectic_spectrum& spectrum) {
+  if (!std::isfinite(spectrum.growth)) return "a step is not finite";
+  if (!spectrum.is_on_circle()) {
+    return fmt::format("a step multiplies a mode by exp({:.3g}), at the phase {:.4g}", spectrum.growth,
+                       spectrum.first);
+  }
+  return fmt::format(
+      "the nearest eigenvalues of opposite Krein signature, of phases {:.4g} and {:.4g}, are {:.3g} apart",
+      spectrum.first, spectrum.second, spectrum.krein_distance);
+}
+}  // namespace
+
 std::string stability_guard::grown_on_parts(const std::vector<double>& coefficients, double step) const {
-  const std::size_t mean = parts_->states();
-  const auto near = [&](const symplectic_spectrum& spectrum) {
-    return fmt::format("eigenvalues of opposite Krein signature with the phases {:.4g} and {:.4g}",
-                       spectrum.first, spectrum.second);
-  };
   const auto growth = parts_->growth(coefficients, step, steps_);
   if (growth.is_refused()) {
-    const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->has_mean() ? mean : 0));
-    const std::string where = spectrum.growth > 1e-6
-                                  ? fmt::format("a step multiplies a mode by exp({:.3g})", spectrum.growth)
-                                  : near(spectrum) + " are near each other";
     const std::string how_much =
         std::isfinite(growth.late) ? fmt::format("by the factor {:.3g}", 1.0 + growth.late) : "without bound";
-    return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_, where);
+    return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_,
+                       shown_by(spectrum_of(parts_->step(coefficients, step, growth.state))));
   }
   // A perturbation that turns an eigenvalue by less than a radian in all steps may move two off the circle.
+  // Two slow modes, or one and its conjugate, are of opposite signature and on either side of +1, without any
+  // resonance: they are farther apart than one of them turns at least.
   if (parts_->has_mean()) {
-    const auto spectrum = spectrum_of(parts_->step(coefficients, step, mean));
-    if (spectrum.krein_distance < 2.0 / static_cast<double>(steps_)) {
-      return fmt::format("it is not strongly stable: {} meet", near(spectrum));
-    }
+    const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->states()));
+    const double too_near = std::min(2.0 / static_cast<double>(steps_), word_on_parts::least_turn);
+    if (spectrum.krein_distance < too_near)
+      return fmt::format("it is not strongly stable: {}", shown_by(spectrum));
   }
   const double moved = parts_->displacement(coefficients, step);
   if (moved > 1.0) {
