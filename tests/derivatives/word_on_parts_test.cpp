@@ -393,8 +393,11 @@ BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   // A word with kicks of parts is examined by the guard that was made for it.
   const run_time_word examined(respa::word{}, system);
   const stability_guard of_respa(system, of_two, examined, steps);
-  BOOST_TEST(refuses<std::invalid_argument>([&] { (void)of_respa.objection(word, {0.5, 1.0, 0.5}, 0.1); },
-                                            {"for which the guard was made", "make a guard for this word"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] {
+        (void)of_respa.objection(word, {0.5, 1.0, 0.5}, 0.1);
+      },
+      {"for which the guard was made", "make a guard for this word"}));
   BOOST_TEST(of_respa.objection(examined, coefficients_of_respa(), 0.1).empty());
   // An ordinary word is examined as ever.
   const run_time_word ordinary("BAB");

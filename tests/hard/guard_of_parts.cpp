@@ -226,8 +226,8 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
     const double step = spread(k, range.of_learned);
     const auto data = data_at(step, 1);
     const auto held_out = data_at(step, 2);
-    const auto [method, fit] = learn(nested_kicks<0, 1, 4, 2>{}, system, data, held_out,
-                                     {.random_starts = 4, .guarded = false});
+    const auto [method, fit] =
+        learn(nested_kicks<0, 1, 4, 2>{}, system, data, held_out, {.random_starts = 4, .guarded = false});
     const auto all = method.coefficients();
     const run_time_word word(nested_word<0, 1, 4, 2>{}, system);
     try_one(found.of_learned, method.name(), word, {all.begin(), all.end()},
@@ -347,9 +347,9 @@ verdict guard_of_slow_kicks(extent how) {
   all += of_learned;
   result.require(all.missed == 0, "all: " + all.in_words());
   // The guard would be of no use if it refused what it may.
-  result.require(
-      10 * all.refused <= std::max(10, all.fine),
-      fmt::format("{} of {} steps with a small bounded error are refused, a tenth at most", all.refused, all.fine));
+  result.require(10 * all.refused <= std::max(10, all.fine),
+                 fmt::format("{} of {} steps with a small bounded error are refused, a tenth at most",
+                             all.refused, all.fine));
   result.require(all.grows > 0 && all.fine > 0, "there are steps of both kinds");
   for (const auto& one : missed) result.note("missed: " + one);
   constexpr std::size_t some = 12;

@@ -67,10 +67,9 @@ BOOST_AUTO_TEST_CASE(list_tells_what_there_is) {
   const auto all = document("list");
   BOOST_TEST(shape(all) == "systems:list methods:list families:list metrics:list");
   for (const auto& system : all["systems"]) {
-    BOOST_TEST(
-        shape(system) ==
-        "name:text options:text hamiltonian:text starts:text observables:list default_observable:text "
-        "letters:text");
+    BOOST_TEST(shape(system) ==
+               "name:text options:text hamiltonian:text starts:text observables:list default_observable:text "
+               "letters:text");
     BOOST_TEST(system["default_observable"] == (system["name"] == "fpu" ? "stiff_energy" : "energy"));
   }
   for (const auto& method : all["methods"]) {

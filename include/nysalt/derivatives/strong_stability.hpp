@@ -16,8 +16,8 @@ namespace nysalt {
 /// XIII].
 struct symplectic_spectrum {
   double growth = 0.0;  ///< logarithm of the spectral radius
-  /// Rounding splits a double eigenvalue that has one vector by the square root of its own size: what grows by
-  /// less counts as on the circle.
+  /// Rounding splits a double eigenvalue that has one vector by the square root of its own size: what grows
+  /// by less counts as on the circle.
   static constexpr double rounding = 1e-6;
   /// Smallest difference in phase, in radian, of two eigenvalues of opposite signature; 0 where two coincide,
   /// or where one is off the circle.

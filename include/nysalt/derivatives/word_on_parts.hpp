@@ -54,9 +54,9 @@ class word_on_parts {
   /// Modes that turn by less in a step, in radian, are too slow to meet a fast one, and are left out of M.
   static constexpr double least_turn = 0.01;
 
-  /// Of at most most_for_all_frequencies degrees of freedom. The mean is that of up to 8 of the states, evenly
-  /// spread; M is examined at as many of them as take some milliseconds together, and at half as many if
-  /// has_mean(). Cost: a Jacobian of each letter at each of these states.
+  /// Of at most most_for_all_frequencies degrees of freedom. The mean is that of up to 8 of the states,
+  /// evenly spread; M is examined at as many of them as take some milliseconds together, and at half as many
+  /// if has_mean(). Cost: a Jacobian of each letter at each of these states.
   word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
 
   bool is_known() const { return why_not_.empty(); }       ///< M can be computed
@@ -71,8 +71,8 @@ class word_on_parts {
   /// coefficient for each slot.
   Eigen::MatrixXd step(const std::vector<double>& coefficients, double step, std::size_t state) const;
 
-  /// Growth in the mean, if has_mean() and that is refused; else that or the mean over states of the growth at
-  /// each, of the two the worse. Cost: some log2(steps) products of matrices for each state.
+  /// Growth in the mean, if has_mean() and that is refused; else that or the mean over states of the growth
+  /// at each, of the two the worse. Cost: some log2(steps) products of matrices for each state.
   growth_of_energy growth(const std::vector<double>& coefficients, double step, std::int64_t steps) const;
 
   /// How far a step moves the position of rest, in the norm of the energy, relative to the motion along the
