@@ -91,10 +91,13 @@ BOOST_AUTO_TEST_CASE(commands_that_write_into_one_folder_lose_no_entry) {
 // A disk that is full, for the manifest alone.
 BOOST_AUTO_TEST_CASE(a_result_without_its_manifest_is_said_to_be_whole) {
   const scratch folder("manifest_fails");
-  BOOST_TEST_REQUIRE(run(folder, run_it + "--output a.csv").code == 0);
+  for (const char* file : {"a.csv", "c.csv", "d.csv", "e.csv"}) {
+    BOOST_TEST_REQUIRE(run(folder, run_it + "--output " + file).code == 0);
+  }
   const std::string before = contents(folder / "manifest.json");
-  const auto small = (before.size() + std::filesystem::file_size(folder / "a.csv")) / 2 / 512;
-  BOOST_TEST_REQUIRE(small * 512 > std::filesystem::file_size(folder / "a.csv"));
+  // As many blocks as the result takes, of 512 or 1024 bytes, as the shell has it; the manifest takes more.
+  const auto small = std::filesystem::file_size(folder / "a.csv") / 512 + 1;
+  BOOST_TEST_REQUIRE(small * 1024 < before.size());
   const finished done =
       shell(folder, "ulimit -f " + std::to_string(small) + "; LLVM_PROFILE_FILE=/dev/null \"$nysalt\" " +
                         run_it + "--output b.csv");
@@ -102,7 +105,7 @@ BOOST_AUTO_TEST_CASE(a_result_without_its_manifest_is_said_to_be_whole) {
   BOOST_TEST(has(done.err, "b.csv is whole, but not the manifest"), done.err);
   BOOST_TEST(contents(folder / "manifest.json") == before);
   BOOST_TEST(contents(folder / "a.csv") == contents(folder / "b.csv"));
-  BOOST_TEST((folder.files() == names{"a.csv", "b.csv", "manifest.json"}));
+  BOOST_TEST((folder.files() == names{"a.csv", "b.csv", "c.csv", "d.csv", "e.csv", "manifest.json"}));
 }
 
 BOOST_AUTO_TEST_CASE(data_hold_nothing_of_machine_or_hour) {
@@ -249,18 +252,17 @@ BOOST_AUTO_TEST_CASE(a_comparison_fills_a_folder) {
   const std::string markdown = contents(folder / "new/folder/report.md");
   std::size_t at = 0;
   for (const char* next :
-       {"\nNothing beats `bcss2` from ", "| evaluations/time, at most |", "\n## ",
+       {"\nOnly `bcss2` is ranked", "| evaluations/time, at most |", "\n## ",
         "](pictures/path_stiff_energy_against_evaluations.svg)",
         "](pictures/path_stiff_energy_against_seconds.svg)", "\n## All rows\n", "| standard error |"}) {
     at = markdown.find(next, at);
     BOOST_TEST_REQUIRE(at != std::string::npos, "missing, or too early: " << next);
   }
   const auto& ranking = report["rankings"][0];
-  BOOST_TEST(ranking["verdict"].get<std::string>().starts_with("Nothing beats bcss2 from "));
-  BOOST_TEST(ranking["best_at_costs"].size() == 2U);
+  BOOST_TEST(ranking["verdict"].get<std::string>().starts_with("Only bcss2 is ranked"));
+  BOOST_TEST(ranking["best_at_costs"].size() >= 2U);  // a row of each step
   BOOST_TEST(ranking["best_at_costs"][0]["best"][0]["method"] == "bcss2");
-  BOOST_TEST(ranking["best_at_costs"][0]["next"]["method"] == "verlet");
-  BOOST_TEST(ranking["best_at_costs"][0]["ratio"] > 1.0);
+  BOOST_TEST(ranking["best_at_costs"][0]["next"].is_null());  // Verlet is no better than the null model here
   // The page needs nothing else, and weighs less than 2 MB.
   const std::string page = contents(folder / "new/folder/report.html");
   BOOST_TEST(has(page, "<svg"));
