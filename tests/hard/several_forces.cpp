@@ -170,7 +170,7 @@ topic several_forces() {
         "What the guard that learn() has says beforehand of words with kicks of parts, and what 100 000 "
         "steps of them do: chains and coupled oscillators of several sizes and stiffnesses, r-RESPA and "
         "learned words. An error grows if the largest of the second half is more than 1.4 times that of "
-        "the first, or a trajectory diverges; a bounded one is small below a tenth of the kinetic energy.",
+        "the first, or a trajectory diverges; a bounded one is small below the kinetic energy.",
         "The guard refuses all whose error grows, and of the others a tenth at most.",
         "Words whose error grows, which are among those that are tried.", guard_of_slow_kicks}}};
 }
