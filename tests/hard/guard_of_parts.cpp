@@ -89,10 +89,9 @@ outcome what_came_of(const model& system, const tabulated& method, double step, 
   const auto half = trial_run(system, method, step, starts, {.steps = long_steps / 2});
   constexpr double trend = 1.4;  // a drift doubles the largest error, a random walk multiplies it by sqrt(2)
   constexpr double seen = 0.01;  // a hundredth of a temperature
-  constexpr double large = 0.1;
   if (all.deviation > trend * half.deviation && all.deviation > seen * all.kinetic_energy)
     return outcome::grows;
-  return all.deviation > large * all.kinetic_energy ? outcome::large : outcome::fine;
+  return all.deviation > all.kinetic_energy ? outcome::large : outcome::fine;
 }
 
 /// The guard that learn() would have, which plans for 20,000 steps unless it is asked for another number.
@@ -110,7 +109,7 @@ struct counts {
   int missed = 0;  // grows, and is admitted
   int fine = 0;
   int refused = 0;  // fine, and is refused
-  int large = 0;    // errs by more than a tenth of the kinetic energy, and no more in the second half
+  int large = 0;    // errs by more than the kinetic energy, and no more in the second half
   int large_refused = 0;
 
   void add(outcome what, bool is_refused) {
