@@ -211,7 +211,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_told) {
   must_be_told(folder, std::string(5000, 'a'), "there is no such file");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{\"options\": \"run.system=earth\"}' > earth.manifest.json").code ==
                      0);
-  must_be_told(folder, "earth.manifest.json", "earth.manifest.json: unknown system 'earth'");
+  must_be_told(folder, "earth.manifest.json", "earth.manifest.json, earth: unknown system 'earth'");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.json").code == 0);
   must_be_told(folder, "odd.json", "neither a scheme nor a table");
 }
