@@ -88,7 +88,7 @@ struct charges_case {
   using system = lettered::charges;
   using word = nested;
   static constexpr const char* times = "01A0A0A01";
-  static constexpr const char* guard = "linearised motion of kA0A0A0Ak along ";
+  static constexpr const char* guard = "linearised motion of k";
   static constexpr double step = 0.05;
   static const std::string& source() { return charges; }
 };
@@ -322,27 +322,6 @@ BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
   refused(folder, "build mine.hpp", {"mine.hpp: letters must have different names, got 't' twice"});
 }
 
-// Slow kicks half a period of a fast mode apart, h omega = pi: a step between resonances passes.
-BOOST_AUTO_TEST_CASE(resonances_of_slow_kicks_are_found_by_each_command) {
-  const scratch folder("letters_resonance");
-  write(folder, "mine.hpp", charges);
-  const std::string method = " --system ./mine.hpp --method word:1A0A0A0A0A0A0A0A1 ";
-  // The highest mode of four masses with bonds of omega = 20 has 2 sin(3 pi/8) 20 = 36.96.
-  const double resonant = 3.14159265358979 / 36.955181;
-  const auto said = [&](double step) {
-    return document(fmt::format("stability{}--step {:.12g}", method, step), folder);
-  };
-  const auto between = said(0.75 * resonant);
-  BOOST_TEST(between["linearly_stable"] == true, between.dump());
-  const auto bad = said(resonant);
-  BOOST_TEST(bad["linearly_stable"] == false, bad.dump());
-  BOOST_TEST(bad["stable"] == false);
-  const auto ran = run(folder, fmt::format("run{}--step {:.12g} --horizon 1", method, resonant));
-  BOOST_TEST(ran.err.find("warning: word:1A0A0A0A0A0A0A0A1 at step") != std::string::npos, ran.err);
-  const auto fine = run(folder, fmt::format("run{}--step {:.12g} --horizon 1", method, 0.75 * resonant));
-  BOOST_TEST(fine.err.empty(), fine.err);
-}
-
 BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   const scratch folder("letters_names");
   write(folder, "mine.hpp", turning);
@@ -409,7 +388,7 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   write(folder, "same.json", forged(text, [](json&) {}));
   BOOST_TEST(run(folder, "run --method same.json" + here).code == 0);
   for (const std::string method : {"s.json", "table.json", "word:tct"}) {
-    refused(folder, "export --to c " + method, {method, "letter t"});
+    refused(folder, "export --to c " + method, {method, method == "word:tct" ? "got t" : "letter t"});
   }
   // What they rest on is cited without a system: a table of the user rests on nothing.
   BOOST_TEST(document("cite table.json", folder) == document("cite", folder));
