@@ -78,7 +78,8 @@ sum_resonance_theory theory(double coupling, double step) {
   return {one.angle + two.angle + more - 2.0 * std::numbers::pi,
           0.5 * step * coupling / std::sqrt(one.frequency * two.frequency)};
 }
-/// The step at which the sum of the angles is off a whole turn by so many couplings.
+/// The step at which omega_1 h + omega_2 h, shifted by the coupling, exceeds 2 pi by `couplings` half widths
+/// of the resonance tongue.
 double step_at(double coupling, double couplings) {
   double low = 0.35;
   double high = 0.45;

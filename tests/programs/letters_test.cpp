@@ -206,7 +206,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_word_by_name_has_the_bits_of_its_type, Case, all
   const auto seen = by_program<Case>(folder, "word:" + letters<Case>());
   BOOST_TEST_REQUIRE(seen.size() == 6U);
   BOOST_TEST((seen == by_type<Case>(seen, equal_steps)));
-  // Any coefficients, from a file; and another member of the family is told from it.
+  // Arbitrary coefficients from a file have the bits of the type, and another member of the family has
+  // others.
   Eigen::VectorXd theta = like.starts.front().theta;
   for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] *= 1.0 + 0.01 / static_cast<double>(k + 1);
   const auto others = like.coefficients(theta);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// One manifest a folder: no entry is lost, whoever writes at the same time, and no foreign file is replaced.
+// One manifest for each folder: concurrent writers lose no entry, and no file of another program is replaced.
 #include <boost/test/unit_test.hpp>
 
 #include <chrono>

@@ -183,7 +183,8 @@ BOOST_AUTO_TEST_CASE(a_winner_at_one_cost_between_others_is_not_overlooked) {
              "Who is best depends on the cost, and changes 8 times: `a` at 10, `a` at 90 evaluations.");
 }
 
-/// Two methods that are equally good, with errors of so many trajectories: how often one is called better.
+/// The false-alarm rate: how often one of two methods with equal expected errors is called better, for a
+/// given number of trajectories.
 double share_called_better(double bar_of, bool in_groups) {
   constexpr int draws = 4000;
   constexpr int groups = 100;

@@ -75,7 +75,7 @@ class word_on_parts {
   /// at each, of the two the worse. Cost: some log2(steps) products of matrices for each state.
   growth_of_energy growth(const std::vector<double>& coefficients, double step, std::int64_t steps) const;
 
-  /// How far a step moves the position of rest, in the norm of the energy, relative to the motion along the
+  /// How far a step moves the equilibrium, in the norm of the energy, relative to the motion along the
   /// states: kicks that are one period of a mode apart push it always in one phase. 0 without a mean.
   double displacement(const std::vector<double>& coefficients, double step) const;
 
@@ -91,7 +91,7 @@ class word_on_parts {
   struct linearised {
     Eigen::VectorXd squares;                 // of frequencies, from low to high
     std::vector<Eigen::MatrixXd> stiffness;  // of each slot of a kick
-    std::vector<Eigen::VectorXd> force;      // of each slot of a kick, about the position of rest
+    std::vector<Eigen::VectorXd> force;      // of each slot of a kick, about the equilibrium
   };
 
   static linearised diagonal(const Eigen::MatrixXd& whole, const std::vector<Eigen::MatrixXd>& parts,

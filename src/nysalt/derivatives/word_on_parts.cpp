@@ -225,7 +225,7 @@ word_on_parts::linearised word_on_parts::diagonal(const Eigen::MatrixXd& whole,
   linearised result{.squares = solver.eigenvalues(), .stiffness = {}, .force = {}};
   for (const auto& part : parts) result.stiffness.push_back(basis.transpose() * part * basis);
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    // About the position of rest, where the force is zero.
+    // About the equilibrium, where the force is zero.
     Eigen::VectorXd rest = basis.transpose() * force;
     for (Eigen::Index i = 0; i < rest.size(); ++i)
       rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;

@@ -119,7 +119,7 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
   const double moved = parts_->displacement(coefficients, step);
   if (moved > 1.0) {
     return fmt::format(
-        "kicks of a part push a mode in one phase: the position of rest moves by {:.3g} times the "
+        "kicks of a part push a mode in one phase: the equilibrium moves by {:.3g} times the "
         "amplitude of the motion",
         moved);
   }
