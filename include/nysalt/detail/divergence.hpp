@@ -47,7 +47,8 @@ class divergence {
     condition_of<T> sound = is_finite(x);
     if constexpr (HasEnergy<S>) {
       if (has_energy(*system_)) {
-        sound = both(sound, magnitude(energy_in_lanes<T>(*system_, x) - initial_) <= most_);
+        const T change = energy_in_lanes<T>(*system_, x) - initial_;
+        sound = both(sound, both(change <= most_, change >= -most_));
       }
     }
     return !sound;

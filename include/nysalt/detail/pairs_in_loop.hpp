@@ -15,19 +15,40 @@ namespace nysalt::detail {
 /// Which letter of a pair comes first.
 enum class pair_begins { with_drift, with_kick };
 
-/// `steps` times a drift and a kick, or a kick and a drift, for each of `count` pairs of coefficients. The
+/// Whether the force of the last kick is stored in the state.
+enum class last_force { unknown, stored };
+
+/// y = x, whose entries are copied one by one where their number N is fixed: as one block they would pass
+/// through memory on their way to the registers.
+template <int N>
+[[gnu::always_inline]] inline void move_entries(auto& x, auto& y) {
+  if constexpr (N == Eigen::Dynamic) {
+    y = std::move(x);
+  } else {
+    for (Eigen::Index i = 0; i < N; ++i) y[i] = x[i];
+  }
+}
+
+/// `steps` >= 1 times a drift and a kick, or a kick and a drift, for each of `count` pairs of coefficients. The
 /// state is a local copy whose address is not taken, so that one of few coordinates stays in registers. The
 /// loop over pairs must not be unrolled: g++ would keep the coefficients in registers and spill the state,
 /// and take half as long again for six pairs.
-template <pair_begins Begins, class T, System S>
+template <pair_begins Begins, last_force Last, class T, System S>
 [[gnu::always_inline]] inline void take_pairs(const S& system, auto& state, auto& room,
                                               const std::array<double, 2>* pairs, std::size_t count,
                                               std::int64_t steps) {
-  flow_state<T, S::dimension> x{{std::move(state.q), std::move(state.p)}, std::move(state.f)};
+  constexpr bool stores_force = Last == last_force::stored;
+  static_assert(!stores_force || Begins == pair_begins::with_drift);
+  constexpr bool moves_force = S::dimension == Eigen::Dynamic;  // the room for it: kicks do not allocate
+  flow_state<T, S::dimension> x;
+  move_entries<S::dimension>(state.q, x.q);
+  move_entries<S::dimension>(state.p, x.p);
+  if constexpr (moves_force) x.f = std::move(state.f);
   asm("" : "+r"(count));  // a number that is known at compile time is unrolled in spite of the pragma
-  for (std::int64_t n = 0; n < steps; ++n) {
+  for (std::int64_t n = 1; n <= steps; ++n) {
+    const std::size_t end = stores_force && n == steps ? count - 1 : count;
 #pragma GCC unroll 1
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < end; ++i) {
       const double first = pairs[i][0];
       const double second = pairs[i][1];
       if constexpr (Begins == pair_begins::with_drift) {
@@ -39,9 +60,16 @@ template <pair_begins Begins, class T, System S>
       }
     }
   }
-  state.q = std::move(x.q);
-  state.p = std::move(x.p);
-  state.f = std::move(x.f);
+  if constexpr (stores_force) {
+    const double first = pairs[count - 1][0];
+    const double second = pairs[count - 1][1];
+    drift::apply(system, first, x, room);
+    force_of<field::whole, T>(system, x.q, x.f);
+    kick::apply(system, second, x, room);
+  }
+  move_entries<S::dimension>(x.q, state.q);
+  move_entries<S::dimension>(x.p, state.p);
+  if constexpr (moves_force || stores_force) move_entries<S::dimension>(x.f, state.f);
 }
 
 }  // namespace nysalt::detail

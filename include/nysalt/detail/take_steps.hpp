@@ -166,29 +166,20 @@ template <class S, class T>
 [[gnu::flatten, gnu::noinline]] void take_steps_in_pairs(const S& system, state_in_place<T, S::dimension>& x,
                                                          auto& room, const step_program<double>& letters,
                                                          std::int64_t steps, const watch<T>& watched) {
-  const auto take = [&]<pair_begins Begins>(std::int64_t count, std::size_t pairs)
-      __attribute__((always_inline)) {
-    take_pairs<Begins, T>(system, x, room, letters.pairs.data(), pairs, count);
+  const auto take = [&]<pair_begins Begins, last_force Last>() __attribute__((always_inline)) {
+    watch_steps(
+        steps, watched,
+        [&](std::int64_t count) __attribute__((always_inline)) {
+          take_pairs<Begins, Last, T>(system, x, room, letters.pairs.data(), letters.pairs.size(), count);
+        },
+        [&] { show<field::whole, S, T, double>(system, x, room, letters, watched); });
   };
-  using enum pair_begins;
-  const std::size_t all = letters.pairs.size();
-  const auto look = [&] { show<field::whole, S, T, double>(system, x, room, letters, watched); };
   if (letters.begins_with_kick) {
-    watch_steps(
-        steps, watched, [&](std::int64_t count) { take.template operator()<with_kick>(count, all); }, look);
+    take.template operator()<pair_begins::with_kick, last_force::unknown>();
   } else if (letters.keeps_last_force) {
-    const auto keep_last_force = [&](std::int64_t count) {
-      take.template operator()<with_drift>(count - 1, all);
-      if (all > 1) take.template operator()<with_drift>(1, all - 1);
-      const auto& [first, second] = letters.pairs.back();
-      drift::apply(system, first, x, room);
-      force_of<field::whole, T>(system, x.q, x.f);
-      kick::apply(system, second, x, room);
-    };
-    watch_steps(steps, watched, keep_last_force, look);
+    take.template operator()<pair_begins::with_drift, last_force::stored>();
   } else {
-    watch_steps(
-        steps, watched, [&](std::int64_t count) { take.template operator()<with_drift>(count, all); }, look);
+    take.template operator()<pair_begins::with_drift, last_force::unknown>();
   }
 }
 
