@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/independent_iterations.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/local_system.hpp"
 
@@ -237,12 +238,11 @@ class fpu_chain {
         soft[n] = pull(T(q(0, first + n) - q(1, first + n - 1)));
       }
       if (first + count == last) soft[count] = pull(T(-q(1, last - 1)));
-#if defined __GNUC__ && !defined __clang__
-#pragma GCC ivdep
-#endif
+      const T* right = detail::as_another_array(soft + 1);
+      NYSALT_INDEPENDENT_ITERATIONS
       for (Eigen::Index n = 0; n < count; ++n) {
         const Eigen::Index i = first + n;
-        take(i, T((q(1, i) - q(0, i)) * k), soft[n], soft[n + 1]);
+        take(i, T((q(1, i) - q(0, i)) * k), soft[n], right[n]);
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nysalt/detail/independent_iterations.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/local_system.hpp"
 
@@ -158,10 +159,10 @@ class phi4_lattice {
       take(k, neighbours * 2.0 - x * (x * x * cubic + linear));
     };
     one(0, here[last], here[1 < side_ ? 1 : 0]);
-#if defined __GNUC__ && !defined __clang__
-#pragma GCC ivdep
-#endif
-    for (Eigen::Index k = 1; k < last; ++k) one(k, here[k - 1], here[k + 1]);
+    const T* left = detail::as_another_array(here - 1);
+    const T* right = detail::as_another_array(here + 1);
+    NYSALT_INDEPENDENT_ITERATIONS
+    for (Eigen::Index k = 1; k < last; ++k) one(k, left[k], right[k]);
     one(last, here[last - 1], here[0]);
   }
 
