@@ -71,4 +71,7 @@ class distributed_run {
   std::unique_ptr<parts> parts_;
 };
 
+/// Whether distributed_run takes this system and method on these ranks.
+bool can_be_distributed(const model& system, const tabulated& method, const communicator& ranks);
+
 }  // namespace nysalt

@@ -12,11 +12,13 @@
 
 #include "all_ranks.hpp"
 #include "nysalt/detail/together.hpp"
+#include "nysalt/distributed_run.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
 #include "shared_batch.hpp"
+#include "shared_sites.hpp"
 
 namespace nysalt::program {
 
@@ -30,13 +32,6 @@ constexpr int dynamic = Eigen::Dynamic;
 std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_t workers) {
   const std::int64_t blocks = 1'000'000 / numbers / lanes;
   return std::max<std::int64_t>(blocks / workers, 1) * workers * lanes;
-}
-
-/// Step 64 k ends the interval of the multiples of its length in (64 (k - 1), 64 k].
-std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
-  const std::int64_t length = std::min(asked.value_or(steps), steps);
-  const std::int64_t next = (step / length + 1) * length;
-  return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
 }
 
 /// Trajectories of the rank that has most, at least one.
@@ -120,6 +115,10 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
 
 void run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
               const sampled_plan& plan, const record_taker& take, const counter& progress) {
+  // Where some ranks would have no trajectory, all share the sites of each.
+  if (plan.trajectories.count < all_ranks().size() && can_be_distributed(made.system, method, all_ranks())) {
+    return run_on_shared_sites(made, starts, method, plan, take, progress, all_ranks());
+  }
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
   const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {

@@ -55,6 +55,13 @@ inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64
   return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
 }
 
+/// Step 64 k ends the interval of the multiples of its length in (64 (k - 1), 64 k].
+inline std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
+  const std::int64_t length = std::min(asked.value_or(steps), steps);
+  const std::int64_t next = (step / length + 1) * length;
+  return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
+}
+
 /// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
 /// interval by interval, and in an interval in the order of the trajectories. An interval ends at the first
 /// multiple of 64 at or beyond each multiple of `stretch`: divergence is checked there anyway, so that

@@ -33,6 +33,12 @@ const site_kernels& sites_of(const model& system) {
                system.description()));
 }
 
+/// Whether a word is drifts and kicks in turn.
+bool is_in_turn(const std::string& letters) {
+  return letters.size() > 1 && letters.find_first_not_of("AB") == std::string::npos &&
+         letters.find("AA") == std::string::npos && letters.find("BB") == std::string::npos;
+}
+
 detail::step_program<double> letters_of(const model& system, const tabulated& method, double step) {
   const run_time_word& word = method.letters();
   if (word.is_processed()) {
@@ -40,12 +46,9 @@ detail::step_program<double> letters_of(const model& system, const tabulated& me
         sentence("distributed_run: the word must not be processed, got {}; take the word of the kernel",
                  method.name()));
   }
-  const std::string& letters = word.letters();
-  const bool is_in_turn = letters.size() > 1 && letters.find_first_not_of("AB") == std::string::npos &&
-                          letters.find("AA") == std::string::npos && letters.find("BB") == std::string::npos;
-  if (!is_in_turn) {
+  if (!is_in_turn(word.letters())) {
     throw std::invalid_argument(
-        sentence("distributed_run: the word must be drifts A and kicks B in turn, got {}", letters));
+        sentence("distributed_run: the word must be drifts A and kicks B in turn, got {}", word.letters()));
   }
   (void)make_stepper(system, method, step);  // throws what is not a step
   detail::step_program<double> result =
@@ -65,7 +68,23 @@ Eigen::Index first_site_of(const site_layout& layout, int rank, int ranks) {
   return first_leaf_of(layout, rank, ranks) * sites_of_leaf(layout);
 }
 
+Eigen::Index share_of(const site_layout& layout, int rank, int ranks) {
+  return first_site_of(layout, rank + 1, ranks) - first_site_of(layout, rank, ranks);
+}
+Eigen::Index least_share(const site_layout& layout) { return std::max<Eigen::Index>(layout.reach, 1); }
+
 }  // namespace
+
+bool can_be_distributed(const model& system, const tabulated& method, const communicator& ranks) {
+  const run_time_word& word = method.letters();
+  if (system.bath().acts() || system.sites() == nullptr || word.is_processed() || !is_in_turn(word.letters()))
+    return false;
+  const site_layout layout = system.sites()->layout();
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    if (share_of(layout, rank, ranks.size()) < least_share(layout)) return false;
+  }
+  return true;
+}
 
 struct distributed_run::parts {
   parts(const model& of, const tabulated& method, double step, const communicator& among)
@@ -90,9 +109,7 @@ struct distributed_run::parts {
   /// The same on all ranks, as each knows the shares of all.
   void require_shares() const {
     for (int rank = 0; rank < ranks->size(); ++rank) {
-      const Eigen::Index share =
-          first_site_of(layout, rank + 1, ranks->size()) - first_site_of(layout, rank, ranks->size());
-      if (share >= std::max<Eigen::Index>(layout.reach, 1)) continue;
+      if (share_of(layout, rank, ranks->size()) >= least_share(layout)) continue;
       throw std::invalid_argument(sentence(
           "distributed_run: {} must have at least {} sites a rank, a multiple of {}, got {} ranks; take "
           "fewer ranks",

@@ -93,6 +93,51 @@ BOOST_AUTO_TEST_CASE(ranks_without_a_trajectory_do_no_harm) {
   BOOST_TEST((shared.out == alone.out));
 }
 
+// Fewer trajectories than ranks of a local system: all ranks share the sites of each. Words that keep a force
+// and words that keep none, a ring of rows, one trajectory that diverges.
+BOOST_AUTO_TEST_CASE(ranks_that_share_the_sites_of_a_trajectory_change_no_byte) {
+  const std::string chain =
+      "run --system fpu --pairs 6000 --step 0.01 --horizon 3 --observables energy,q1,p6001,q12000 ";
+  same_as_alone(chain + "--method verlet --sample-every 7 ", ".csv", {{2, 2}, {3, 1}, {4, 1}});
+  same_as_alone(chain + "--method pefrl --sample-every 100 --trajectories 2 ", ".npy", {{3, 1}});
+  same_as_alone(
+      "run --system phi4_lattice --side 96 --step 0.05 --horizon 10 --method srkn6b --sample-every 50 ", ".csv",
+      {{2, 1}, {4, 1}});
+  const scratch folder("ranks_sites_lost");
+  const std::string lost =
+      "run --system fpu --pairs 6000 --method verlet --step 0.0399 --horizon 40 --sample-every 1 --trajectories 2 "
+      "--output ";
+  const auto alone = run(folder, lost + "a.csv");
+  const auto shared = run_on(3, folder, lost + "b.csv");
+  BOOST_TEST(alone.code == 3, alone.err);
+  BOOST_TEST(shared.code == 3, shared.err);
+  BOOST_TEST((contents(folder / "a.csv") == contents(folder / "b.csv")));
+  const std::string first_lost = alone.err.substr(alone.err.find("trajectory 0 diverged at step"));
+  BOOST_TEST(shared.err.find(first_lost.substr(0, first_lost.find(','))) != std::string::npos, shared.err);
+}
+
+// One rank goes on with what three had saved, and three with what one had; the words keep a force.
+BOOST_AUTO_TEST_CASE(sites_that_ranks_shared_are_resumed_by_others) {
+  for (const bool from_ranks : {true, false}) {
+    const scratch folder("ranks_sites_resumed");
+    const std::string line =
+        "run --system fpu --pairs 6000 --method verlet --step 0.01 --horizon 40 --sample-every 64 --observables "
+        "energy,q1,p12000 --trajectories 2 ";
+    const auto whole = run(folder, line + "--output whole.csv");
+    BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+    const std::string command = line + "--output a.csv --checkpoint a.checkpoint --threads 1 --every ";
+    const std::string begun = from_ranks ? on_ranks(3) : "\"$nysalt\" ";
+    const auto stopped = shell(folder, begun + command + "64 >/dev/null 2>&1 & pid=$!\n" +
+                                           wait_for("a.checkpoint", 500) + "kill -TERM $pid; ! wait $pid");
+    BOOST_TEST(stopped.code == 0, stopped.err);
+    BOOST_TEST_REQUIRE(std::filesystem::exists(folder / "a.csv.part"));  // so that there is something to resume
+    const auto resumed = from_ranks ? run(folder, command + "64000 --resume")
+                                    : run_on(3, folder, command + "64000 --resume");
+    BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
+    BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(ranks_may_have_other_threads_and_nothing_else) {
   const scratch folder("ranks_unlike");
   const auto alone = run(folder, in_bath("20") + "--output a.csv");

@@ -42,6 +42,9 @@ class divergence {
     }
   }
 
+  /// The largest |H - H_0| that is no divergence.
+  const T& largest_change() const { return most_; }
+
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
   condition_of<T> operator()(const state& x) const {
     condition_of<T> sound = is_finite(x);

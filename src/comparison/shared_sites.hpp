@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+// Sampled trajectories of which each is shared by all ranks.
+#pragma once
+
+#include "nysalt/communicator.hpp"
+#include "sampled_run.hpp"
+
+namespace nysalt::program {
+
+/// The trajectories of a plan, each stepped by all ranks, which share its sites. To the bit what one rank
+/// makes of them; rank 0 sees each sampled state as a whole. Of a system and a method for which
+/// can_be_distributed() is true. Memory: of each trajectory the share of a rank, and at rank 0 one state.
+/// Collective.
+void run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
+                         const tabulated& method, const sampled_plan& plan, const record_taker& take,
+                         const counter& progress, const communicator& ranks);
+
+}  // namespace nysalt::program
