@@ -254,6 +254,7 @@ program::compare_command compare_of(const argument_reader& arguments,
   arguments.take("placement", command.placement);
   arguments.take("steps", command.steps);
   arguments.take("equal_cost", command.equal_cost);
+  arguments.take("prices", command.prices);
   arguments.take("horizon", command.horizon);
   arguments.take("trajectories", command.trajectories);
   arguments.take("metric", command.metrics);

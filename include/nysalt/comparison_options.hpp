@@ -46,6 +46,9 @@ struct comparison_options {
   std::vector<std::string> methods{};  ///< names, "learned:FAMILY", paths of files, or names of `held`
   std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
   bool equal_cost = false;          ///< steps are per force evaluation, so that rows of a step cost the same
+  /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole force,
+  /// and a kick with a part counts as the share of the part. Empty: each kick counts as one.
+  std::vector<double> prices{};
   std::optional<double> horizon{};  ///< of each trajectory. None: 0.5, or ten of the largest steps
   std::int64_t trajectories = 400;  ///< to compare on; none of them is learned from
   std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,

@@ -421,8 +421,8 @@ def export(method: Method, to: str, *, name: Optional[str] = None, step: Optiona
 
 
 def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Numbers, *,
-            equal_cost: bool = False, horizon: Optional[float] = None, trajectories: Optional[int] = None,
-            metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
+            equal_cost: bool = False, prices: Optional[Numbers] = None, horizon: Optional[float] = None,
+            trajectories: Optional[int] = None, metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
             range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
             longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
             placement: Optional[str] = None, fine_step: Optional[float] = None,
@@ -434,7 +434,8 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
 
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
     against, `rankings`, `fits` of "learned:FAMILY". metrics() lists the metrics [path].
-    equal_cost=True: steps are per force evaluation.
+    equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick
+    with a part then counts as the share of the part in an evaluation.
     """
     asked = dict(locals())
     asked.pop("system")

@@ -7,6 +7,7 @@
 #include "build_info.hpp"
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "declared_prices.hpp"
 #include "learning.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "refusal.hpp"
@@ -74,6 +75,7 @@ void comparison::require_sound_command() const {
   require_once("--methods", options_.methods, as_it_is);
   require_once("--metric", metrics_, [](const asked_metric& metric) { return metric.text(); });
   require_at_least_one("--trajectories", options_.trajectories);
+  require_sound_prices(options_.prices, system_->letters());
   require_sound(options_.learning, "--learn-");
   if (std::ranges::any_of(metrics_, &asked_metric::is_of_law)) require_sound_statistics();
   if (std::ranges::any_of(metrics_, &asked_metric::is_acceptance)) {
@@ -81,10 +83,16 @@ void comparison::require_sound_command() const {
   }
 }
 
+double comparison::cost_of_step(const method_source& source) const {
+  const double saved = source.word->evaluations_per_step -
+                       priced_evaluations(*source.word, options_.prices, system_->letters());
+  return source.evaluations_per_step - saved;
+}
+
 double comparison::usual_horizon(const std::vector<method_source>& sources) const {
   double largest = 0.0;
   for (const auto& source : sources) {
-    const double evaluations = options_.equal_cost ? source.evaluations_per_step : 1.0;
+    const double evaluations = options_.equal_cost ? cost_of_step(source) : 1.0;
     largest = std::max(largest, evaluations * std::ranges::max(options_.steps));
   }
   return std::max(0.5, fewest_samples * largest);
@@ -107,7 +115,7 @@ void comparison::plan_rows() {
     const auto is_of_source = [&](const row& line) { return line.method == source.typed; };
     if (std::ranges::any_of(rows_, is_of_source)) continue;
     if (!source.learned) refuse("{}", warnings_.back());
-    const double evaluations = options_.equal_cost ? source.evaluations_per_step : 1.0;
+    const double evaluations = options_.equal_cost ? cost_of_step(source) : 1.0;
     refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
            source.learned->steps(), options_.equal_cost ? " (of an evaluation)" : "",
            source.learned->curve.steps().back() / evaluations);
@@ -117,11 +125,13 @@ void comparison::plan_rows() {
 
 /// A scheme file has a row where its own step is asked for, and nowhere else.
 void comparison::add_row(const method_source& source, double nominal) {
-  const double step = options_.equal_cost ? nominal * source.evaluations_per_step : nominal;
+  const double step = options_.equal_cost ? nominal * cost_of_step(source) : nominal;
   const bool elsewhere = source.learned && !is_at(*source.learned, step);
   if (elsewhere && !common_.force) return;
   row planned{.method = source.typed, .nominal = nominal, .step = step};
   planned.is_learned = source.family || source.learned;
+  if (source.evaluations_per_step > 0)
+    planned.share_of_evaluation = cost_of_step(source) / source.evaluations_per_step;
   planned.measurements.resize(metrics_.size());
   const auto otherwise = placement_asked(options_.placement);
   const bool is_noisy = system_->heat_bath().acts() && system_->heat_bath().sigma() > 0.0;
@@ -218,7 +228,7 @@ json comparison::question_asked() const {
   for (const auto& metric : metrics_) metrics.push_back(metric.text());
   json rows = json::array();
   for (const auto& line : rows_) rows.push_back(as_json(line));
-  return {{"program", fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags)},
+  json question{{"program", fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags)},
           {"system", system_->parameters()},
           {"starts", {to_string(system_->start_law()), system_->starts()}},
           {"metric", metrics},
@@ -234,6 +244,8 @@ json comparison::question_asked() const {
           {"hmc_temperature", options_.hmc_temperature},
           {"learning", as_json(options_.learning)},
           {"seed", common_.seed}};
+  if (!options_.prices.empty()) question["prices"] = options_.prices;
+  return question;
 }
 
 }  // namespace nysalt::program

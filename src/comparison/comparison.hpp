@@ -31,7 +31,8 @@ struct row {
   bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
   std::optional<tabulated> coefficients{};
   std::string reason{};  // why the method could not be used
-  double evaluations_per_time = 0.0;
+  double share_of_evaluation = 1.0;   // what an evaluation costs on average, of one of the whole force
+  double evaluations_per_time = 0.0;  // at their prices
   timed_job seconds_per_time{};
   std::vector<measurement> measurements{};  // by each metric
   std::optional<double> margin{};           // linear, of the step; nothing for words that rotate
@@ -91,6 +92,8 @@ class comparison {
   double work_of_learning(const row& line) const;
   double work_of_paths(const group& all) const;
   double work_of_law(double evaluations_per_time) const;
+  /// In evaluations, at their prices.
+  double cost_of_step(const method_source& source) const;
   double work_of_reference() const;                    // of one ensemble for a distribution
   double evaluations_expected(const row& line) const;  // by unit time, without the start
 

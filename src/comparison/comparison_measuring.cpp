@@ -41,7 +41,8 @@ void comparison::learn_and_measure(journal& kept) {
     by_step[line.step].push_back(&line);
     const auto plan = plan_at(line.step);
     const auto evaluations = static_cast<double>(system_->count_evaluations(*line.coefficients, plan));
-    line.evaluations_per_time = evaluations / (static_cast<double>(plan.steps) * plan.step);
+    line.evaluations_per_time =
+        evaluations * line.share_of_evaluation / (static_cast<double>(plan.steps) * plan.step);
     if (line.reason.empty()) continue;
     for (measurement& one : line.measurements) one.reason = line.reason;
   }

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::string_view to_learn = "learned:";
 
-void count(method_source& source, const auto& word) {
+void count(method_source& source, const run_time_word& word) {
+  source.word = word;
   source.evaluations_per_step = word.evaluations_per_step;
   source.force_derivatives = word.force_derivatives;
   source.evaluations_to_look = word.evaluations_to_look;

@@ -167,6 +167,7 @@ json document_of(const comparison& all) {
               {"fits", fits},
               {"warnings", all.warnings()},
               {"peak_memory", peak_memory()}};
+  if (!options.prices.empty()) result["prices"] = options.prices;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     const auto& bins = all.bins(m);
     if (bins) result["histogram"] = {{"low", bins->low}, {"high", bins->high}, {"bins", bins->count}};

@@ -32,6 +32,7 @@ void add_question(page& report, const comparison& all) {
         "Steps are per force evaluation: a method of n evaluations takes n times the step, so equal "
         "steps are equal cost.");
   }
+  if (!options.prices.empty()) report.text(sentence_of_prices(options.prices));
   if (!all.common().command.empty()) report.code(all.common().command);
 }
 

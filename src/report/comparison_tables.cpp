@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "comparison/refusal.hpp"
 #include "comparison_report.hpp"
@@ -180,6 +181,15 @@ table baselines_of(const comparison& all, std::size_t m) {
   return result;
 }
 
+std::string sentence_of_prices(const std::vector<double>& prices) {
+  const double whole = std::accumulate(prices.begin(), prices.end(), 0.0);
+  std::string shares;
+  for (std::size_t part = 0; part < prices.size(); ++part) {
+    shares += fmt::format("{}{:.3g} with part {}", part > 0 ? ", " : "", prices[part] / whole, part);
+  }
+  return fmt::format("Evaluations are those of the whole force, of which a kick costs {}.", shares);
+}
+
 table equal_cost_table(const comparison& all, std::size_t m) {
   const asked_metric& metric = all.metrics()[m];
   const bool accepts = metric.is_acceptance();
@@ -214,6 +224,7 @@ std::string readable(const comparison& all) {
                                  options.trajectories, all.horizon());
   text += fmt::format("\nstarts: {}\n", all.system().starts());
   if (options.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
+  if (!options.prices.empty()) text += sentence_of_prices(options.prices) + "\n";
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     text += fmt::format("\n{}\n\n", quantity(all, m));
     if (const table against = baselines_of(all, m); !against.empty()) text += against.text() + "\n";

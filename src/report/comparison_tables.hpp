@@ -34,6 +34,9 @@ std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, 
 /// Reference, null model and floor or horizon, over the steps that share a reference.
 table baselines_of(const comparison& all, std::size_t metric);
 table equal_cost_table(const comparison& all, std::size_t metric);
+
+/// How evaluations are counted where parts of the force have prices.
+std::string sentence_of_prices(const std::vector<double>& prices);
 /// One sentence for each mark that is there, and for each row without a value.
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t metric);
 std::vector<std::string> reasons_of(const comparison& all, std::size_t metric);

@@ -16,7 +16,7 @@ namespace nysalt::program {
 subcommand offer_compare(CLI::App& app, common_settings& common) {
   struct compare_as_typed {
     compare_command asked;
-    std::vector<std::string> methods, steps, metrics, range, levels;
+    std::vector<std::string> methods, steps, metrics, range, levels, prices;
   };
   const auto typed = std::make_shared<compare_as_typed>();
   auto& asked = typed->asked;
@@ -28,6 +28,9 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       ->required();
   command.add_option("--steps", typed->steps, "joined by commas")->required();
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
+  command.add_option("--prices", typed->prices,
+                     "of the forces of parts 0, 1, ..., joined by commas: evaluations count as their shares of the "
+                     "whole force [each kick as one]");
   add_number(command, "--horizon", asked.horizon,
              "length of each trajectory [0.5, or ten of the largest steps if that is longer]");
   add_number(command, "--trajectories", asked.trajectories, "to compare on");
@@ -64,6 +67,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
     asked.methods = entries_of(typed->methods, "--methods");
     asked.steps = numbers_of(typed->steps, "--steps");
     asked.range = numbers_of(typed->range, "--range");
+    asked.prices = numbers_of(typed->prices, "--prices");
     if (given("--metric")) asked.metrics = entries_of(typed->metrics, "--metric");
     if (given("--levels")) asked.levels = numbers_of(typed->levels, "--levels");
     require_fitting(asked, given);
