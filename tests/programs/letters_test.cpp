@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -321,6 +322,87 @@ BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
   }
   write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
   refused(folder, "build mine.hpp", {"mine.hpp: letters must have different names, got 't' twice"});
+}
+
+namespace {
+/// Slow half kicks about n steps of drift, fast kick, drift, on the system `charges`, and where they
+/// resonate.
+struct resonant_word {
+  int fast_kicks;
+
+  std::string letters() const {
+    std::string all = "1";
+    for (int k = 0; k < fast_kicks; ++k) all += "A0";
+    return all + "A1";
+  }
+  /// A step beside the middle of the tongue at which a step turns the fastest mode by half a turn, by so many
+  /// of the tongue's half widths.
+  double step(double half_widths) const {
+    const double omega =
+        40.0 * std::sin(3.0 * std::numbers::pi / 8.0);  // of four masses, bonds of omega = 20
+    // The fast steps turn it by 2 n asin(h omega/(2 n)); at half a turn only the slow kick moves it on.
+    const double angle = std::numbers::pi / (2.0 * fast_kicks);
+    const double upper_end = 2.0 * fast_kicks * std::sin(angle) / omega;
+    constexpr double slow_stiffness = 2.31;  // of this mode at rest: 1 of the trap, the rest of the charges
+    // Of first order in h k/omega: slow kicks turn by 2 d more, d = h k cos(angle)/(2 omega), and are
+    // unstable while pi - 2 d < fast turn < pi.
+    const double width = slow_stiffness * std::pow(std::cos(angle) / omega, 2);
+    return upper_end * (1.0 - 0.5 * width * (1.0 - half_widths));
+  }
+};
+}  // namespace
+
+// Half a turn of the fastest mode between slow kicks; eight half widths beside the tongue all is well.
+BOOST_AUTO_TEST_CASE(resonances_of_slow_kicks_are_found_by_each_command) {
+  const scratch folder("letters_resonance");
+  write(folder, "mine.hpp", charges);
+  const auto arguments = [](const std::string& command, const resonant_word& word, double half_widths,
+                            const std::string& option) {
+    return fmt::format("{} --system ./mine.hpp {} word:{} --step {:.12g} ", command, option, word.letters(),
+                       word.step(half_widths));
+  };
+  for (const int n : {2, 3, 5, 7}) {
+    for (const double half_widths : {-8.0, 0.0, 8.0}) {
+      const bool is_stable = half_widths != 0.0;
+      const auto said = document(arguments("stability", {n}, half_widths, "--method"), folder);
+      BOOST_TEST(said["linearly_stable"] == is_stable, said.dump());
+      BOOST_TEST(said["stable"] == is_stable, said.dump());
+    }
+  }
+  const std::string reason = "the linearised motion gains energy without bound";
+  for (const int n : {3, 7}) {
+    for (const double half_widths : {-8.0, 0.0, 8.0}) {
+      const bool is_stable = half_widths != 0.0;
+      const resonant_word word{n};
+      const std::string warning = fmt::format("word:{} at step", word.letters());
+      const auto is_warned = [&](const std::string& text) {
+        return text.find(warning) != std::string::npos && text.find(reason) != std::string::npos;
+      };
+      BOOST_TEST_CONTEXT(word.letters() << " at " << word.step(half_widths)) {
+        const auto ran = run(folder, arguments("run", word, half_widths, "--method") + "--horizon 1");
+        BOOST_TEST(ran.code == 0);
+        BOOST_TEST(is_warned(ran.err) == !is_stable, ran.err);
+        BOOST_TEST(ran.err.empty() == is_stable, ran.err);
+        const auto compared =
+            document(fmt::format("compare --system ./mine.hpp --methods word:{},mclachlan2 --metric state "
+                                 "--steps {:.12g} --trajectories 16 --horizon 2",
+                                 word.letters(), word.step(half_widths)),
+                     folder);
+        BOOST_TEST(is_warned(compared["warnings"].dump()) == !is_stable, compared["warnings"].dump());
+        // Of the one member that learn may take it says whether that is usable.
+        std::string fixed;
+        for (int k = 1; k <= (n - 1) / 2; ++k)
+          fixed +=
+              fmt::format("--fix 0{0}={1:.17g} --fix A{0}={2:.17g} ", k, 1.0 / n, (k == 1 ? 0.5 : 1.0) / n);
+        const auto learned = run(folder, arguments("learn", word, half_widths, "--family") + fixed +
+                                             "--trajectories 16 --effort quick --output scheme.json --json");
+        BOOST_TEST(learned.code == (is_stable ? 0 : 3), learned.err);
+        const auto found = json_of(learned);
+        BOOST_TEST(found["usable"] == is_stable, found.dump());
+        BOOST_TEST((learned.err.find(reason) != std::string::npos) == !is_stable, learned.err);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
