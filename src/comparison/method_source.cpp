@@ -249,9 +249,9 @@ tabulated coefficients_at(const method_source& source, const prepared_problem& s
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);
   // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
-  const bool was_judged = source.learned && source.learned->usable &&
-                          out_of_place(*source.learned, system, step).empty() &&
-                          !(force && is_of_other_size(*source.learned, system));
+  const bool was_judged =
+      source.learned && source.learned->usable && out_of_place(*source.learned, system, step).empty() &&
+      !(force && (is_of_other_size(*source.learned, system) || !source.learned->is_learned_at(step)));
   if (was_judged) return method;
   if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;

@@ -4,6 +4,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -11,6 +15,9 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/r_respa.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/systems/bonded_chain.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
@@ -137,6 +144,32 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_run_sees_is_refused_by_it) {
   const tuned_method<nystrom> learned(verlet_twice, step, describe(one), {}, kind_of(one));
   BOOST_TEST(refuses<wrong>([&] { at_size_of(twelve, learned, from_the_bottom(twelve), {.steps = 2000}); },
                             {"stiffening_wells(wells=1)", "wells=12", "in a trial run of", "diverge"}));
+}
+
+// Four charges on bonds: the energy of their fastest mode grows and falls again within a tenth of the trial
+// run.
+BOOST_AUTO_TEST_CASE(a_resonance_of_slow_kicks_is_refused_by_the_guard) {
+  constexpr int inner = 7;
+  const bonded_chain<4> chain(stiff_bonds<4>(20.0), soft_charges<4>(2.0));
+  const vector<double, 4> rest = vector<double, 4>::Zero();
+  const normal_around<4> starts({rest, rest}, 0.02, 0.1);
+  const run_time_word word(r_respa<0, 1, inner>::word{}, chain);
+  const auto all = r_respa<0, 1, inner>::coefficients();
+  const tabulated method("r_respa", word, {all.begin(), all.end()}, {2, true, false});
+  // Seven steps of Verlet turn the mode by 14 asin(h omega/14), half a turn at the upper end of the tongue;
+  // slow kicks turn it by 2 d more, d = h k/(2 omega) with k = 2.31 at rest, and are unstable while pi - 2 d
+  // < fast turn < pi: first order in h k/omega, .005.
+  const double omega = 40.0 * std::sin(3.0 * std::numbers::pi / 8.0);
+  const double width = 2.31 / (omega * omega);
+  for (const double half_widths : {-8.0, 0.0, 8.0}) {
+    const double step = 2.0 * inner * std::sin(0.5 * std::numbers::pi / inner) / omega *
+                        (1.0 - 0.5 * width * (1.0 - half_widths));
+    const size_trial tried = try_at_size(model(chain), method, step, starts);
+    BOOST_TEST(tried.passed() == (half_widths != 0.0), tried.objection);
+    if (half_widths != 0.0) continue;
+    BOOST_TEST(tried.objection.find("the linearised motion gains energy") != std::string::npos,
+               tried.objection);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_trial_takes_fewer_trajectories_of_a_larger_system) {

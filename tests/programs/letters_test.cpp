@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -321,6 +322,191 @@ BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
   }
   write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
   refused(folder, "build mine.hpp", {"mine.hpp: letters must have different names, got 't' twice"});
+}
+
+namespace {
+/// Slow half kicks about n steps of drift, fast kick, drift, on four masses with bonds of omega = 20, and
+/// where they resonate.
+struct resonant_word {
+  int fast_kicks;
+  double slow_stiffness =
+      2.31;  // of the fastest mode of `charges` at rest: 1 of the trap, else of the charges
+
+  std::string letters() const {
+    std::string all = "1";
+    for (int k = 0; k < fast_kicks; ++k) all += "A0";
+    return all + "A1";
+  }
+  /// A step beside the middle of the tongue at which a step turns the fastest mode by half a turn, by so many
+  /// of the tongue's half widths.
+  double step(double half_widths) const {
+    const double omega = 40.0 * std::sin(3.0 * std::numbers::pi / 8.0);
+    // The fast steps turn it by 2 n asin(h omega/(2 n)); at half a turn only the slow kick moves it on.
+    const double angle = std::numbers::pi / (2.0 * fast_kicks);
+    const double upper_end = 2.0 * fast_kicks * std::sin(angle) / omega;
+    // Of first order in h k/omega: slow kicks turn by 2 d more, d = h k cos(angle)/(2 omega), and are
+    // unstable while pi - 2 d < fast turn < pi.
+    const double width = slow_stiffness * std::pow(std::cos(angle) / omega, 2);
+    return upper_end * (1.0 - 0.5 * width * (1.0 - half_widths));
+  }
+  /// Options of learn that leave the member of equal steps alone.
+  std::string fixed() const {
+    const double n = fast_kicks;
+    std::string all;
+    for (int k = 1; k <= (fast_kicks - 1) / 2; ++k)
+      all += fmt::format("--fix 0{0}={1:.17g} --fix A{0}={2:.17g} ", k, 1.0 / n, (k == 1 ? 0.5 : 1.0) / n);
+    return all + "--trajectories 16 --effort quick ";
+  }
+};
+
+/// Masses on bonds, in traps that are quartic too: of any number, which is a size.
+constexpr const char* row = R"(#include <nysalt/plugin.hpp>
+#include <nysalt/flows/kick_of_parts.hpp>
+struct bonds {
+  static constexpr int dimension = Eigen::Dynamic;
+  long masses = 3;
+  Eigen::Index size() const { return masses; }
+  template <class T> T potential(const nysalt::vector<T, dimension>& q) const {
+    T sum(0.0);
+    for (Eigen::Index i = 0; i + 1 < masses; ++i) sum += (q[i + 1] - q[i]) * (q[i + 1] - q[i]) * 200.0;
+    return sum;
+  }
+};
+struct traps {
+  static constexpr int dimension = Eigen::Dynamic;
+  long masses = 3;
+  Eigen::Index size() const { return masses; }
+  template <class T> T potential(const nysalt::vector<T, dimension>& q) const {
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < masses; ++i) sum += q[i] * q[i] * (1.0 + q[i] * q[i] * 0.1);
+    return sum;
+  }
+};
+struct row {
+  static constexpr int dimension = Eigen::Dynamic;
+  static constexpr std::size_t parts = 2;
+  long masses = 3;
+  Eigen::Index size() const { return masses; }
+  template <std::size_t I> auto part() const {
+    if constexpr (I == 0) return bonds{masses}; else return traps{masses};
+  }
+  template <class T> T potential(const nysalt::vector<T, dimension>& q) const {
+    return part<0>().potential(q) + part<1>().potential(q);
+  }
+};
+NYSALT_SYSTEM(row, "masses on bonds in traps", letters<nysalt::kick_of_part<0>, nysalt::kick_of_part<1>>(),
+              parameter("masses", &row::masses, "in the row").at_least(2).size(),
+              starts([](const row& s) {
+                const Eigen::VectorXd rest = Eigen::VectorXd::Zero(s.masses);
+                return normal_around<Eigen::Dynamic>({rest, rest}, 0.02, 0.1);
+              }));
+)";
+}  // namespace
+
+// Half a turn of the fastest mode between slow kicks; eight half widths beside the tongue all is well.
+BOOST_AUTO_TEST_CASE(resonances_of_slow_kicks_are_found_by_each_command) {
+  const scratch folder("letters_resonance");
+  write(folder, "mine.hpp", charges);
+  const auto arguments = [](const std::string& command, const resonant_word& word, double half_widths,
+                            const std::string& option) {
+    return fmt::format("{} --system ./mine.hpp {} word:{} --step {:.12g} ", command, option, word.letters(),
+                       word.step(half_widths));
+  };
+  for (const int n : {2, 3, 5, 7}) {
+    for (const double half_widths : {-8.0, 0.0, 8.0}) {
+      const bool is_stable = half_widths != 0.0;
+      const auto said = document(arguments("stability", {n}, half_widths, "--method"), folder);
+      BOOST_TEST(said["linearly_stable"] == is_stable, said.dump());
+      BOOST_TEST(said["stable"] == is_stable, said.dump());
+    }
+  }
+  const std::string reason = "the linearised motion gains energy without bound";
+  for (const int n : {3, 7}) {
+    for (const double half_widths : {-8.0, 0.0, 8.0}) {
+      const bool is_stable = half_widths != 0.0;
+      const resonant_word word{n};
+      const std::string warning = fmt::format("word:{} at step", word.letters());
+      const auto is_warned = [&](const std::string& text) {
+        return text.find(warning) != std::string::npos && text.find(reason) != std::string::npos;
+      };
+      BOOST_TEST_CONTEXT(word.letters() << " at " << word.step(half_widths)) {
+        const auto ran = run(folder, arguments("run", word, half_widths, "--method") + "--horizon 1");
+        BOOST_TEST(ran.code == 0);
+        BOOST_TEST(is_warned(ran.err) == !is_stable, ran.err);
+        BOOST_TEST(ran.err.empty() == is_stable, ran.err);
+        const auto compared =
+            document(fmt::format("compare --system ./mine.hpp --methods word:{},mclachlan2 --metric state "
+                                 "--steps {:.12g} --trajectories 16 --horizon 2",
+                                 word.letters(), word.step(half_widths)),
+                     folder);
+        BOOST_TEST(is_warned(compared["warnings"].dump()) == !is_stable, compared["warnings"].dump());
+        // Of the one member that learn may take it says whether that is usable.
+        const auto learned = run(folder, arguments("learn", word, half_widths, "--family") + word.fixed() +
+                                             "--output scheme.json --json");
+        BOOST_TEST(learned.code == (is_stable ? 0 : 3), learned.err);
+        const auto found = json_of(learned);
+        BOOST_TEST(found["usable"] == is_stable, found.dump());
+        BOOST_TEST((learned.err.find(reason) != std::string::npos) == !is_stable, learned.err);
+      }
+    }
+  }
+}
+
+// What was learned beside the tongue, or for three masses, whose fastest mode is slower, is used in it: the
+// guard is asked before.
+BOOST_AUTO_TEST_CASE(resonances_between_learned_steps_and_at_another_size_are_refused) {
+  const scratch folder("letters_row");
+  write(folder, "row.hpp", row);
+  constexpr resonant_word word{7, 2.0};  // the stiffness of the traps
+  const std::string family = "--family word:" + word.letters() + " " + word.fixed();
+  const auto of = [](const std::string& command, int masses) {
+    return fmt::format("{} --system ./row.hpp --masses {} ", command, masses);
+  };
+  const auto at = [&](double half_widths) { return fmt::format("--step {:.12g} ", word.step(half_widths)); };
+  const auto learned = [&](int masses, const std::string& step, const std::string& file) {
+    const auto done = run(folder, of("learn", masses) + family + step + "--output " + file);
+    BOOST_TEST_REQUIRE(done.code == 0, done.err);
+  };
+  const std::string reason = "the linearised motion gains energy without bound";
+
+  const auto steps = fmt::format("--steps {:.12g},{:.12g},{:.12g},{:.12g} ", word.step(-16.0),
+                                 word.step(-8.0), word.step(8.0), word.step(16.0));
+  learned(4, steps, "curve.json");
+  const std::string run_curve = of("run", 4) + "--method curve.json --horizon 1 ";
+  for (const double half_widths : {-12.0, 8.0, 12.0}) {
+    const auto ran = run(folder, run_curve + at(half_widths));
+    BOOST_TEST(ran.code == 0, ran.err);
+    BOOST_TEST(ran.err == "");
+  }
+  refused(folder, run_curve + at(0.0), {"curve.json: between its learned steps", reason});
+  refused(folder,
+          of("compare", 4) +
+              fmt::format("--methods curve.json --metric state --horizon 2 --steps {:.12g}", word.step(0.0)),
+          {"curve.json: between its learned steps", reason});
+  const auto forced = run(folder, run_curve + at(0.0) + "--force");
+  BOOST_TEST(forced.code == 0, forced.err);
+  BOOST_TEST(forced.err.find(reason) != std::string::npos, forced.err);
+  BOOST_TEST(run(folder, run_curve + at(12.0) + "--force").err == "");
+
+  for (const double half_widths : {0.0, 8.0}) {
+    learned(3, at(half_widths), "small.json");
+    const auto run_small = [&](int masses, const std::string& more = "") {
+      return of("run", masses) + "--method small.json --horizon 1 " + at(half_widths) + more;
+    };
+    const auto there = run(folder, run_small(3));
+    BOOST_TEST(there.code == 0, there.err);
+    BOOST_TEST(there.err == "");
+    if (half_widths == 0.0) {
+      refused(folder, run_small(4),
+              {"small.json: it was learned at another size", "fails the trial", reason});
+      BOOST_TEST(run(folder, run_small(4, "--force")).err.find(reason) != std::string::npos);
+    } else {
+      const auto larger = run(folder, run_small(4));
+      BOOST_TEST(larger.code == 0, larger.err);
+      BOOST_TEST(larger.err.find("it passed the trial run") != std::string::npos, larger.err);
+      BOOST_TEST(larger.err.find(reason) == std::string::npos, larger.err);
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {

@@ -54,7 +54,7 @@ size_trial try_at_size(const model& system, const tabulated& method, double step
   const auto [trajectories, steps] = length_of(system, word, options.steps);
   const auto all = typical_and_energetic_starts(system, starts, options.seed, 0, trajectories);
   size_trial result;
-  const stability_guard guard(system, all, has_rotation(word), steps, std::min(all.size(), plain_starts));
+  const stability_guard guard(system, all, word, steps, std::min(all.size(), plain_starts));
   const auto objection_of = [&](met which) {
     return guard.objection(word, method.coefficients(), step, which);
   };
@@ -63,6 +63,7 @@ size_trial try_at_size(const model& system, const tabulated& method, double step
   if (!result.objection.empty()) return result;
   trial_options some = options;
   some.steps = steps;
+  some.watches_growth = guard.parts() != nullptr;
   result.run = trial_run(system, method, step, starts_of(all, trajectories), some);
   if (!result.run.not_run.empty()) {
     result.objection = fmt::format("no trial run was made: {}", result.run.not_run);
