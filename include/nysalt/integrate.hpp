@@ -59,7 +59,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
     if (next_sample == end) {
       show(end, run.synchronous());
     } else {
-      auto again = run.begin_of_stretch();
+      auto again = run.begin_of_window();
       for (std::int64_t n = next_sample; n <= last; n += every) {
         stepper.advance(again, n - again.step);  // a watched loop beside it keeps g++ from inlining the force
         show(n, stepper.synchronous(again));

@@ -50,7 +50,7 @@ struct trial_result {
 
   /// Ten times as many samples of a stationary deviation with a finite variance, or a random walk ten times
   /// as long, have a maximum larger by sqrt(10); a larger one means that the energy drifts.
-  static constexpr double stretches = 10.0;
+  static constexpr double intervals = 10.0;
 
   /// Of fewer steps the first tenth may be shorter than a period of slow motion, some hundred steps.
   static constexpr std::int64_t fewest_steps_for_drift = 5'000;
@@ -60,7 +60,7 @@ struct trial_result {
   /// Whether the energy went farther than the first tenth explains.
   bool energy_wanders() const {
     return energy_was_watched && deviation > smallest_drift * kinetic_energy &&
-           steps >= fewest_steps_for_drift && deviation > std::sqrt(stretches) * first_deviation + rounding;
+           steps >= fewest_steps_for_drift && deviation > std::sqrt(intervals) * first_deviation + rounding;
   }
   /// Some periods of fast modes and, at the steps of slow kicks, one of slow ones.
   static constexpr std::int64_t early_steps = 64;

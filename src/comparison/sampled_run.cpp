@@ -33,7 +33,7 @@ std::int64_t trajectories_at_a_time(std::int64_t numbers, int lanes, std::int64_
 }
 
 /// Step 64 k ends the interval of the multiples of its length in (64 (k - 1), 64 k].
-std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
+std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
   const std::int64_t length = std::min(asked.value_or(steps), steps);
   const std::int64_t next = (step / length + 1) * length;
   return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
@@ -63,7 +63,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
   const trajectories_plan& all = plan.trajectories;
   const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
   using batch = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
-  const std::int64_t samples = longest_stretch(all.steps, plan.stretch) / plan.every + 1;
+  const std::int64_t samples = longest_segment(all.steps, plan.segment) / plan.every + 1;
   const std::int64_t numbers = samples * std::ssize(plan.observables) + 3 * size(system);
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
@@ -84,7 +84,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
       }
     });
     for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
-      end = end_of_stretch(step, all.steps, plan.stretch);
+      end = end_of_segment(step, all.steps, plan.segment);
       const std::int64_t before = step > 0 ? step : -1;
       std::vector<record> records(static_cast<std::size_t>(shared.count()));
       for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
@@ -94,8 +94,8 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
       };
       const auto tell = [&](std::int64_t done) {
         if (!progress) return;
-        const double of_stretch = static_cast<double>(done) / static_cast<double>(shared.count());
-        const double steps = static_cast<double>(step) + of_stretch * static_cast<double>(end - step);
+        const double of_segment = static_cast<double>(done) / static_cast<double>(shared.count());
+        const double steps = static_cast<double>(step) + of_segment * static_cast<double>(end - step);
         const double of_batch = static_cast<double>(count) * steps / static_cast<double>(all.steps);
         const double of_all = static_cast<double>(first) + of_batch;
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
@@ -108,13 +108,13 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
         if (lost && *lost > before) records[i].diverged_at = lost;
       }
       shared.deliver(records, take);
-      if (!plan.stretch || end == all.steps) continue;
+      if (!plan.segment || end == all.steps) continue;
       const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
       on_first(ranks, [&] { plan.reached(at); });
     }
     first += count;
     under_way = 0;
-    if (plan.stretch) on_first(ranks, [&] { plan.reached({first, {}}); });
+    if (plan.segment) on_first(ranks, [&] { plan.reached({first, {}}); });
   }
 }
 
@@ -153,7 +153,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   sampled_plan sampled{.trajectories = plan, .observables = {}, .every = plan.steps};
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
-  sampled.stretch = short_stretch(system.dimension());
+  sampled.segment = short_segment(system.dimension());
   sampled.reached = [](const run_progress&) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());

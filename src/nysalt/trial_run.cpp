@@ -29,7 +29,7 @@ std::string trial_result::objection() const {
         "in a trial run of {} steps the energy of trajectory {} departs by {:.2g} at step {}, which is "
         "{:.2g} times the largest deviation of all trajectories in the first {} steps",
         steps, farthest.trajectory, deviation, farthest.step, deviation / first_deviation,
-        static_cast<std::int64_t>(static_cast<double>(steps) / stretches));
+        static_cast<std::int64_t>(static_cast<double>(steps) / intervals));
   }
   if (energy_grows()) {
     return fmt::format(
@@ -70,7 +70,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
   result.energy_was_watched = has_energy(system) && !system.bath().acts();
 
   const listed<Eigen::Dynamic> all(starts);
-  const auto first_stretch = static_cast<double>(options.steps) / trial_result::stretches;
+  const auto first_interval = static_cast<double>(options.steps) / trial_result::intervals;
   struct deviations {
     double initial = 0.0;
     double first = 0.0;
@@ -100,7 +100,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
     known.kinetic += numbers[1];
     known.peak = std::max(known.peak, numbers[1]);
     known.looks += 1.0;
-    if (static_cast<double>(n) <= first_stretch) known.first = std::max(known.first, departure);
+    if (static_cast<double>(n) <= first_interval) known.first = std::max(known.first, departure);
     if (departure <= known.largest) return;
     known.largest = departure;
     known.at = n;

@@ -73,14 +73,14 @@ std::string key_entry(const panel& plot, std::size_t j) {
   return result + " title " + quoted(one.label);
 }
 
-std::string look_of_stretches(std::size_t label) {
+std::string style_of_intervals(std::size_t label) {
   if (label == 0) return "fc '#dcebdc' fs solid 1 noborder";
   return "fc '#56B4E9' fs transparent solid 0.5 border lc '#0072B2'";
 }
 
-std::vector<std::string> labels_of_stretches(const panel& plot) {
+std::vector<std::string> labels_of_intervals(const panel& plot) {
   std::vector<std::string> labels;
-  for (const auto& one : plot.stretches) {
+  for (const auto& one : plot.intervals) {
     if (std::find(labels.begin(), labels.end(), one.label) == labels.end()) labels.push_back(one.label);
   }
   return labels;

@@ -30,9 +30,9 @@ std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std:
 std::string key_entry(const panel& plot, std::size_t j);
 
 /// The style of the bands of a label: the first light and without a border, the next dark with one.
-std::string look_of_stretches(std::size_t label);
+std::string style_of_intervals(std::size_t label);
 
 /// Numbers of labels, in the order of their first bands.
-std::vector<std::string> labels_of_stretches(const panel& plot);
+std::vector<std::string> labels_of_intervals(const panel& plot);
 
 }  // namespace nysalt::detail

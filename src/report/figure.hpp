@@ -28,7 +28,7 @@ struct level {
 
 /// A part of the x axis, shaded over the whole height. Those of one label have one colour, and one entry in
 /// the key.
-struct stretch {
+struct shaded_interval {
   std::string label;  ///< name in the key
   double low;         ///< where it begins, on the x axis
   double high;        ///< where it ends
@@ -46,7 +46,7 @@ struct panel {
   bool linear_x = false;             ///< where log_log would be, of a time
   bool points = false;               ///< where axes are plain: points with bars as well as lines
   std::vector<level> levels{};       ///< lines to compare with
-  std::vector<stretch> stretches{};  ///< shaded parts, behind all else
+  std::vector<shaded_interval> intervals{};  ///< shaded parts, behind all else
 };
 
 /// A picture of one panel or of several; draw() makes files of it.

@@ -59,7 +59,7 @@ bool same(const autocovariance_sums& a, const autocovariance_sums& b) {
 
 }  // namespace
 
-// As many samples as may be, and a few more: whole stretches and rests, barely more samples than lags.
+// As many samples as may be, and a few more: whole intervals and rests, barely more samples than lags.
 BOOST_AUTO_TEST_CASE(sums_are_those_of_the_definition) {
   for (const int lags : {1, 3, 8, 20}) {
     for (const int samples : {lags + 1, lags + 2, lags + 7, lags + 8, 100}) {

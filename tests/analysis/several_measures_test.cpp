@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(a_measure_in_trouble_is_named) {
       refuses<std::runtime_error>([&] { judge(no_number); }, {"trajectory 0 ", "path error", "step 1"}));
 }
 
-// 1e9 numbers are the most. Of 1 method and 2 references, stretches of 64 samples in all lanes hold 6e8 with
+// 1e9 numbers are the most. Of 1 method and 2 references, intervals of 64 samples in all lanes hold 6e8 with
 // one measure of this width, and 1.2e9 with two.
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   error_measure wide = state_measure(chain);

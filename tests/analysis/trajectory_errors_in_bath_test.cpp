@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(the_noise_is_common) {
   BOOST_TEST(together.reference.starts_with("baoab with step"));
 }
 
-// 150 steps are three stretches, of which the path is kept one at a time.
+// 150 steps are three intervals, of which the path is kept one at a time.
 BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
   const trajectory_options options{.step = 0.12, .steps = 150, .trajectories = 21, .seed = 7};
   const fine_paths reference(0.02);

@@ -195,13 +195,13 @@ BOOST_AUTO_TEST_CASE(a_relative_error_needs_an_observable_of_one_sign) {
         judge({law(1, 0), left}, far);
       },
       {"relative error", "changes its sign", "path error"}));
-  const auto stretch = [](const state& x) { return x.q[1] - x.q[0]; };
+  const auto elongation = [](const state& x) { return x.q[1] - x.q[0]; };
   trajectory_options longer{.step = .002, .steps = 100, .trajectories = 1};
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, stretch), longer); },
+      [&] { trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, elongation), longer); },
       {"relative error", "changes its sign"}));
   BOOST_CHECK_NO_THROW(
-      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, stretch), longer));
+      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, elongation), longer));
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_second_order_fall_by_four_with_the_step) {

@@ -53,7 +53,7 @@ class autocovariance_along {
     if (!std::isfinite(centre)) {
       throw std::invalid_argument(sentence("autocovariance: the centre must be finite, got {}", centre));
     }
-    window_.assign(lags_ + stretch, T(0.0));  // zeros before the first sample make no pairs and add nothing
+    window_.assign(lags_ + samples_at_a_time, T(0.0));  // zeros before the first sample make no pairs and add nothing
     first_.reserve(lags_);
     products_.assign(lags_ + 1, T(0.0));
   }
@@ -65,7 +65,7 @@ class autocovariance_along {
     total_ += y;
     window_[lags_ + waiting_] = y;
     samples_ += 1.0;
-    if (++waiting_ == stretch) add_waiting(std::integral_constant<std::size_t, stretch>());
+    if (++waiting_ == samples_at_a_time) add_waiting(std::integral_constant<std::size_t, samples_at_a_time>());
   }
 
   /// The sums of lane k. Throws std::invalid_argument unless there are more samples than lags.
@@ -87,7 +87,7 @@ class autocovariance_along {
   }
 
  private:
-  static constexpr std::size_t stretch = 8;  // samples at a time, so that a lag's sum stays in its register
+  static constexpr std::size_t samples_at_a_time = 8;  // samples at a time, so that a lag's sum stays in its register
 
   template <class Count>
   void add_waiting(Count count) {

@@ -86,7 +86,7 @@ class lockstep {
   std::int64_t step() const { return run_.step; }              ///< at which all are
   const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
   /// The run at the last check.
-  const open_run<T, dimension>& begin_of_stretch() const { return good_; }
+  const open_run<T, dimension>& begin_of_window() const { return good_; }
   /// The states at that step. Of lanes that diverged nothing is known but when; of a single one it is the
   /// first bad state.
   state synchronous() const { return stepper_->synchronous(run_); }

@@ -59,9 +59,9 @@ plane_covariance<T> carried(const plane_map<T>& M, const plane_covariance<T>& C)
 /// by 1/(gamma h), and of the rest by no more than 1/(1 - |trace S|/2).
 template <Scalar T>
 plane_covariance<T> excess_of_turn(const plane_map<T>& S) {
-  const T stretch = S.xx - S.yy;
+  const T difference = S.xx - S.yy;
   const T shear = S.xy + S.yx;
-  const T sum = stretch * stretch + shear * shear;
+  const T sum = difference * difference + shear * shear;
   const T difference = (S.xx * S.xx - S.yy * S.yy) + (S.xy * S.xy - S.yx * S.yx);
   return {(sum + difference) * 0.5, S.xx * S.yx + S.xy * S.yy, (sum - difference) * 0.5};
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <type_traits>
 
-#include "nysalt/losses/stretch_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 namespace nysalt {
 
@@ -78,7 +78,7 @@ using scalar_of_passes =
 template <class R = void, SeparableSystem S, class Error>
 auto own_error(const S& system, const Error& error) {
   using scalar = std::conditional_t<std::is_void_v<R>, scalar_of_passes<S>, R>;
-  using C = typename stretch_error<scalar>::scalar;
+  using C = typename window_error<scalar>::scalar;
   using point = phase_point<C, S::dimension>;
   constexpr bool is_asked_so = std::invocable<const Error&, const point&, const point&, const point&>;
   static_assert(is_asked_so,
@@ -101,7 +101,7 @@ auto own_error(const S& system, const Error& error) {
       if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
     }
     const auto own = [](const auto& x) { return point{x.q, x.p}; };
-    return stretch_error<scalar>{
+    return window_error<scalar>{
         .residuals = count,
         .of =
             [error, count, own](const auto& start, const auto& finish, const auto& wanted, C* r) {

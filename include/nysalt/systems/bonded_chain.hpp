@@ -29,8 +29,8 @@ class stiff_bonds {
   T potential(const vector<T, N>& q) const {
     T sum(0.0);
     for (int i = 0; i + 1 < N; ++i) {
-      const T stretch = q[i + 1] - q[i];
-      sum += stretch * stretch;
+      const T elongation = q[i + 1] - q[i];
+      sum += elongation * elongation;
     }
     return sum * (0.5 * omega_ * omega_);
   }

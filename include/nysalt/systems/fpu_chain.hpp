@@ -47,8 +47,8 @@ class fpu_chain {
     T soft(0.0);
     T bond = q[0];
     for (Eigen::Index i = 0; i < pairs(); ++i) {
-      const T stretch = q[2 * i + 1] - q[2 * i];
-      stiff += stretch * stretch;
+      const T elongation = q[2 * i + 1] - q[2 * i];
+      stiff += elongation * elongation;
       soft += fourth_power(bond);
       bond = i + 1 < pairs() ? q[2 * i + 2] - q[2 * i + 1] : -q[2 * i + 1];
     }
@@ -86,13 +86,13 @@ class fpu_chain {
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
     const double k = 0.5 * omega_ * omega_;
-    const auto stretch = [&](const vector<T, dimension>& x, Eigen::Index i) {
+    const auto elongation = [&](const vector<T, dimension>& x, Eigen::Index i) {
       return i + 1 < pairs() ? T(x[2 * i + 2] - x[2 * i + 1]) : T(-x[2 * i + 1]);
     };
     T left = slope_of_pull(q[0], v[0]);
     for (Eigen::Index i = 0; i < pairs(); ++i) {
       const T stiff = (v[2 * i + 1] - v[2 * i]) * k;
-      const T right = slope_of_pull(stretch(q, i), stretch(v, i));
+      const T right = slope_of_pull(elongation(q, i), elongation(v, i));
       g[2 * i] = stiff - left;
       g[2 * i + 1] = right - stiff;
       left = right;
@@ -164,8 +164,8 @@ class fpu_chain {
     T stiff(0.0);
     T soft(0.0);
     for (Eigen::Index i = begin; i < end; ++i) {
-      const T stretch = q(1, i) - q(0, i);
-      stiff += stretch * stretch;
+      const T elongation = q(1, i) - q(0, i);
+      stiff += elongation * elongation;
       soft += fourth_power(i > 0 ? T(q(0, i) - q(1, i - 1)) : q(0, i));
     }
     if (end == pairs()) soft += fourth_power(T(-q(1, end - 1)));
@@ -176,9 +176,9 @@ class fpu_chain {
   /// [li_lu_tao_ye_2023, equation (5.4)].
   template <class T>
   T stiff_energy(const phase_point<T, dimension>& x, Eigen::Index j) const {
-    const T stretch = x.q[2 * j + 1] - x.q[2 * j];
+    const T elongation = x.q[2 * j + 1] - x.q[2 * j];
     const T rate = x.p[2 * j + 1] - x.p[2 * j];
-    return (rate * rate + stretch * stretch * (omega_ * omega_)) * 0.25;
+    return (rate * rate + elongation * elongation * (omega_ * omega_)) * 0.25;
   }
   /// I = sum_j I_j, an adiabatic invariant.
   template <class T>

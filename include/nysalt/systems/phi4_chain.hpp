@@ -39,9 +39,9 @@ class phi4_chain {
     T springs(0.0);
     T wells(0.0);
     for (Eigen::Index i = 0; i < size(); ++i) {
-      const T stretch = q[next(i)] - q[i];
+      const T elongation = q[next(i)] - q[i];
       const T square = q[i] * q[i];
-      springs += stretch * stretch;
+      springs += elongation * elongation;
       wells += square * square;
     }
     return springs * 0.5 + wells * 0.25;
@@ -80,9 +80,9 @@ class phi4_chain {
     T springs(0.0);
     T wells(0.0);
     for (Eigen::Index i = begin; i < end; ++i) {
-      const T stretch = q(0, i + 1) - q(0, i);
+      const T elongation = q(0, i + 1) - q(0, i);
       const T square = q(0, i) * q(0, i);
-      springs += stretch * stretch;
+      springs += elongation * elongation;
       wells += square * square;
     }
     return springs * 0.5 + wells * 0.25;

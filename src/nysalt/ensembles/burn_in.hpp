@@ -68,14 +68,14 @@ class burn_in_search {
 
   /// Chains that are watched for 32 times what they remember, after as long a time unwatched; nothing where
   /// that would take longer than `most`.
-  std::optional<watched_stretch> stationary(double friction, double step, int count, double most) {
+  std::optional<watched_interval> stationary(double friction, double step, int count, double most) {
     constexpr std::int64_t looks = 256;
     auto chains = pilot(friction, step, count);
     chains.watch(looks, looks);
     for (std::int64_t every = 1; 2 * every * looks <= options_.most_steps; every *= 2) {
-      const auto stretch = chains.watch(2 * every * looks, every);
-      if (stretch.duration >= 32.0 * stretch.tau()) return stretch;
-      if (stretch.duration > 32.0 * most) return std::nullopt;
+      const auto interval = chains.watch(2 * every * looks, every);
+      if (interval.duration >= 32.0 * interval.tau()) return interval;
+      if (interval.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(
         sentence("gibbs: no stationary state of {} within {} steps of {} with the friction {}: give another "
@@ -90,10 +90,10 @@ class burn_in_search {
     double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
     for (const double part : {1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0 / 256}) {
-      const auto stretch = stationary(part * omega, step, std::min(64, options_.pilots), least);
-      if (!stretch || stretch->tau() >= least) continue;
+      const auto interval = stationary(part * omega, step, std::min(64, options_.pilots), least);
+      if (!interval || interval->tau() >= least) continue;
       best = part * omega;
-      least = stretch->tau();
+      least = interval->tau();
     }
     return best;
   }

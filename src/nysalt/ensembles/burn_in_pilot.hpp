@@ -14,7 +14,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "watched_stretch.hpp"
+#include "watched_interval.hpp"
 
 namespace nysalt {
 
@@ -57,8 +57,8 @@ class burn_in_pilot {
   }
 
   /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
-  watched_stretch watch(std::int64_t end, std::int64_t every) {
-    watched_stretch result;
+  watched_interval watch(std::int64_t end, std::int64_t every) {
+    watched_interval result;
     const auto chains = static_cast<std::size_t>(count_);
     for (auto* numbers : {&result.begin, &result.mean, &result.square})
       numbers->fill(std::vector<double>(chains));
@@ -107,7 +107,7 @@ class burn_in_pilot {
   }
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
-              watched_stretch& result) {
+              watched_interval& result) {
     of_watched<T> begin;
     of_watched<T> sum;
     of_watched<T> squares;

@@ -30,7 +30,7 @@ namespace {
 void require_room(const run_command& command, std::int64_t steps, bool whole_document, int threads) {
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
-  const std::int64_t at_once = longest_stretch(steps, command.every);
+  const std::int64_t at_once = longest_segment(steps, command.every);
   const auto samples = static_cast<double>(at_once / command.sample_every + 1);
   const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
@@ -88,9 +88,9 @@ void require_files(const run_command& command) {
 }
 
 /// Steps between two checks for a signal, some seconds, where there is a checkpoint to make then.
-std::optional<std::int64_t> stretch_of(const run_command& command, std::int64_t dimension) {
+std::optional<std::int64_t> segment_of(const run_command& command, std::int64_t dimension) {
   if (!command.every) return std::nullopt;
-  return std::min(*command.every, 10 * short_stretch(dimension));
+  return std::min(*command.every, 10 * short_segment(dimension));
 }
 
 /// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
@@ -169,7 +169,7 @@ int run(const run_command& asked, const common_settings& common) {
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every,
-                         stretch_of(command, system.dimension())};
+                         segment_of(command, system.dimension())};
     on_first(all_ranks(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");

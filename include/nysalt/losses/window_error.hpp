@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "nysalt/losses/stretches_in_lanes.hpp"
+#include "nysalt/losses/windows_in_lanes.hpp"
 
 namespace nysalt {
 
@@ -13,7 +13,7 @@ namespace nysalt {
 /// The kind is no part of the type, as a pass over the data is expensive to compile: one serves all kinds. It
 /// calls `of` once for each pack of windows and each two parameters, which costs little beside their steps.
 template <Scalar R = detail::lanes>
-struct stretch_error {
+struct window_error {
   using scalar = dual<R, directions_at_a_time>;       ///< residuals with their derivatives
   using data_point = phase_point<R, Eigen::Dynamic>;  ///< states of the data, in the lanes of R
   using point = phase_point<scalar, Eigen::Dynamic>;  ///< a state that the method comes to
