@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
 BOOST_AUTO_TEST_CASE(an_exact_flow_is_of_no_bath) {
   const in_bath oscillator(harmonic_oscillator(1.0), bath::of_sigma(0.1, 0.0));
   BOOST_TEST(refuses<wrong>([&] { exact_linear{oscillator}; }, {"exact_linear", "in a bath"}));
-  const exact_linear of_the_alone(oscillator.alone());
+  const exact_linear of_the_alone(oscillator.base());
   const listed<1> starts({{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
   const auto make = [&] {
     make_flow_map_data(oscillator, starts, of_the_alone, {.step = 0.1, .trajectories = 1});

@@ -34,7 +34,7 @@ struct seen {
 };
 
 template <class S>
-seen by(const S& system, int threads, const communicator& ranks = alone) {
+seen by(const S& system, int threads, const communicator& ranks = one_rank) {
   seen result;
   const ensemble_options options{
       .trajectories = trajectories, .steps = steps, .every = every, .threads = threads, .ranks = &ranks};

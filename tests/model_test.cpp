@@ -488,14 +488,14 @@ BOOST_AUTO_TEST_CASE(a_model_keeps_a_copy_of_its_system) {
 BOOST_AUTO_TEST_CASE(alone_a_system_is_without_its_bath) {
   const auto warm = a_warm_fpu::make();
   const model coupled(warm);
-  const model alone = coupled.alone();
+  const model alone = coupled.base();
   BOOST_TEST(coupled.bath().acts());
   BOOST_TEST(!alone.bath().acts());
-  BOOST_TEST(describe(alone) == describe(warm.alone()));
+  BOOST_TEST(describe(alone) == describe(warm.base()));
   BOOST_TEST(describe(coupled) == describe(warm));
   draws random;
   const auto starts = starts_of<a_warm_fpu>(random);
   const tabulated method{verlet()};
   BOOST_TEST((numbers_of_run<lanes>(alone, method, 0.05, starts, no_noise()) ==
-              numbers_of_run<lanes>(warm.alone(), method, 0.05, starts, no_noise())));
+              numbers_of_run<lanes>(warm.base(), method, 0.05, starts, no_noise())));
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "support/ranks_as_threads.hpp"
 
 using namespace nysalt;

@@ -39,7 +39,7 @@ class communicator {
   virtual void meet() const = 0;
 
   bool is_first() const { return rank() == 0; }  ///< whether this is rank 0
-  bool is_alone() const { return size() == 1; }  ///< whether there are no others
+  bool is_single() const { return size() == 1; }  ///< whether there are no others
 };
 
 /// A value that is its bytes, from one rank to all.

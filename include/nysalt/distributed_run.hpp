@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 
@@ -35,11 +35,11 @@ class distributed_run {
   /// processed, if the step is zero or not finite, if a start is not finite, or if there are more ranks than
   /// the sites can be shared by.
   distributed_run(const model& system, const tabulated& method, double step, const start& at,
-                  const communicator& ranks = alone);
+                  const communicator& ranks = one_rank);
   /// The same of any other method.
   template <Method M>
   distributed_run(const model& system, const M& method, double step, const start& at,
-                  const communicator& ranks = alone)
+                  const communicator& ranks = one_rank)
       : distributed_run(system, detail::table_for(method, system, step), step, at, ranks) {}
   ~distributed_run();
   distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state

@@ -79,7 +79,7 @@ class ensemble_run {
       const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - first));
       detail::one_after_the_other<Take> hand_over(take, first_ + first, size, width_of_numbers);
       const auto at = static_cast<std::size_t>(b);
-      if (!starts_.empty()) detail::look_at_starts(starts_[at], size, width_of_numbers, read, hand_over);
+      if (!starts_.empty()) detail::observe_starts(starts_[at], size, width_of_numbers, read, hand_over);
       blocks_[at]->go_on(end, every, width_of_numbers, read, hand_over);
     };
     const auto all = static_cast<std::int64_t>(blocks_.size());

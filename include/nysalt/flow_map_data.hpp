@@ -86,7 +86,7 @@ struct data_options {
   std::int64_t first = 0;              ///< number of the first trajectory: which start and which noise it has
   int noise_parts = 0;                 ///< equal parts of a step in which noise is kept, for letters O
   int threads = 1;                     ///< changes no bit of the data
-  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit either
+  const communicator* ranks = &one_rank;  ///< who share the trajectories; changes no bit either
   /// Called after some trajectories with the number done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
@@ -43,7 +43,7 @@ struct hmc_options {
   int threads = 1;         ///< changes no bit
   std::function<void(std::int64_t done)> progress =
       {};                              ///< trajectories of all chains; never two calls at once
-  const communicator* ranks = &alone;  ///< who share the chains; changes no bit
+  const communicator* ranks = &one_rank;  ///< who share the chains; changes no bit
   std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called
   std::function<void(const hmc_state&)> keep =
       {};                           ///< at every rank, after all draws of the trajectories so far were taken

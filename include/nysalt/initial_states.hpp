@@ -34,10 +34,10 @@ class initial_states {
       return {x.q, x.p};
     };
     if constexpr (requires { ensemble.size(); }) size_ = static_cast<std::int64_t>(ensemble.size());
-    if constexpr (requires { ensemble.is_dear(); }) is_dear_ = ensemble.is_dear();
+    if constexpr (requires { ensemble.is_expensive(); }) is_expensive_ = ensemble.is_expensive();
     using T = scalar_of_lanes<default_lanes>;
     if constexpr (requires { ensemble.template block<T>(std::uint64_t{}, std::int64_t{}, int{}); }) {
-      is_dear_ = true;
+      is_expensive_ = true;
       several_ = [ensemble](std::uint64_t seed, std::int64_t first, int count) {
         std::vector<state> result;
         const auto all = ensemble.template block<T>(seed, first, count);
@@ -65,14 +65,14 @@ class initial_states {
   }
   bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
   const std::string& description() const { return text_; }   ///< that of the ensemble
-  bool is_dear() const { return is_dear_; }    ///< whether a state takes a simulation of its own
+  bool is_expensive() const { return is_expensive_; }    ///< whether a state takes a simulation of its own
   std::int64_t size() const { return size_; }  ///< how many there are
 
  private:
   std::function<state(std::uint64_t, std::uint64_t)> at_;
   std::function<std::vector<state>(std::uint64_t, std::int64_t, int)> several_;
   std::string text_;
-  bool is_dear_ = false;
+  bool is_expensive_ = false;
   std::int64_t size_ = std::numeric_limits<std::int64_t>::max();
 };
 

@@ -74,8 +74,8 @@ template <class Stepper>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       const phase_point<double, Stepper::dimension>& start,
                                       std::int64_t steps) {
-  const auto nobody = [](auto&&...) {};
-  return integrate(stepper, start, steps, nobody, std::max<std::int64_t>(steps, 1));
+  const auto no_observer = [](auto&&...) {};
+  return integrate(stepper, start, steps, no_observer, std::max<std::int64_t>(steps, 1));
 }
 
 /// The same for a method at a step. For many trajectories make the stepper once.

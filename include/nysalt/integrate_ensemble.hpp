@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
@@ -32,7 +32,7 @@ struct ensemble_options {
   int threads = 1;                                       ///< changes no bit
   std::int64_t first = 0;                                ///< number of the first trajectory
   std::function<void(std::int64_t done)> progress = {};  ///< after each block; never two calls at once
-  const communicator* ranks = &alone;                    ///< who share the trajectories; changes no bit
+  const communicator* ranks = &one_rank;                    ///< who share the trajectories; changes no bit
 };
 
 namespace detail {
@@ -71,7 +71,7 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
     const auto take = [&](std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
       visitor.take(n, seen, live);
     };
-    look_at_starts(start, count, width, read, take);
+    observe_starts(start, count, width, read, take);
     with_own_system(stepper, [&](const Stepper& own) {
       lockstep<Stepper, T> run(own, start, count, first);
       run.go_on(options.steps, options.every, width, read, take);

@@ -40,7 +40,7 @@ class model {
   model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(detail::erased(system)),
         facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))),
-        kind_alone_(detail::kind_without_bath(system)) {
+        base_kind_(detail::kind_without_bath(system)) {
     detail::library_is_compiled_for<default_lanes>();
   }
 
@@ -48,13 +48,13 @@ class model {
   const std::string& description() const { return facts_->description; }  ///< the system's
   /// The description without the size, see kind_of().
   std::string kind() const {
-    return facts_->in.acts() ? kind_alone_ + " in " + facts_->in.description() : kind_alone_;
+    return facts_->in.acts() ? base_kind_ + " in " + facts_->in.description() : base_kind_;
   }
   const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
   /// The system without its bath.
-  model alone() const {
+  model base() const {
     auto facts = std::make_shared<detail::model_facts>(*facts_);
-    facts->description = facts->description_alone;
+    facts->description = facts->base_description;
     facts->in = nysalt::bath::of_sigma(0.0, 0.0);
     model result = *this;
     result.facts_ = std::move(facts);
@@ -63,10 +63,10 @@ class model {
   }
   /// The system in another bath; its frequency_bands() are those that it has without one.
   model in(const nysalt::bath& other) const {
-    model result = alone();
+    model result = base();
     auto facts = std::make_shared<detail::model_facts>(*result.facts_);
     facts->in = other;
-    if (other.acts()) facts->description = facts->description_alone + " in " + other.description();
+    if (other.acts()) facts->description = facts->base_description + " in " + other.description();
     result.facts_ = std::move(facts);
     return result;
   }
@@ -174,7 +174,7 @@ class model {
 
   std::shared_ptr<const detail::any_system> system_;
   std::shared_ptr<const detail::model_facts> facts_;
-  std::string kind_alone_;  // without a bath
+  std::string base_kind_;  // without a bath
   bool is_in_bath_ = true;
   int threads_ = 1;
 };

@@ -253,19 +253,19 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       }
     }
     initial_value_problem made = [&] {
-      constexpr bool tells_kind = requires(const S& s) {
+      constexpr bool declares_kind = requires(const S& s) {
         { s.kind() } -> std::convertible_to<std::string>;
       };
       if constexpr (detail::TellsDescription<S>) {
-        if (tells_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
+        if (declares_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
       }
       const std::string text = detail::TellsDescription<S> ? describe(system) : name + "(" + listed + ")";
       std::string kind = has_size ? name + "(" + listed_of_kind + ")" : text;
-      if constexpr (tells_kind) kind = system.kind();
+      if constexpr (declares_kind) kind = system.kind();
       return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
-    const std::string bare = made.system.alone().description();
+    const std::string bare = made.system.base().description();
     std::apply([&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); },
                all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";

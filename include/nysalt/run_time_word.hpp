@@ -99,10 +99,10 @@ class run_time_word {
       throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
-    if (merges) evaluations_to_look = facts_at(0).displaced_forces;  // once a run and look, not in each step
+    if (merges) evaluations_to_observe = facts_at(0).displaced_forces;  // once a run and look, not in each step
     evaluations_per_step =
-        plan_.count(plan_.in_loop) + force_derivatives + displaced_forces - evaluations_to_look;
-    evaluations_to_open = (plan_.is_known_when_open ? 1 : 0) + evaluations_to_look;
+        plan_.count(plan_.in_loop) + force_derivatives + displaced_forces - evaluations_to_observe;
+    evaluations_to_open = (plan_.is_known_when_open ? 1 : 0) + evaluations_to_observe;
     evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives + displaced_forces;
     kernel_slots = slots;
     if (is_processed()) take_processor();
@@ -158,7 +158,7 @@ class run_time_word {
   int evaluations_to_open;       ///< force evaluations to open a run, those of P(h)^-1 among them
   /// Force evaluations for each time that a run is looked at: of P(-h), or of a first letter that is taken
   /// back and evaluates forces itself.
-  int evaluations_to_look = 0;
+  int evaluations_to_observe = 0;
   int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
 
  private:
@@ -187,9 +187,9 @@ class run_time_word {
           letters_));
     }
     slots += letters.size();
-    evaluations_to_look = static_cast<int>(std::count(letters.begin(), letters.end(), 'B'));
-    evaluations_to_open += evaluations_to_look;
-    evaluations_of_plain_step += 2 * evaluations_to_look;
+    evaluations_to_observe = static_cast<int>(std::count(letters.begin(), letters.end(), 'B'));
+    evaluations_to_open += evaluations_to_observe;
+    evaluations_of_plain_step += 2 * evaluations_to_observe;
   }
 
   /// The known letters of which `is_meant` holds.

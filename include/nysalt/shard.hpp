@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
@@ -30,7 +30,7 @@ std::span<double> numbers_in(Matrix& term) {
 class shard {
  public:
   /// The share that this rank has of `total` trajectories.
-  explicit shard(std::int64_t total, const communicator& ranks = alone);
+  explicit shard(std::int64_t total, const communicator& ranks = one_rank);
 
   std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
   std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
@@ -49,7 +49,7 @@ class shard {
   template <class T>
   T sum(const std::vector<T>& terms, const T& zero) const {
     require_length(std::ssize(terms), count());
-    if (ranks_->is_alone()) return tree_sum(terms);
+    if (ranks_->is_single()) return tree_sum(terms);
     std::vector<T> nodes = detail::sums_of_leaves(std::span<const T>(terms));
     for (int k = 0; k < level_; ++k) detail::add_neighbours(nodes);
     T result = up_the_tree(std::move(nodes), zero);

@@ -116,11 +116,11 @@ class stepper {
     run.step += steps;
   }
 
-  /// The same, watched: calls look(n, x) with the synchronous state at each step n that `every` divides. The
-  /// run stays in a local copy, and looking does not change it. Cost: the word's evaluations_to_look each
+  /// The same, watched: calls observe(n, x) with the synchronous state at each step n that `every` divides. The
+  /// run stays in a local copy, and looking does not change it. Cost: the word's evaluations_to_observe each
   /// time.
-  template <Scalar T, class Look>
-  void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
+  template <Scalar T, class Observe>
+  void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Observe&& observe) const {
     if (steps < 0 || every < 1) {
       throw std::invalid_argument(
           sentence("a run cannot advance by {} steps, watched every {}", steps, every));
@@ -137,7 +137,7 @@ class stepper {
       if constexpr (ErasedSystem<S>) {
         std::int64_t next = (step / every + 1) * every;
         return letters.advance(system, x, y, steps, next - step, every, cursor, [&] {
-          look(next, static_cast<const phase_point<T, dimension>&>(y));
+          observe(next, static_cast<const phase_point<T, dimension>&>(y));
           next += every;
         });
       }
@@ -148,7 +148,7 @@ class stepper {
         if (step % every != 0) continue;
         y = x;
         all.close(system, y, cursor);
-        look(step, static_cast<const phase_point<T, dimension>&>(y));
+        observe(step, static_cast<const phase_point<T, dimension>&>(y));
       }
     });
     run.state = std::move(x);
@@ -156,7 +156,7 @@ class stepper {
   }
 
   /// The state at the run's step, as a copy: looking does not change the run. Cost: the word's
-  /// evaluations_to_look, which only a processed word has.
+  /// evaluations_to_observe, which only a processed word has.
   template <Scalar T>
   phase_point<T, dimension> synchronous(const open_run<T, dimension>& run) const {
     if (is_processed_ && run.step == 0) return {run.state.q, run.state.p};
@@ -203,13 +203,13 @@ class stepper {
     return result;
   }
 
-  /// A run from x (whose f is scratch) that calls look(k) after each number after[k] of steps, which rise,
+  /// A run from x (whose f is scratch) that calls observe(k) after each number after[k] of steps, which rise,
   /// with the synchronous state in y: what losses over several steps differentiate. Its noise is that of
   /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, as many times its
-  /// evaluations_per_step as there are steps, and its evaluations_to_look each time.
-  template <SteppedBy<C> T, class Look>
+  /// evaluations_per_step as there are steps, and its evaluations_to_observe each time.
+  template <SteppedBy<C> T, class Observe>
   void run(flow_state<T, dimension>& x, flow_state<T, dimension>& y, std::span<const int> after,
-           std::uint64_t trajectory, Look&& look) const {
+           std::uint64_t trajectory, Observe&& observe) const {
     auto cursor = cursor_at<T>(trajectory, 0);
     with_letters([&](const auto& letters) {
       letters.open(*system_, x, cursor);
@@ -219,7 +219,7 @@ class stepper {
         done = after[k];
         y = x;
         letters.close(*system_, y, cursor);
-        look(k);
+        observe(k);
       }
     });
   }

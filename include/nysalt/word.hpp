@@ -17,7 +17,7 @@ namespace nysalt {
 
 /// What a letter does about force(q) before it acts: nothing, as it does not read it or finds it at hand; or
 /// it evaluates it, for itself alone, so that it need not be stored, or for later letters too.
-enum class evaluation { none, alone, shared };
+enum class evaluation { none, unshared, shared };
 
 namespace detail {
 
@@ -66,7 +66,7 @@ struct evaluation_plan {
   static constexpr bool find_needed(const auto& reads, Evaluations& found, std::size_t first, bool needed) {
     for (std::size_t i = reads.size(); i-- > first;) {
       if (!reads[i]) continue;
-      if (found[i] != evaluation::none) found[i] = needed ? evaluation::shared : evaluation::alone;
+      if (found[i] != evaluation::none) found[i] = needed ? evaluation::shared : evaluation::unshared;
       needed = found[i] == evaluation::none;
     }
     return needed;
@@ -153,7 +153,7 @@ struct word {
   /// Those to open a run.
   static constexpr int evaluations_to_open = (plan.is_known_when_open ? 1 : 0) + displaced_forces_to_open;
   /// Those each time that a run is looked at: of the first letter, which is taken back on a copy.
-  static constexpr int evaluations_to_look = displaced_forces_to_open;
+  static constexpr int evaluations_to_observe = displaced_forces_to_open;
   /// Those of a plain step, which begins with q and p alone.
   static constexpr int evaluations_of_plain_step =
       plan.count(plan.in_step) + force_derivatives + displaced_forces;

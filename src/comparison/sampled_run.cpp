@@ -92,7 +92,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
         auto& of_one = records[static_cast<std::size_t>(m - shared.first())].values;
         of_one.insert(of_one.end(), values.begin(), values.end());
       };
-      const auto tell = [&](std::int64_t done) {
+      const auto report_progress = [&](std::int64_t done) {
         if (!progress) return;
         const double of_segment = static_cast<double>(done) / static_cast<double>(shared.count());
         const double steps = static_cast<double>(step) + of_segment * static_cast<double>(end - step);
@@ -101,7 +101,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
       together(ranks, [&] {
-        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, tell);
+        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, report_progress);
       });
       for (std::size_t i = 0; i < records.size(); ++i) {
         const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));

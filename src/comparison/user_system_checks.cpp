@@ -75,8 +75,8 @@ double frequency_of(const initial_value_problem& made, const std::string& name) 
 }  // namespace
 
 bool is_plain_name(std::string_view name) {
-  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
-  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
+  const auto is_allowed = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
+  return !name.empty() && std::ranges::all_of(name, is_allowed) && name.front() >= 'a';
 }
 
 void examine(initial_value_problem& made, const std::string& name) {

@@ -82,7 +82,7 @@ struct distributed_run::parts {
     const auto most =
         std::min<std::int64_t>(window->kicks_of_sweep(), count / std::max<Eigen::Index>(layout.reach, 1));
     kicks_of_sweep = static_cast<int>(
-        among.least(among.is_alone() && !layout.is_periodic ? window->kicks_of_sweep() : most));
+        among.least(among.is_single() && !layout.is_periodic ? window->kicks_of_sweep() : most));
     const auto numbers = static_cast<Eigen::Index>(layout.components) * count;
     run.state = {{Eigen::VectorXd(numbers), Eigen::VectorXd(numbers)}, Eigen::VectorXd::Zero(numbers)};
   }

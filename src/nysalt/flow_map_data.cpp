@@ -158,7 +158,7 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
 /// What is counted and seen at one rank becomes that of all.
 void add_up(flow_map_data& data) {
   const shard all = data.share();
-  if (all.ranks().is_alone()) return;
+  if (all.ranks().is_single()) return;
   data.evaluations = all.ranks().total(data.evaluations);
   if (!data.energies) return;
   for (const energy_range& seen : in_order_of_ranks(all.ranks(), *data.energies)) {
@@ -232,7 +232,7 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
                                  const data_options& options) {
   const auto began = std::chrono::steady_clock::now();
   steps_of_each(options, size(system));
-  if (options.noise_parts > 0 && !reference->tells_noise()) {
+  if (options.noise_parts > 0 && !reference->gives_noise()) {
     throw std::invalid_argument(fmt::format(
         "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference->description()));
   }
@@ -243,7 +243,7 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
   });
   add_up(data);
   data.further_starts = find_further_starts(system, ensemble, options);
-  if (options.ranks->is_alone()) data.shared.reset();
+  if (options.ranks->is_single()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);
   data.ensemble = ensemble.description();
@@ -285,7 +285,7 @@ void extend_data(const model& system, const initial_states& ensemble,
   data.further_starts = find_further_starts(system, ensemble, options);
   data.evaluations += further.evaluations;
   data.shared.reset();
-  if (!all.ranks().is_alone()) {
+  if (!all.ranks().is_single()) {
     data.shared = shared_pairs{all, static_cast<std::size_t>(all.first() * steps),
                                static_cast<std::size_t>(all.total() * steps)};
   }

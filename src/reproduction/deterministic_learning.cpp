@@ -84,7 +84,7 @@ exhibit parameters_against_omega(const setting& setup) {
             "largest distance of b1 and beta1 from (0.5, " + fmt::format("{:.4f})", linear_beta1()),
             fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas),
                         farthest(all[1], omegas)),
-            verdict_of("the coordinates of the loss", readings), told(readings) + "; close: to a hundredth",
+            verdict_of("the coordinates of the loss", readings), listed(readings) + "; close: to a hundredth",
             "nysalt learn --system fpu --loss state:1 --omega 50 --step 0.02 --coordinates modes"}},
           {"M = 100 trajectories over Ttr = 1/2, delta = 1/omega."},
           {{"Learned parameters with the errors of the fit:", rows}},

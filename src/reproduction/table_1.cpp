@@ -129,7 +129,7 @@ exhibit table_1(const setting& setup) {
           {{"(b1, beta1) = (.499, .403), (.500, .403), (.499, .402) at gaps 1000, 5000 and 10000",
             "the same, from M = 100 trajectories by generators with h = 1e-6", ours,
             verdict_of("the coordinates of the loss and the training time", readings),
-            told(readings) + "; each number, rounded or cut off, within a unit of its last digit and two "
+            listed(readings) + "; each number, rounded or cut off, within a unit of its last digit and two "
                              "standard errors. The text says Ttr = 1/2, and not which coordinates",
             "nysalt learn --system fpu --loss state:1 --step 0.01 --trajectories 100 --horizon 1 "
             "--coordinates modes"},

@@ -139,14 +139,14 @@ BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
 BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
   using W = own_kicks_first::word;
   static_assert(W::merges && W::evaluations_per_step == 2 && W::evaluations_of_plain_step == 3 &&
-                W::evaluations_to_open == 1 && W::evaluations_to_look == 1);
+                W::evaluations_to_open == 1 && W::evaluations_to_observe == 1);
   const run_time_word as_data(W{}, henon_heiles());
   BOOST_TEST(as_data.letters() == "babab");
   BOOST_TEST(as_data.merges);
   BOOST_TEST(as_data.has_own_letters());
   BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
   BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
-  BOOST_TEST(as_data.evaluations_to_look == W::evaluations_to_look);
+  BOOST_TEST(as_data.evaluations_to_observe == W::evaluations_to_observe);
   BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
   BOOST_TEST(!run_time_word("BAB").has_own_letters());
 }
@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
       std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_kick>(), "henon_heiles()")};
   const run_time_word word("babab", stated);
   BOOST_TEST(word.evaluations_per_step == bound.evaluations_per_step);
-  BOOST_TEST(word.evaluations_to_look == bound.evaluations_to_look);
+  BOOST_TEST(word.evaluations_to_observe == bound.evaluations_to_observe);
   BOOST_TEST(word.merges);
   const tabulated method("stated", word, std::vector<double>{0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
   BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(system, method, 0.1); },

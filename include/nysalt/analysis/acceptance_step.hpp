@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
@@ -22,7 +22,7 @@ struct proposal_options {
   std::int64_t states = 100;           ///< at which proposals begin
   std::uint64_t seed = 1;              ///< of the states
   int threads = 1;                     ///< changes no bit
-  const communicator* ranks = &alone;  ///< who share the states; changes no bit
+  const communicator* ranks = &one_rank;  ///< who share the states; changes no bit
 };
 
 /// Acceptance of proposals at a step.

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/divergence.hpp"
 #include "nysalt/lanes.hpp"
 
@@ -23,7 +23,7 @@ struct trajectory_options {
   bool null_model = false;  ///< whether to measure it; what is left out costs nothing
   /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
   std::optional<double> perturbation = {};
-  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit
+  const communicator* ranks = &one_rank;  ///< who share the trajectories; changes no bit
   /// Errors are means over [0, horizon], which ends within the last step (sample_weights), so that methods of
   /// other steps are judged over the same time. Nothing: over all samples alike.
   std::optional<double> horizon = {};

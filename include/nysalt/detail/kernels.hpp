@@ -106,7 +106,7 @@ class any_system {
 struct model_facts {
   Eigen::Index size = 0;
   std::string description{};
-  std::string description_alone{};  ///< without its bath
+  std::string base_description{};  ///< without its bath
   bath in = bath::of_sigma(0.0, 0.0);
   std::vector<double> inverse_masses{};       ///< empty: all are 1
   std::vector<double> inverse_root_masses{};  ///< 1/sqrt(inverse mass); empty: all are 1

@@ -152,7 +152,7 @@ namespace detail {
 
 /// Reads the starts of trajectories side by side, and hands what was read over: step 0.
 template <class T, int N>
-void look_at_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
+void observe_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
                     auto&& take) {
   std::vector<T> numbers(width);
   read(starts, std::span<T>(numbers));

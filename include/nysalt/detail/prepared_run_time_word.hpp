@@ -87,26 +87,26 @@ class prepared_word<run_time_word, C, N> {
                                  auto& cursor) const {
     take(system, run_, x, steps, cursor, {});
   }
-  /// The same of an erased system, watched: look() is called with the synchronous state in y after `first`
+  /// The same of an erased system, watched: observe() is called with the synchronous state in y after `first`
   /// steps, and every `every` steps from there on.
   template <class T, ErasedSystem S>
   void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
                std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
-               const auto& look) const {
+               const auto& observe) const {
     const auto see = [&] {
       if (merges_ && is_own(run_.undo.front())) apply_own(run_.undo.front().number, y, cursor.room);
       end(system, y, cursor);
-      look();
+      observe();
     };
     take(system, run_, x, steps, cursor,
          detail::watch<T>{.q = &y.q,
                           .p = &y.p,
                           .first = first,
                           .every = every,
-                          .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                          .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
                           .context = const_cast<void*>(static_cast<const void*>(&see))});
   }
-  /// What an open state is at its step. Cost: the word's evaluations_to_look.
+  /// What an open state is at its step. Cost: the word's evaluations_to_observe.
   template <class T, System S>
   [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     close_kernel(system, x, cursor);

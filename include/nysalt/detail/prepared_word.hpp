@@ -149,7 +149,7 @@ class prepared_word<word<L...>, C, N> {
     for (std::size_t i = first; i < end; ++i) {
       if (!is_kick[i] && !is_drift[i]) return false;
       if (i > first && is_kick[i] == is_kick[i - 1]) return false;
-      if (is_kick[i] && W::plan.in_loop[i] != evaluation::alone) return false;
+      if (is_kick[i] && W::plan.in_loop[i] != evaluation::unshared) return false;
     }
     return true;
   }();
@@ -181,7 +181,7 @@ class prepared_word<word<L...>, C, N> {
     using letter = typename W::template letter<I>;
     if constexpr (StochasticFlow<letter>) {
       apply_noise(system, prepared, W::stochastic_number(I), cursor, x);
-    } else if constexpr (E == evaluation::alone &&
+    } else if constexpr (E == evaluation::unshared &&
                          requires { letter::evaluate_and_apply(system, prepared, x, cursor.room); }) {
       letter::evaluate_and_apply(system, prepared, x, cursor.room);
     } else {

@@ -26,7 +26,7 @@ class gibbs_chains {
   std::string description() const;
 
  private:
-  model alone_;
+  model base_;
   initial_states from_;
   double temperature_;
   burn_in_report report_;

@@ -23,7 +23,7 @@ struct energies_outside {
 
   energy_range seen;             ///< the energies of the data
   std::size_t trajectories = 0;  ///< M, of the data
-  std::size_t looked_at = 0;     ///< n, starts
+  std::size_t examined = 0;     ///< n, starts
   std::size_t outside = 0;       ///< how many of n are
   double farthest = 0.0;         ///< distance of the farthest energy from the range, an energy
   energy_range energies{};       ///< the energies of these starts
@@ -44,12 +44,12 @@ struct energies_outside {
 
 /// Of starts by their energies; one that is not finite is outside. Gentle motion is followed well: what is
 /// below the range by less than a twentieth of its width counts as inside.
-inline energies_outside look_outside(const energy_range& seen, std::size_t trajectories,
+inline energies_outside count_outside(const energy_range& seen, std::size_t trajectories,
                                      const std::ranges::range auto& energies) {
   energies_outside result{.seen = seen, .trajectories = trajectories};
   const double gentle = seen.low - 0.05 * (seen.high - seen.low);
   for (const double energy : energies) {
-    ++result.looked_at;
+    ++result.examined;
     result.energies.include(energy);
     if (seen.contains(energy) || (gentle <= energy && energy < seen.low)) continue;
     ++result.outside;

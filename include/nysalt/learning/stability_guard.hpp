@@ -113,7 +113,7 @@ class stability_guard {
   void declare(const std::vector<frequency_band>& bands);
 
   /// Takes in the frequencies along a number of states, where they are known.
-  void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
+  void scan_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
 
   /// Bands where none are declared, from the frequencies of all states and of typical ones.

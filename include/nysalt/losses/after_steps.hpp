@@ -129,7 +129,7 @@ class after_steps {
         detail::evaluations_of(system_,
                                steps == 1 ? word.evaluations_of_plain_step
                                           : word.evaluations_to_open + steps * word.evaluations_per_step +
-                                                std::ssize(options_.steps) * word.evaluations_to_look,
+                                                std::ssize(options_.steps) * word.evaluations_to_observe,
                                steps * word.force_derivatives);
     const auto visit = [&](std::int64_t index) {
       const auto& part = (*parts_)[static_cast<std::size_t>(index)];

@@ -26,7 +26,7 @@ namespace nysalt {
 
 namespace detail {
 /// A mode of unit mass by itself, all of which is quadratic.
-struct mode_alone {
+struct single_mode {
   static constexpr int dimension = 1;
   double omega;
   template <class T>
@@ -120,13 +120,13 @@ class stationary_covariance {
     for (const auto& [first, turn] : pieces_) {
       if (turn) {
         const auto S = map_of(*turn, &c[first], omega);
-        R = carried(S, R) + excess_of_turn(S);
-        M = then(M, S);
+        R = congruence(S, R) + excess_of_turn(S);
+        M = compose(M, S);
       } else {  // O keeps the covariance 1: it makes no excess of its own
         if (c[first] < T(0.0)) return no_covariance<T>();
         plane_map<T> damping;
         damping.yy = bath_.decay(c[first] * step_);
-        R = carried(damping, R);
+        R = congruence(damping, R);
         M = then(M, damping);
       }
     }
@@ -136,8 +136,8 @@ class stationary_covariance {
   /// The map of (x, y) by letters without O, as the stepper does it.
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
-    const detail::mode_alone mode{omega};
-    const stepper<detail::mode_alone, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
+    const detail::single_mode mode{omega};
+    const stepper<detail::single_mode, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
     phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
     phase_point<T, 1> from_y{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
     one.step(from_x);

@@ -26,7 +26,7 @@ class exact_linear {
   template <class S>
     requires(!std::same_as<S, exact_linear> && NystromSystem<S> && HasModes<S>)
   explicit exact_linear(const S& system) : system_(describe(system)) {
-    if constexpr (HasBath<S>) require_alone(system);
+    if constexpr (HasBath<S>) require_no_bath(system);
     require_orthonormal(system.modes(), size(system));
     modes_ = modal_coordinates::of(system);
     require_linear(system);
@@ -60,7 +60,7 @@ class exact_linear {
  private:
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
-  void require_alone(const auto& system) const {
+  void require_no_bath(const auto& system) const {
     const bath& heat_bath = system.bath();
     if (!heat_bath.acts()) return;
     throw std::invalid_argument(

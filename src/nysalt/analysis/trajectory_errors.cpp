@@ -26,7 +26,7 @@ constexpr std::size_t most_checks = 16;  // enough for the size of an error
 
 void require_comparable(const model& system, const reference_value& reference,
                         std::span<const tabulated> methods, int parts, const trajectory_options& options) {
-  if (parts > 0 && !reference.tells_noise()) {
+  if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
         sentence("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
                  reference.description()));

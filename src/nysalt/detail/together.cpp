@@ -38,7 +38,7 @@ failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
 }  // namespace
 
 void together(const communicator& ranks, const std::function<void()>& work) {
-  if (ranks.is_alone()) {
+  if (ranks.is_single()) {
     work();
     return;
   }

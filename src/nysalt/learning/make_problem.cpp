@@ -144,22 +144,22 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                                       const tabulated& method,
                                       const detail::data_loss& held) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
-    run_time_family alone(method.name(), method.letters(), method.coefficients());
+    run_time_family as_family(method.name(), method.letters(), method.coefficients());
     if (family.letters.stochastic_letters > 0) {
-      if (!place || alone.letters.is_processed()) return std::nullopt;
-      if (*place == placement::middle && alone.letters.length % 2 == 0) return std::nullopt;
-      alone = thermostatted(alone, *place);
+      if (!place || as_family.letters.is_processed()) return std::nullopt;
+      if (*place == placement::middle && as_family.letters.length % 2 == 0) return std::nullopt;
+      as_family = thermostatted(as_family, *place);
     }
     try {
-      require_served_with_slopes(alone.letters, system, in_lanes);
+      require_served_with_slopes(as_family.letters, system, in_lanes);
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
-    const auto coefficients = alone.coefficients({});
+    const auto coefficients = as_family.coefficients({});
     rival_method result;
     result.name = method.name();
-    result.held_out_losses = held.by_trajectory_of(alone);
-    result.trial = [run, letters = alone.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
+    result.held_out_losses = held.by_trajectory_of(as_family);
+    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
       return run(letters, coefficients, trajectories, n);
     };
     return result;

@@ -54,7 +54,7 @@ std::optional<named_parameters> phase_fitted_member(const learning_problem& prob
 
 /// Whether a trial run shows what rare frequencies do to a method: it is long enough to meet states many
 /// times over that are one in a thousand.
-bool tells_of_rare_states(const trial_result& trial) {
+bool shows_rare_states(const trial_result& trial) {
   constexpr std::int64_t many_steps = 100'000;
   return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
@@ -152,7 +152,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
     if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
     if (const std::string failed = trial.objection(); !failed.empty()) return failed;
-    return tells_of_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
+    return shows_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) {
     return instability_of(theta, trial_of(theta)).empty();

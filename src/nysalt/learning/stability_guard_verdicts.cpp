@@ -51,9 +51,9 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   force_jacobian<field::soft, model> jacobian(system, states);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
-    const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
+    const bool is_examined = number * enough / count != (number + 1) * enough / count;
     ++number;
-    if (count > enough && !is_looked_at) continue;
+    if (count > enough && !is_examined) continue;
     const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
     const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
     soft_.push_back(modes.basis.transpose() * soft * modes.basis);

@@ -111,7 +111,7 @@ search_task within(const contained_family& inner, search_task task) {
 }
 
 void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
-  if (ranks.is_alone()) return;
+  if (ranks.is_single()) return;
   Eigen::VectorXd of_first = theta;
   ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
                   0);

@@ -63,7 +63,7 @@ class steps_reference final : public any_reference {
                        fmt::format("{} with step {:.12g}", method_.name(), 0.5 * step_));
   }
   std::string description() const override { return text_; }
-  bool tells_noise() const override { return false; }
+  bool gives_noise() const override { return false; }
 
  private:
   template <class T>
@@ -121,7 +121,7 @@ class paths_reference final : public any_reference {
                                 fmt::format("{} with step {:.12g}", method_.name(), 0.5 * step_));
   }
   std::string description() const override { return text_; }
-  bool tells_noise() const override { return true; }
+  bool gives_noise() const override { return true; }
 
  private:
   tabulated method_;

@@ -115,7 +115,7 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
 }
 
 /// In words, instead of the document.
-void tell(const run_command& command, const json& document, bool was_finished) {
+void print_result(const run_command& command, const json& document, bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
     print(fmt::format("{} is finished already: nothing was done\n", command.output));
@@ -199,17 +199,17 @@ int run(const run_command& asked, const common_settings& common) {
     document["steps"] = plan.steps;
     document["seed"] = common.seed;
     if (!was_finished || common.json) {
-      const std::int64_t further_looks =
+      const std::int64_t further_observations =
           std::max<std::int64_t>(plan.steps / command.sample_every - 1, 0);  // one is counted with the run
       document["evaluations"] = system.count_evaluations(*planned.method, plan) +
-                                further_looks * planned.method->letters().evaluations_to_look;
+                                further_observations * planned.method->letters().evaluations_to_observe;
     }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     document["warnings"] = warnings;
     if (common.json) {
       print(text_of(document));
     } else {
-      tell(command, document, was_finished);
+      print_result(command, document, was_finished);
     }
     if (was_finished && output->was_changed()) {
       warn(fmt::format("{} is not as the run left it: it was changed since", command.output));
