@@ -27,7 +27,7 @@ void compare() {
     BOOST_TEST((as_data.reads == W::reads));
     BOOST_TEST(as_data.force_derivatives == W::force_derivatives);
     BOOST_TEST(as_data.merges == W::merges);
-    BOOST_TEST(as_data.halves_meet == W::halves_meet);
+    BOOST_TEST(as_data.merges_half_steps == W::merges_half_steps);
     BOOST_TEST(as_data.stochastic_letters == W::stochastic_letters);
     BOOST_TEST(as_data.first_in_loop() == W::first_in_loop);
     BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);

@@ -87,9 +87,9 @@ static_assert(evaluates<word<O, kick, drift, kick, O>>(std::array{none, unshared
                                                        std::array{none, none, none, shared, none}));
 
 static_assert(word<kick, drift, kick>::merges);
-static_assert(!word<O, drift, O>::merges && word<O, drift, O>::halves_meet);
-static_assert(!word<O, drift>::halves_meet && !word<drift, O>::halves_meet);
-static_assert(!word<kick, drift, O, drift, kick>::halves_meet && word<kick, drift, O, drift, kick>::merges);
+static_assert(!word<O, drift, O>::merges && word<O, drift, O>::merges_half_steps);
+static_assert(!word<O, drift>::merges_half_steps && !word<drift, O>::merges_half_steps);
+static_assert(!word<kick, drift, O, drift, kick>::merges_half_steps && word<kick, drift, O, drift, kick>::merges);
 static_assert(word<O, drift, O, kick, O>::stochastic_letters == 3);
 static_assert(word<O, drift, O, kick, O>::stochastic_number(0) == 0 &&
               word<O, drift, O, kick, O>::stochastic_number(2) == 1 &&

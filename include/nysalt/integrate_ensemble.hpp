@@ -16,7 +16,7 @@
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/shard.hpp"
@@ -83,7 +83,7 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
       follow_block(own.first + place + done, std::min(lanes_in<T>, count - done));
     }
   };
-  together(*options.ranks, [&] {
+  collectively(*options.ranks, [&] {
     for_each_block(own.count, of_thread, options.threads, follow,
                    progress_of_share(*options.ranks, own.count, options.trajectories, options.progress));
   });

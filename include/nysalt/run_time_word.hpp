@@ -93,7 +93,7 @@ class run_time_word {
           letters_of(splitting::quadratic_part_and_rest)));
     }
     merges = length > 1 && letters_.front() == letters_[length - 1] && additive;
-    halves_meet = length > 1 && is_of_bath.front() && is_of_bath.back();
+    merges_half_steps = length > 1 && is_of_bath.front() && is_of_bath.back();
     stochastic_letters = static_cast<int>(std::count(is_of_bath.begin(), is_of_bath.end(), true));
     if (stochastic_letters == static_cast<int>(length)) {
       throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
@@ -152,7 +152,7 @@ class run_time_word {
   bool is_symplectic = true;     ///< each of its letters is
   bool reads_modes = false;      ///< it has a letter R
   bool merges;                   ///< last and first letter are applied as one
-  bool halves_meet;              ///< first and last letter are of the bath
+  bool merges_half_steps;              ///< first and last letter are of the bath
   int stochastic_letters;        ///< how many letters are of the bath
   int evaluations_per_step;      ///< force evaluations of a step of an open run
   int evaluations_to_open;       ///< force evaluations to open a run, those of P(h)^-1 among them

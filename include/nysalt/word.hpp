@@ -127,7 +127,7 @@ struct word {
     return static_cast<int>(std::count(is.begin(), is.begin() + static_cast<std::ptrdiff_t>(i), true));
   }
   /// A letter of the bath ends one step, and another begins the next.
-  static constexpr bool halves_meet =
+  static constexpr bool merges_half_steps =
       length > 1 && StochasticFlow<letter<0>>&& StochasticFlow<letter<length - 1>>;
 
   static std::string letters() { return {L::letter...}; }  ///< as in docs/notation.md, from left to right

@@ -12,7 +12,7 @@
 
 #include "catalogue.hpp"
 #include "json.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
@@ -269,7 +269,7 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
       states.push_back(starts_ ? (*starts_)(seed, n) : made_.starts(seed, n));
     }
     try {
-      return stiffness_along(made_.system, states).highest_frequency();
+      return hessian_spectrum(made_.system, states).highest_frequency();
     } catch (const std::invalid_argument&) {  // the force is not finite there: the run will show it
       return std::nullopt;
     }

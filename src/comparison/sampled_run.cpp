@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "all_ranks.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
@@ -75,7 +75,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
     const shared_batch shared(first, count, lanes_in<P>, ranks);
     const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.batch) : saved_runs();
     std::optional<batch> runs;  // a rank may have none
-    together(ranks, [&] {
+    collectively(ranks, [&] {
       if (shared.count() == 0) return;
       if (under_way > 0) {
         runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, all.threads);
@@ -100,7 +100,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
         const double of_all = static_cast<double>(first) + of_batch;
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
-      together(ranks, [&] {
+      collectively(ranks, [&] {
         if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, report_progress);
       });
       for (std::size_t i = 0; i < records.size(); ++i) {

@@ -9,7 +9,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/site_window.hpp"
 #include "nysalt/detail/tiled_steps.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
@@ -101,7 +101,7 @@ struct distributed_run::parts {
   }
 
   void fill(const start& at) {
-    together(*ranks, [&] {
+    collectively(*ranks, [&] {
       at(first, {run.state.q.data(), static_cast<std::size_t>(run.state.q.size())},
          {run.state.p.data(), static_cast<std::size_t>(run.state.p.size())});
       if (run.state.q.allFinite() && run.state.p.allFinite()) return;

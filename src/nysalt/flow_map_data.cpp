@@ -14,7 +14,7 @@
 #include "learning/redistribute.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {
@@ -238,7 +238,7 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
   }
   const shard all(options.trajectories, *options.ranks);
   flow_map_data data;
-  together(all.ranks(), [&] {
+  collectively(all.ranks(), [&] {
     data = make_some_pairs(system, ensemble, *reference, options, all, all.first(), all.count());
   });
   add_up(data);
@@ -273,7 +273,7 @@ void extend_data(const model& system, const initial_states& ensemble,
   const std::int64_t end = all.first() + all.count();
   const std::int64_t begin = std::clamp(there, all.first(), end);
   flow_map_data further;
-  together(all.ranks(), [&] {
+  collectively(all.ranks(), [&] {
     further = make_some_pairs(system, ensemble, *reference, of_further, all, begin - there, end - begin);
   });
   add_up(further);

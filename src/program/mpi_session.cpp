@@ -14,7 +14,7 @@
 
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 #if defined NYSALT_HAS_MPI
 #include "nysalt/communicators/mpi.hpp"
@@ -32,7 +32,7 @@ void require_agreement(const std::string& what, const std::string& text) {
   if (all_ranks().is_single()) return;
   std::string of_first = text;
   broadcast(all_ranks(), of_first);
-  together(all_ranks(), [&] {
+  collectively(all_ranks(), [&] {
     if (text == of_first) return;
     refuse("rank {} has other {} than rank 0: start all with one command line, where all see the same files",
            all_ranks().rank(), what);

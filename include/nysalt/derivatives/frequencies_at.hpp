@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/force_jacobian.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/force.hpp"
 
@@ -139,7 +139,7 @@ inline constexpr Eigen::Index most_for_all_frequencies = 64;
 
 /// All frequencies of each state (a range of phase_point<double, N>) of a system of at most
 /// most_for_all_frequencies degrees of freedom; of a larger one with a quadratic kinetic energy the highest,
-/// known to 1 %; else none. Throws what frequencies_at() and stiffness_along() do. Cost: of each state that
+/// known to 1 %; else none. Throws what frequencies_at() and hessian_spectrum() do. Cost: of each state that
 /// of frequencies_at(), or 8 to 40 directional derivatives.
 template <SeparableSystem S>
 frequencies_along frequencies_of_states(const S& system, const std::ranges::range auto& states) {
@@ -154,7 +154,7 @@ frequencies_along frequencies_of_states(const S& system, const std::ranges::rang
   }
   if constexpr (NystromSystem<S>) {
     if (std::ranges::empty(states) || !has_quadratic_kinetic(system)) return result;
-    for (const double square : stiffness_along(system, states).highest_of_state) {
+    for (const double square : hessian_spectrum(system, states).highest_of_state) {
       result.of_state.push_back({std::sqrt(std::max(0.0, square))});
     }
   }

@@ -74,7 +74,7 @@ class stability_guard {
   /// A mode, and how much it grows.
   struct magnified_mode {
     double frequency;  ///< omega
-    double factor;     ///< largest |M^n|, see magnification()
+    double factor;     ///< largest |M^n|, see transient_growth()
   };
   /// The mode that a word with rotations magnifies most, or the first that it magnifies by more than is
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.

@@ -13,7 +13,7 @@
 
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/losses/windows_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -175,7 +175,7 @@ class after_steps {
     };
     const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
     if (error_.may_throw) {
-      together(share_.ranks(), pass);
+      collectively(share_.ranks(), pass);
     } else {
       pass();
     }

@@ -127,7 +127,7 @@ class stationary_covariance {
         plane_map<T> damping;
         damping.yy = bath_.decay(c[first] * step_);
         R = congruence(damping, R);
-        M = then(M, damping);
+        M = compose(M, damping);
       }
     }
     return discrete_lyapunov(M, R);

@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compared_block.hpp"
+#include "method_runs.hpp"
 #include "measured_trajectories.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/langevin.hpp"
 
 namespace nysalt::detail {
@@ -71,7 +71,7 @@ struct comparison {
     const auto of_block = [&](std::size_t wanted) {
       return static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(wanted) - first, 0, n));
     };
-    compared_block<T> block(own, reference, methods, options.step, measures, start, n,
+    method_runs<T> block(own, reference, methods, options.step, measures, start, n,
                             {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
                             {parts, options.seed, first}, weights);
     block.run(options.steps);
@@ -123,7 +123,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
     if (system.facts().in_lanes) return compared.follow<lanes>(own.first() + block, n, found);
     compared.follow<double>(own.first() + block, n, found);
   };
-  together(ranks, [&] {
+  collectively(ranks, [&] {
     require_room(options, methods.size(), joined_measures(measures).width(), measures.size());
     compared.parts = parts_of_noise(system, methods);
     require_comparable(system, reference, methods, compared.parts, options);

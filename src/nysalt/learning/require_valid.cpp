@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt {
 
@@ -78,7 +78,7 @@ void require_valid_here(const flow_map_data& data, const model& system) {
 }  // namespace
 
 void require_valid(const flow_map_data& data, const model& system) {
-  together(data.share().ranks(), [&] { require_valid_here(data, system); });
+  collectively(data.share().ranks(), [&] { require_valid_here(data, system); });
 }
 
 }  // namespace nysalt

@@ -16,7 +16,7 @@
 
 #include "length_of_trial.hpp"
 #include "nysalt/derivatives/near_resonance.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "nysalt/detail/oscillator_loss.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/search.hpp"
 
@@ -115,7 +115,7 @@ void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
   Eigen::VectorXd of_first = theta;
   ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
                   0);
-  together(ranks, [&] {
+  collectively(ranks, [&] {
     if (theta == of_first) return;
     throw std::runtime_error(
         fmt::format("learn: rank {} came to other parameters than rank 0: run all on processors of one kind",

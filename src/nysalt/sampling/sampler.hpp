@@ -22,7 +22,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/shard.hpp"
 #include "rescaled.hpp"
@@ -54,7 +54,7 @@ class sampler {
     result_.step = options.step;
     const std::int64_t blocks = (mine_.count() + lanes_in<T> - 1) / lanes_in<T>;
     blocks_.resize(static_cast<std::size_t>(blocks));
-    together(*options.ranks, [&] {
+    collectively(*options.ranks, [&] {
       for_each_block([&](std::size_t b, std::int64_t first, int count) {
         blocks_[b] =
             std::make_unique<block_of_chains<T>>(own_copy(system), starts, options.seed, first, count);
@@ -76,7 +76,7 @@ class sampler {
       const std::int64_t every = options_.keep_every;
       const std::int64_t next = every > 0 ? std::min(all, (done_ / every + 1) * every) : all;
       for (std::int64_t n = done_; n < next; ++n) count_steps(n);
-      together(*options_.ranks, [&] {
+      collectively(*options_.ranks, [&] {
         for_each_block([&](std::size_t b, std::int64_t, int) { draw(*blocks_[b], next, take); });
       });
       done_ = next;
@@ -134,7 +134,7 @@ class sampler {
     }
     if (tuned_) result_.step = tuned_->step();
     const std::int64_t steps = count_steps(n);
-    together(*options_.ranks, [&] {
+    collectively(*options_.ranks, [&] {
       for_each_block([&](std::size_t b, std::int64_t, int) { go_on(*blocks_[b], n, steps); });
     });
     if (tuned_) tuned_->take(acceptance_of_last());

@@ -7,7 +7,7 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 

@@ -39,7 +39,7 @@ struct stiffness_range {
 /// if there are no states, or one where the force has no finite derivative.
 template <field F = field::whole, NystromSystem S>
   requires ForceDerivativeOver<S, double, F>
-stiffness_range stiffness_along(const S& system, const std::ranges::range auto& states) {
+stiffness_range hessian_spectrum(const S& system, const std::ranges::range auto& states) {
   const Eigen::Index n = size(system);
   Eigen::VectorXd root = Eigen::VectorXd::Ones(n);  // M^{-1/2}
   if constexpr (HasInverseMass<S>) {
@@ -65,7 +65,7 @@ stiffness_range stiffness_along(const S& system, const std::ranges::range auto& 
     const auto ends = ends_of_spectrum(multiply, start);
     if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
       throw std::invalid_argument(sentence(
-          "stiffness_along: the force has no finite derivative at state {}; leave it out", found.states));
+          "hessian_spectrum: the force has no finite derivative at state {}; leave it out", found.states));
     }
     found.lowest = std::min(found.lowest, ends.lowest);
     found.highest = std::max(found.highest, ends.highest);
@@ -75,7 +75,7 @@ stiffness_range stiffness_along(const S& system, const std::ranges::range auto& 
     start = chance + ends.lowest_direction + ends.highest_direction;
   }
   if (found.states == 0)
-    throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
+    throw std::invalid_argument("hessian_spectrum: states must hold one or more, got none");
   return found;
 }
 
