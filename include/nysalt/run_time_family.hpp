@@ -64,9 +64,10 @@ class run_time_family {
             {std::string(known.name), Eigen::Map<const Eigen::VectorXd>(known.theta.data(), F::parameters)});
       }
     }
-    if constexpr (requires { F::refuge(); }) {
-      const auto theta = F::refuge();
-      refuge = Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters);
+    static_assert(!requires { F::refuge(); }, "refuge() of a family is named most_stable_member()");
+    if constexpr (requires { F::most_stable_member(); }) {
+      const auto theta = F::most_stable_member();
+      most_stable_member = Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters);
     }
     if constexpr (requires { F::further_starts(); }) {
       for (const auto& theta : F::further_starts()) {
@@ -84,7 +85,7 @@ class run_time_family {
   std::string source;                        ///< key in docs/bibliography.bib; empty: not published
   std::vector<std::string> parameter_names;  ///< one for each parameter
   std::vector<parameter_range> ranges;       ///< where each may lie
-  std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest
+  std::optional<Eigen::VectorXd> most_stable_member;     ///< the longest stability interval
   std::vector<named_parameters> starts;      ///< the family's own, its classical members, further ones
   std::shared_ptr<const contained_family> contained;  ///< whose optimum is a start, too; null: none
   int order;

@@ -77,7 +77,7 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
     return all;
   }
   /// What the learner falls back on: r-RESPA.
-  static std::array<double, free> refuge() { return start(); }
+  static std::array<double, free> most_stable_member() { return start(); }
 
   template <Scalar C>
   static typename word::template coefficients<C> coefficients(const std::array<C, free>& theta) {

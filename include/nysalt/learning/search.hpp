@@ -54,7 +54,7 @@ struct search_task {
   std::function<bool(const Eigen::VectorXd&)> admits_at_edge{};
   std::vector<Eigen::Index> free;            ///< numbers of the parameters that may change
   int max_iterations;                        ///< of each descent
-  std::optional<named_parameters> refuge{};  ///< the member that is stable farthest, for where the guard acts
+  std::optional<named_parameters> most_stable_member{};  ///< a start where the guard acts
 };
 
 /// Theta normal around a start, with a deviation of .6, .3, .15 or .075 in turn, as coefficients are of order
@@ -81,7 +81,7 @@ struct search_result {
 /// start to its minimum; the judge takes the best that the guard admits and that withstands a trial run, of
 /// those that converged or ended in a valley. Where there is none, or where it errs by more than twice what
 /// one does that is not admitted, or by more than a kept start, the search goes on among admitted points
-/// only, from the starts that are and from the refuge: what it finds lies at the edge mostly, and the judge
+/// only, from the starts that are and from the most stable member: what it finds lies at the edge mostly, and the judge
 /// decides. A single start is what it was, for any judge. Cost: a search for each start, twice
 /// where the guard acts, and a trial run for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);

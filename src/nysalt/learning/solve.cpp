@@ -71,7 +71,7 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
     if (!options->fixed[static_cast<std::size_t>(k)]) task.free.push_back(k);
   }
   task.withstands = {};
-  task.refuge = {};
+  task.most_stable_member = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
   const auto starts = starts_of(inner->family, *options, problem, task.free);
@@ -173,9 +173,9 @@ attempt solve_as_it_is(const learning_problem& problem) {
                    .free = free,
                    .max_iterations = options.max_iterations};
   if (options.guarded) task.withstands = withstands;
-  if (family.refuge) {
-    task.refuge = named_parameters{"refuge", *family.refuge};
-    fix(options, task.refuge->theta);
+  if (family.most_stable_member) {
+    task.most_stable_member = named_parameters{"the most stable member", *family.most_stable_member};
+    fix(options, task.most_stable_member->theta);
   }
   if (problem.shorter == nullptr) {
     for (auto& stage : task.stages) stage.lost_above = std::numeric_limits<double>::infinity();
@@ -205,7 +205,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
     for (const auto& known : family.starts) {
       if (known.name != "further start") members.push_back(member_at(known.name, known.theta));
     }
-    if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
+    if (family.most_stable_member) members.push_back(member_at("equal steps", *family.most_stable_member));
     if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
     if (contained) members.push_back(member_at(contained->name, contained->theta));
     std::ranges::stable_sort(members, {}, &contender::loss);
